@@ -1,0 +1,2 @@
+//! odkit.
+fn main() {}
