@@ -1,0 +1,35 @@
+//! Where a value lives: index and sub-index.
+
+use core::fmt;
+
+/// Index and sub-index of one value, the multiplexer of CiA 301.
+///
+/// Ordered by index, then sub-index, which is the order of every table here.
+/// Shown as `1018h:02`.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Address {
+    /// Index, 0001h–FFFFh.
+    pub index: u16,
+    /// Sub-index, 00h–FFh; 00h for a VAR.
+    pub sub: u8,
+}
+
+impl Address {
+    /// Index and sub-index; every pair is legal.
+    pub const fn new(index: u16, sub: u8) -> Self {
+        Self { index, sub }
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04X}h:{:02X}", self.index, self.sub)
+    }
+}
+
+impl fmt::Debug for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

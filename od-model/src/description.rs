@@ -1,0 +1,204 @@
+//! A device description as it was read: owned, editable, with the place of everything.
+//!
+//! [`Description`] is what the EDS reader, the macro's spec table and a variant's
+//! patches produce, what the checks read, and what the writer writes. The
+//! dictionary that runs is made from it by [`Tables`](crate::Tables).
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::{Access, Address, DataType, Group, ObjectCode, Span, Spanned};
+
+/// A default, a limit or a configured value, owned.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Value {
+    /// BOOLEAN, UNSIGNED, TIME_OF_DAY and TIME_DIFFERENCE.
+    Unsigned(u64),
+    /// INTEGER.
+    Signed(i64),
+    /// REAL32 and REAL64.
+    Real(f64),
+    /// `$NODEID+n`.
+    NodeId(u32),
+    /// VISIBLE_STRING.
+    Text(String),
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN.
+    Bytes(Vec<u8>),
+}
+
+impl Value {
+    /// The number that this is for a node with this ID; `None` for texts, bytes and reals.
+    pub fn integer(&self, node_id: u8) -> Option<i128> {
+        match self {
+            Self::Unsigned(v) => Some(i128::from(*v)),
+            Self::Signed(v) => Some(i128::from(*v)),
+            Self::NodeId(offset) => Some(i128::from(*offset) + i128::from(node_id)),
+            Self::Real(_) | Self::Text(_) | Self::Bytes(_) => None,
+        }
+    }
+}
+
+/// One value of an object: what an EDS section with a DataType says.
+#[derive(Clone, PartialEq, Debug)]
+pub struct EntryDescription {
+    /// ParameterName.
+    pub name: Spanned<String>,
+    /// DataType; `None` where it is missing or unknown, which is an error.
+    pub data_type: Option<Spanned<DataType>>,
+    /// AccessType.
+    pub access: Spanned<Access>,
+    /// PDOMapping.
+    pub mappable: Spanned<bool>,
+    /// DefaultValue.
+    pub default: Option<Spanned<Value>>,
+    /// LowLimit.
+    pub low: Option<Spanned<Value>>,
+    /// HighLimit.
+    pub high: Option<Spanned<Value>>,
+    /// ParameterValue of a DCF.
+    pub parameter: Option<Spanned<Value>>,
+    /// Which sub-index of 1010h saves it; `None` where the text does not say,
+    /// which means the group of the index for what a master can write.
+    pub group: Option<Spanned<Group>>,
+    /// ObjFlags, 0 where missing.
+    pub flags: u32,
+    /// Keys that this version of odkit has no field for, in file order.
+    pub extra: Vec<(String, String)>,
+    /// The section header, or the token that made it.
+    pub span: Span,
+}
+
+impl EntryDescription {
+    /// A read-only entry of this type and name, without limits; for tables and patches.
+    pub fn new(name: impl Into<String>, data_type: DataType) -> Self {
+        Self {
+            name: Spanned::from(name.into()),
+            data_type: Some(Spanned::from(data_type)),
+            access: Spanned::from(Access::Ro),
+            mappable: Spanned::from(false),
+            default: None,
+            low: None,
+            high: None,
+            parameter: None,
+            group: None,
+            flags: 0,
+            extra: Vec::new(),
+            span: Span::default(),
+        }
+    }
+
+    /// The group that saves this value when it stands at `address`.
+    pub fn group_at(&self, address: Address) -> Group {
+        match &self.group {
+            Some(group) => group.value,
+            // Commands and logs are written too, but hold nothing to save.
+            None if matches!(address.index, 0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F) => {
+                Group::None
+            }
+            None if self.access.writable() && *self.access != Access::Wo => {
+                Group::of_index(address.index)
+            }
+            None => Group::None,
+        }
+    }
+}
+
+/// One object: a VAR with its one entry, or an ARRAY or RECORD with its members.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ObjectDescription {
+    /// ObjectType; VAR where the text says nothing.
+    pub code: Spanned<ObjectCode>,
+    /// ParameterName of the object.
+    pub name: Spanned<String>,
+    /// SubNumber as given.
+    pub sub_number: Option<Spanned<u32>>,
+    /// The values by sub-index; a VAR has exactly sub-index 0.
+    pub entries: BTreeMap<u8, EntryDescription>,
+    /// ObjFlags, 0 where missing.
+    pub flags: u32,
+    /// Keys that this version of odkit has no field for, in file order.
+    pub extra: Vec<(String, String)>,
+    /// The section header, or the token that made it.
+    pub span: Span,
+}
+
+impl ObjectDescription {
+    /// A VAR.
+    pub fn var(entry: EntryDescription) -> Self {
+        Self {
+            code: Spanned::from(ObjectCode::Var),
+            name: entry.name.clone(),
+            sub_number: None,
+            flags: 0,
+            extra: Vec::new(),
+            span: entry.span,
+            entries: BTreeMap::from([(0, entry)]),
+        }
+    }
+}
+
+/// A section that describes no object: `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]` …
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Section {
+    /// The name between the brackets.
+    pub name: Spanned<String>,
+    /// Keys and values in file order.
+    pub pairs: Vec<(Spanned<String>, Spanned<String>)>,
+}
+
+impl Section {
+    /// The first value under `key`, in any case.
+    pub fn get(&self, key: &str) -> Option<&Spanned<String>> {
+        self.pairs
+            .iter()
+            .find(|(k, _)| k.eq_ignore_ascii_case(key))
+            .map(|(_, v)| v)
+    }
+}
+
+/// Everything that an EDS or DCF says.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Description {
+    /// The sections that describe no object, in file order.
+    pub sections: Vec<Section>,
+    /// The objects.
+    pub objects: BTreeMap<u16, ObjectDescription>,
+}
+
+impl Description {
+    /// The first section with this name, in any case.
+    pub fn section(&self, name: &str) -> Option<&Section> {
+        self.sections
+            .iter()
+            .find(|s| s.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The entry at an address.
+    pub fn entry(&self, address: Address) -> Option<&EntryDescription> {
+        self.objects.get(&address.index)?.entries.get(&address.sub)
+    }
+
+    /// Every entry with its address, in order.
+    pub fn entries(&self) -> impl Iterator<Item = (Address, &EntryDescription)> {
+        self.objects.iter().flat_map(|(index, object)| {
+            object
+                .entries
+                .iter()
+                .map(|(sub, entry)| (Address::new(*index, *sub), entry))
+        })
+    }
+
+    /// The node ID that a DCF's `[DeviceComissioning]` gives (either spelling), if it is 1–127.
+    pub fn commissioned_node_id(&self) -> Option<u8> {
+        let section = self
+            .section("DeviceComissioning")
+            .or_else(|| self.section("DeviceCommissioning"))?;
+        let text = section.get("NodeID")?.trim();
+        let id = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+            Some(hex) => u8::from_str_radix(hex, 16).ok()?,
+            None => text.parse().ok()?,
+        };
+        (1..=127).contains(&id).then_some(id)
+    }
+}

@@ -1,0 +1,339 @@
+//! The dictionary: one type for compiled tables and for files loaded at run time.
+
+use crate::{Access, Address, DataType, Group, Kind, Literal, ObjectCode, Range};
+
+/// One object: an index with its name, and where its values stand.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Object {
+    /// Index.
+    pub index: u16,
+    /// VAR, ARRAY, RECORD …
+    pub code: ObjectCode,
+    /// The object's name, in [`Dictionary::text`].
+    pub name: Range,
+    /// Position of the object's first entry in [`Dictionary::entries`].
+    pub first: u32,
+    /// Number of entries; 1 for a VAR.
+    pub count: u16,
+}
+
+/// One value: what the standard calls the data behind a multiplexer.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Entry {
+    /// Index and sub-index.
+    pub address: Address,
+    /// Data type; never one of the records.
+    pub data_type: DataType,
+    /// Access from the bus.
+    pub access: Access,
+    /// PDOMapping of the EDS: may stand in a PDO, in the direction the access allows.
+    pub mappable: bool,
+    /// Saved by which sub-index of 1010h.
+    pub group: Group,
+    /// The entry's name, in [`Dictionary::text`].
+    pub name: Range,
+    /// Value after reset without a saved one.
+    pub default: Literal,
+    /// Smallest value, if there is one besides the type's.
+    pub low: Literal,
+    /// Largest value, if there is one besides the type's.
+    pub high: Literal,
+    /// Where the value stands in the store.
+    pub slot: Slot,
+}
+
+/// Where a value stands in the caller's store.
+///
+/// A fixed-size value takes `len` bytes, little-endian. A string takes `len`
+/// bytes too: two for the current length, the rest is capacity. `len` 0 means
+/// that nothing is stored and the default is the value (access `const`).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Slot {
+    /// First byte.
+    pub offset: u32,
+    /// Number of bytes.
+    pub len: u16,
+}
+
+/// Why there is no entry at an address.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Missing {
+    /// No object with this index: SDO abort 06020000h.
+    Object,
+    /// The object has no such sub-index: SDO abort 06090011h.
+    SubIndex,
+}
+
+impl Entry {
+    /// May it stand in a TPDO?
+    pub const fn maps_to_tpdo(&self) -> bool {
+        self.mappable && self.access.maps_to_tpdo()
+    }
+
+    /// May it stand in an RPDO?
+    pub const fn maps_to_rpdo(&self) -> bool {
+        self.mappable && self.access.maps_to_rpdo()
+    }
+
+    /// Is its length its own (strings, domains), not the type's?
+    pub const fn is_variable(&self) -> bool {
+        matches!(self.data_type.kind(), Kind::Text | Kind::Bytes)
+    }
+}
+
+/// A view over sorted tables; the same for a compiled device and for a loaded file.
+///
+/// Copied freely: it is five slices. The tables are sorted by address, each
+/// object's entries stand together, and `indices` repeats the objects' indices
+/// so that a search touches two bytes an object and no more.
+#[derive(Clone, Copy, Debug)]
+pub struct Dictionary<'a> {
+    indices: &'a [u16],
+    objects: &'a [Object],
+    entries: &'a [Entry],
+    text: &'a str,
+    blob: &'a [u8],
+    store_len: usize,
+}
+
+impl<'a> Dictionary<'a> {
+    /// A view over tables that the macro or [`Tables`](crate::Tables) made.
+    ///
+    /// # Panics
+    /// Where the tables are not sorted, an object names entries that are not its
+    /// own, or `indices` does not repeat the objects' indices. In a `const` that
+    /// is a compile error; from EDS text these tables cannot come about.
+    pub const fn new(
+        indices: &'a [u16],
+        objects: &'a [Object],
+        entries: &'a [Entry],
+        text: &'a str,
+        blob: &'a [u8],
+    ) -> Self {
+        assert!(indices.len() == objects.len(), "one index an object");
+        let mut next = 0;
+        let mut i = 0;
+        while i < objects.len() {
+            let object = &objects[i];
+            assert!(indices[i] == object.index, "indices repeat the objects");
+            assert!(i == 0 || indices[i - 1] < indices[i], "objects are sorted");
+            assert!(
+                object.first as usize == next,
+                "entries stand in the objects' order"
+            );
+            let mut sub = 0;
+            while sub < object.count as usize {
+                let address = entries[next + sub].address;
+                assert!(
+                    address.index == object.index,
+                    "an object's entries are its own"
+                );
+                assert!(
+                    sub == 0 || entries[next + sub - 1].address.sub < address.sub,
+                    "entries are sorted"
+                );
+                sub += 1;
+            }
+            next += sub;
+            i += 1;
+        }
+        assert!(next == entries.len(), "every entry belongs to an object");
+        let mut store_len = 0;
+        let mut i = 0;
+        while i < entries.len() {
+            let end = entries[i].slot.offset as usize + entries[i].slot.len as usize;
+            if end > store_len {
+                store_len = end;
+            }
+            i += 1;
+        }
+        Self {
+            indices,
+            objects,
+            entries,
+            text,
+            blob,
+            store_len,
+        }
+    }
+
+    /// The objects, by ascending index.
+    pub const fn objects(&self) -> &'a [Object] {
+        self.objects
+    }
+
+    /// All values, by ascending address.
+    pub const fn entries(&self) -> &'a [Entry] {
+        self.entries
+    }
+
+    /// Bytes that a store of this dictionary's values needs.
+    pub const fn store_len(&self) -> usize {
+        self.store_len
+    }
+
+    /// The object at `index`.
+    #[inline]
+    pub fn object(&self, index: u16) -> Option<&'a Object> {
+        self.indices
+            .binary_search(&index)
+            .ok()
+            .and_then(|at| self.objects.get(at))
+    }
+
+    /// The entries of an object, by ascending sub-index.
+    #[inline]
+    pub fn members(&self, object: &Object) -> &'a [Entry] {
+        let first = object.first as usize;
+        self.entries
+            .get(first..first + object.count as usize)
+            .unwrap_or(&[])
+    }
+
+    /// The entry at an address.
+    ///
+    /// # Errors
+    /// [`Missing`] says whether the object or only the sub-index is absent.
+    #[inline]
+    pub fn find(&self, address: Address) -> Result<&'a Entry, Missing> {
+        let object = self.object(address.index).ok_or(Missing::Object)?;
+        let members = self.members(object);
+        // Sub-indices without gaps are the rule: the guess is right.
+        match members.get(address.sub as usize) {
+            Some(entry) if entry.address.sub == address.sub => Ok(entry),
+            _ => members
+                .binary_search_by_key(&address.sub, |entry| entry.address.sub)
+                .map(|at| &members[at])
+                .map_err(|_| Missing::SubIndex),
+        }
+    }
+
+    /// The entry at index and sub-index, if there is one.
+    #[inline]
+    pub fn entry(&self, index: u16, sub: u8) -> Option<&'a Entry> {
+        self.find(Address::new(index, sub)).ok()
+    }
+
+    /// The text of a range: a name or a VISIBLE_STRING.
+    pub fn text(&self, range: Range) -> &'a str {
+        let start = range.start as usize;
+        self.text
+            .get(start..start.saturating_add(range.len as usize))
+            .unwrap_or("")
+    }
+
+    /// The bytes of a range: an OCTET_STRING or a DOMAIN.
+    pub fn blob(&self, range: Range) -> &'a [u8] {
+        range.of(self.blob)
+    }
+
+    /// The bytes of a string-like literal; empty for numbers.
+    pub fn literal_bytes(&self, literal: Literal) -> &'a [u8] {
+        match literal {
+            Literal::Text(range) => self.text(range).as_bytes(),
+            Literal::Bytes(range) => self.blob(range),
+            _ => &[],
+        }
+    }
+}
+
+impl PartialEq for Dictionary<'_> {
+    /// Object by object: names, types, access, limits, defaults, groups. Where a
+    /// text stands in the arena does not matter, nor where a value stands in the store.
+    fn eq(&self, other: &Self) -> bool {
+        let literal = |a: Literal, b: Literal| match (a, b) {
+            (Literal::Text(a), Literal::Text(b)) => self.text(a) == other.text(b),
+            (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
+            (a, b) => a == b,
+        };
+        self.indices == other.indices
+            && self.objects.iter().zip(other.objects).all(|(a, b)| {
+                a.code == b.code && a.count == b.count && self.text(a.name) == other.text(b.name)
+            })
+            && self.entries.len() == other.entries.len()
+            && self.entries.iter().zip(other.entries).all(|(a, b)| {
+                (a.address, a.data_type, a.access, a.mappable, a.group)
+                    == (b.address, b.data_type, b.access, b.mappable, b.group)
+                    && self.text(a.name) == other.text(b.name)
+                    && literal(a.default, b.default)
+                    && literal(a.low, b.low)
+                    && literal(a.high, b.high)
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn entry(index: u16, sub: u8) -> Entry {
+        Entry {
+            address: Address::new(index, sub),
+            data_type: DataType::Unsigned8,
+            access: Access::Ro,
+            mappable: false,
+            group: Group::None,
+            name: Range::new(0, 1),
+            default: Literal::Unsigned(2),
+            low: Literal::None,
+            high: Literal::None,
+            slot: Slot { offset: 0, len: 1 },
+        }
+    }
+
+    const fn object(index: u16, first: u32, count: u16) -> Object {
+        Object {
+            index,
+            code: ObjectCode::Record,
+            name: Range::new(0, 1),
+            first,
+            count,
+        }
+    }
+
+    const TABLE: Dictionary<'static> = Dictionary::new(
+        &[0x1001, 0x1800],
+        &[object(0x1001, 0, 1), object(0x1800, 1, 4)],
+        &[
+            entry(0x1001, 0),
+            entry(0x1800, 0),
+            entry(0x1800, 1),
+            entry(0x1800, 2),
+            entry(0x1800, 5),
+        ],
+        "x",
+        &[],
+    );
+
+    #[test]
+    fn finds_entries_and_says_what_is_missing() {
+        assert_eq!(
+            TABLE.find(Address::new(0x1001, 0)).map(|e| e.address.index),
+            Ok(0x1001)
+        );
+        assert_eq!(
+            TABLE.find(Address::new(0x1800, 5)).map(|e| e.address.sub),
+            Ok(5)
+        );
+        assert_eq!(TABLE.find(Address::new(0x1800, 3)), Err(Missing::SubIndex));
+        assert_eq!(TABLE.find(Address::new(0x1800, 6)), Err(Missing::SubIndex));
+        assert_eq!(TABLE.find(Address::new(0x1002, 0)), Err(Missing::Object));
+        assert_eq!(TABLE.find(Address::new(0xFFFF, 0)), Err(Missing::Object));
+    }
+
+    #[test]
+    fn equality_reads_through_the_arena() {
+        let entries: [Entry; 5] = core::array::from_fn(|i| Entry {
+            name: Range::new(1, 1),
+            ..TABLE.entries()[i]
+        });
+        let objects: [Object; 2] = core::array::from_fn(|i| Object {
+            name: Range::new(1, 1),
+            ..TABLE.objects()[i]
+        });
+        let shifted = Dictionary::new(&[0x1001, 0x1800], &objects, &entries, "yx", &[]);
+        assert_eq!(TABLE, shifted);
+        let other = Dictionary::new(&[0x1001, 0x1800], &objects, &entries, "xy", &[]);
+        assert_ne!(TABLE, other);
+    }
+}

@@ -1,0 +1,159 @@
+//! From a description to the tables that run: order, arenas, storage layout.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::{
+    Access, Address, DataType, Description, Dictionary, Entry, EntryDescription, Literal, Object,
+    Range, Slot, Value,
+};
+
+/// Capacity in bytes of a string that a master may write, where its default is shorter.
+pub const STRING_CAPACITY: usize = 64;
+/// Capacity in bytes of a DOMAIN that a master may write, where its default is shorter.
+pub const DOMAIN_CAPACITY: usize = 1024;
+
+/// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Tables {
+    /// The objects' indices, ascending.
+    pub indices: Vec<u16>,
+    /// The objects, by index.
+    pub objects: Vec<Object>,
+    /// The values, by address.
+    pub entries: Vec<Entry>,
+    /// Names and VISIBLE_STRING defaults, each once.
+    pub text: String,
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN defaults.
+    pub blob: Vec<u8>,
+}
+
+impl Tables {
+    /// The tables of everything in `description` that can run.
+    ///
+    /// Total: an entry without a usable type and an object without entries are
+    /// left out; the checks have named them. Where a DCF gives a ParameterValue,
+    /// that is the default.
+    pub fn new(description: &Description) -> Self {
+        let mut tables = Self::default();
+        let mut names = BTreeMap::new();
+        let mut offset = 0u32;
+        for (&index, object) in &description.objects {
+            let first = tables.entries.len() as u32;
+            for (&sub, entry) in &object.entries {
+                let address = Address::new(index, sub);
+                if let Some(made) = tables.entry(address, entry, &mut names, &mut offset) {
+                    tables.entries.push(made);
+                }
+            }
+            let count = tables.entries.len() as u32 - first;
+            if count > 0 {
+                let name = tables.intern(&object.name, &mut names);
+                let code = object.code.value;
+                tables.indices.push(index);
+                // At most 256 sub-indices: the count fits.
+                tables.objects.push(Object {
+                    index,
+                    code,
+                    name,
+                    first,
+                    count: count as u16,
+                });
+            }
+        }
+        tables
+    }
+
+    /// The view that runs.
+    pub fn dictionary(&self) -> Dictionary<'_> {
+        Dictionary::new(
+            &self.indices,
+            &self.objects,
+            &self.entries,
+            &self.text,
+            &self.blob,
+        )
+    }
+
+    fn entry(
+        &mut self,
+        address: Address,
+        from: &EntryDescription,
+        names: &mut BTreeMap<String, Range>,
+        offset: &mut u32,
+    ) -> Option<Entry> {
+        let data_type = from.data_type?.value;
+        if data_type.kind() == crate::Kind::Record {
+            return None;
+        }
+        let value = from.parameter.as_ref().or(from.default.as_ref());
+        let default = self.literal(value.map(|v| &v.value), names);
+        let len = slot_len(data_type, *from.access, value.map(|v| &v.value));
+        let slot = Slot {
+            offset: if len == 0 { 0 } else { *offset },
+            len,
+        };
+        *offset += u32::from(len);
+        Some(Entry {
+            address,
+            data_type,
+            access: *from.access,
+            mappable: *from.mappable,
+            group: from.group_at(address),
+            name: self.intern(&from.name, names),
+            default,
+            low: self.literal(from.low.as_ref().map(|v| &v.value), names),
+            high: self.literal(from.high.as_ref().map(|v| &v.value), names),
+            slot,
+        })
+    }
+
+    fn literal(&mut self, value: Option<&Value>, names: &mut BTreeMap<String, Range>) -> Literal {
+        match value {
+            None => Literal::None,
+            Some(Value::Unsigned(v)) => Literal::Unsigned(*v),
+            Some(Value::Signed(v)) => Literal::Signed(*v),
+            Some(Value::Real(v)) => Literal::Real(*v),
+            Some(Value::NodeId(v)) => Literal::NodeId(*v),
+            Some(Value::Text(v)) => Literal::Text(self.intern(v, names)),
+            Some(Value::Bytes(v)) => {
+                let start = self.blob.len() as u32;
+                self.blob.extend_from_slice(v);
+                Literal::Bytes(Range::new(start, v.len() as u32))
+            }
+        }
+    }
+
+    fn intern(&mut self, text: &str, names: &mut BTreeMap<String, Range>) -> Range {
+        if let Some(range) = names.get(text) {
+            return *range;
+        }
+        let range = Range::new(self.text.len() as u32, text.len() as u32);
+        self.text.push_str(text);
+        names.insert(text.into(), range);
+        range
+    }
+}
+
+/// Bytes that a value takes in the store; see [`Slot`].
+fn slot_len(data_type: DataType, access: Access, value: Option<&Value>) -> u16 {
+    if access == Access::Const {
+        return 0;
+    }
+    if let Some(size) = data_type.size() {
+        return size as u16;
+    }
+    let given = match value {
+        Some(Value::Text(text)) => text.len(),
+        Some(Value::Bytes(bytes)) => bytes.len(),
+        _ => 0,
+    };
+    let room = match (data_type, access.writable()) {
+        (DataType::Domain, true) => DOMAIN_CAPACITY,
+        (_, true) => STRING_CAPACITY,
+        (_, false) if given == 0 => STRING_CAPACITY,
+        (_, false) => 0,
+    };
+    (2 + given.max(room)).min(u16::MAX as usize) as u16
+}

@@ -1,0 +1,294 @@
+//! Typed handles: what the macro makes of every entry.
+//!
+//! A handle knows its Rust type, who may write it, and whether a PDO can carry
+//! it, so the mistakes that an SDO abort would report at run time do not compile.
+
+use core::marker::PhantomData;
+
+use crate::{Address, Slot};
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A Rust type that an entry can have.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not the Rust type of any CANopen data type",
+    note = "bool, u8–u64, i8–i64, f32 and f64 are; strings go through `Text`"
+)]
+pub trait Scalar: Copy + sealed::Sealed {
+    /// The value in `bytes`, little-endian; missing bytes count as 0, for signed
+    /// types the sign goes on.
+    fn from_wire(bytes: &[u8]) -> Self;
+    /// The value's eight low bytes, little-endian, sign extended.
+    fn to_wire(self) -> [u8; 8];
+}
+
+macro_rules! integers {
+    ($($t:ty => $wide:ty),*) => {$(
+        impl sealed::Sealed for $t {}
+        impl Scalar for $t {
+            fn from_wire(bytes: &[u8]) -> Self {
+                let negative = <$t>::MIN != 0 && bytes.last().is_some_and(|b| b & 0x80 != 0);
+                let mut wide = [if negative { 0xFF } else { 0 }; 8];
+                for (to, from) in wide.iter_mut().zip(bytes) {
+                    *to = *from;
+                }
+                <$wide>::from_le_bytes(wide) as $t
+            }
+            fn to_wire(self) -> [u8; 8] {
+                (self as $wide).to_le_bytes()
+            }
+        }
+    )*};
+}
+integers!(u8 => u64, u16 => u64, u32 => u64, u64 => u64, i8 => i64, i16 => i64, i32 => i64, i64 => i64);
+
+impl sealed::Sealed for bool {}
+impl Scalar for bool {
+    fn from_wire(bytes: &[u8]) -> Self {
+        bytes.first().is_some_and(|b| *b != 0)
+    }
+    fn to_wire(self) -> [u8; 8] {
+        u64::from(self).to_le_bytes()
+    }
+}
+
+impl sealed::Sealed for f32 {}
+impl Scalar for f32 {
+    fn from_wire(bytes: &[u8]) -> Self {
+        f32::from_bits(u32::from_wire(bytes))
+    }
+    fn to_wire(self) -> [u8; 8] {
+        self.to_bits().to_wire()
+    }
+}
+
+impl sealed::Sealed for f64 {}
+impl Scalar for f64 {
+    fn from_wire(bytes: &[u8]) -> Self {
+        f64::from_bits(u64::from_wire(bytes))
+    }
+    fn to_wire(self) -> [u8; 8] {
+        self.to_bits().to_wire()
+    }
+}
+
+macro_rules! markers {
+    ($($(#[$doc:meta])* $name:ident),*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub enum $name {}
+        impl sealed::Sealed for $name {}
+    )*};
+}
+markers! {
+    /// Access `ro`: the master reads, the device writes.
+    Ro,
+    /// Access `wo`: the master writes, the device reads.
+    Wo,
+    /// Access `rw`: both read and write.
+    Rw,
+    /// Access `rwr`: `rw`, in a PDO only from device to master.
+    Rwr,
+    /// Access `rww`: `rw`, in a PDO only from master to device.
+    Rww,
+    /// Access `const`: nobody writes.
+    Const,
+    /// PDOMapping=1: a PDO can carry it.
+    Pdo,
+    /// PDOMapping=0: no PDO can carry it.
+    NoPdo
+}
+
+/// An access type under which the device may change the value: all but `const`.
+#[diagnostic::on_unimplemented(
+    message = "this object is `const` in the EDS: the device may not change it",
+    label = "AccessType=const",
+    note = "if the device has to change it, its access type is `ro`: read only for the master"
+)]
+pub trait DeviceWritable: sealed::Sealed {}
+impl DeviceWritable for Ro {}
+impl DeviceWritable for Wo {}
+impl DeviceWritable for Rw {}
+impl DeviceWritable for Rwr {}
+impl DeviceWritable for Rww {}
+
+/// A PDOMapping flag under which a PDO can carry the value.
+#[diagnostic::on_unimplemented(
+    message = "this object cannot be mapped into a PDO",
+    label = "PDOMapping=0 in the EDS",
+    note = "map an object whose EDS section says PDOMapping=1"
+)]
+pub trait Mappable: sealed::Sealed {}
+impl Mappable for Pdo {}
+
+/// Handle of one value: `T` is its Rust type, `A` its access type, `M` its PDO mapping flag.
+///
+/// The 24-, 40-, 48- and 56-bit types are the next larger Rust integer; setting
+/// one keeps the bits that the object has.
+pub struct Var<T, A, M = NoPdo> {
+    address: Address,
+    slot: Slot,
+    bits: u8,
+    marker: PhantomData<fn() -> (T, A, M)>,
+}
+
+impl<T, A, M> Clone for Var<T, A, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T, A, M> Copy for Var<T, A, M> {}
+impl<T, A, M> core::fmt::Debug for Var<T, A, M> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(&self.address, f)
+    }
+}
+
+impl<T, A, M> Var<T, A, M> {
+    /// For generated code: the handle of the entry at `address`, `bits` long in a PDO.
+    pub const fn new(address: Address, slot: Slot, bits: u8) -> Self {
+        Self {
+            address,
+            slot,
+            bits,
+            marker: PhantomData,
+        }
+    }
+
+    /// Index and sub-index.
+    pub const fn address(self) -> Address {
+        self.address
+    }
+
+    /// Where the value stands in the store.
+    pub const fn slot(self) -> Slot {
+        self.slot
+    }
+
+    /// The mapping entry of this value: index, sub-index and length as 1A00h holds them.
+    pub const fn map(self) -> MapEntry
+    where
+        M: Mappable,
+    {
+        MapEntry {
+            address: self.address,
+            bits: self.bits,
+        }
+    }
+}
+
+/// Handle of a string or domain: VISIBLE_STRING, OCTET_STRING, UNICODE_STRING, DOMAIN.
+pub struct Text<A> {
+    address: Address,
+    slot: Slot,
+    marker: PhantomData<fn() -> A>,
+}
+
+impl<A> Clone for Text<A> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<A> Copy for Text<A> {}
+impl<A> core::fmt::Debug for Text<A> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(&self.address, f)
+    }
+}
+
+impl<A> Text<A> {
+    /// For generated code: the handle of the entry at `address`.
+    pub const fn new(address: Address, slot: Slot) -> Self {
+        Self {
+            address,
+            slot,
+            marker: PhantomData,
+        }
+    }
+
+    /// Index and sub-index.
+    pub const fn address(self) -> Address {
+        self.address
+    }
+
+    /// Where the string stands in the store; two bytes of it are its length.
+    pub const fn slot(self) -> Slot {
+        self.slot
+    }
+}
+
+/// One line of a PDO mapping (CiA 301, objects 1600h and 1A00h).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct MapEntry {
+    /// What is mapped.
+    pub address: Address,
+    /// How many bits of it: its whole length.
+    pub bits: u8,
+}
+
+impl MapEntry {
+    /// The value of the mapping object: `index << 16 | sub << 8 | bits`.
+    pub const fn raw(self) -> u32 {
+        (self.address.index as u32) << 16 | (self.address.sub as u32) << 8 | self.bits as u32
+    }
+}
+
+/// A PDO mapping of `N` entries, known to fit into one frame.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Mapping<const N: usize> {
+    entries: [MapEntry; N],
+}
+
+impl<const N: usize> Mapping<N> {
+    /// The entries, first in the frame first.
+    pub const fn entries(&self) -> &[MapEntry; N] {
+        &self.entries
+    }
+}
+
+/// A PDO mapping; as a `const`, one past 64 bits does not compile.
+///
+/// # Panics
+/// Where the entries together are longer than the 64 bits of a CAN frame
+/// (CiA 301, chapter 7.5.2.36: abort 06040042h).
+#[must_use]
+pub const fn pdo<const N: usize>(entries: [MapEntry; N]) -> Mapping<N> {
+    let mut bits = 0u32;
+    let mut i = 0;
+    while i < N {
+        bits += entries[i].bits as u32;
+        i += 1;
+    }
+    assert!(
+        bits <= 64,
+        "this PDO mapping is longer than the 64 bits of a CAN frame"
+    );
+    Mapping { entries }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scalars_keep_their_sign_at_every_width() {
+        assert_eq!(i32::from_wire(&[0xFF, 0xFF, 0xFF]), -1, "INTEGER24");
+        assert_eq!(u32::from_wire(&[0xFF, 0xFF, 0xFF]), 0xFF_FFFF);
+        assert_eq!(i64::from_wire(&[0, 0, 0, 0, 0x80]), -(1 << 39), "INTEGER40");
+        assert_eq!(f32::from_wire(&1.5f32.to_le_bytes()), 1.5);
+        assert_eq!(
+            (-2i16).to_wire(),
+            [0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF]
+        );
+    }
+
+    #[test]
+    fn a_mapping_is_the_value_of_1a00h() {
+        const POSITION: Var<u32, Ro, Pdo> =
+            Var::new(Address::new(0x6004, 0), Slot { offset: 0, len: 4 }, 32);
+        const TPDO1: Mapping<2> = pdo([POSITION.map(), POSITION.map()]);
+        assert_eq!(TPDO1.entries()[0].raw(), 0x6004_0020);
+    }
+}

@@ -1,0 +1,61 @@
+//! Defaults and limits as a description gives them.
+
+/// A stretch of [`Dictionary::text`](crate::Dictionary::text) or
+/// [`Dictionary::blob`](crate::Dictionary::blob): start and length in bytes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Range {
+    /// First byte.
+    pub start: u32,
+    /// Number of bytes.
+    pub len: u32,
+}
+
+impl Range {
+    /// `len` bytes from `start`.
+    pub const fn new(start: u32, len: u32) -> Self {
+        Self { start, len }
+    }
+
+    /// The bytes of `arena` that this range names; empty where it reaches outside.
+    pub fn of(self, arena: &[u8]) -> &[u8] {
+        let start = self.start as usize;
+        arena
+            .get(start..start.saturating_add(self.len as usize))
+            .unwrap_or(&[])
+    }
+}
+
+/// A value of a description: a default or a limit.
+///
+/// Texts and byte strings are ranges into the dictionary's two arenas, so a
+/// table of these has no lifetime and is the same compiled or loaded.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub enum Literal {
+    /// The description gives no value.
+    #[default]
+    None,
+    /// BOOLEAN, UNSIGNED, TIME_OF_DAY and TIME_DIFFERENCE.
+    Unsigned(u64),
+    /// INTEGER.
+    Signed(i64),
+    /// REAL32 and REAL64.
+    Real(f64),
+    /// `$NODEID+n`: known when the node ID is. UNSIGNED8–UNSIGNED32 only.
+    NodeId(u32),
+    /// VISIBLE_STRING, in [`Dictionary::text`](crate::Dictionary::text).
+    Text(Range),
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN, in [`Dictionary::blob`](crate::Dictionary::blob).
+    Bytes(Range),
+}
+
+impl Literal {
+    /// The number that this literal is for a node with this ID; `None` for texts, bytes and reals.
+    pub const fn integer(self, node_id: u8) -> Option<i128> {
+        match self {
+            Self::Unsigned(v) => Some(v as i128),
+            Self::Signed(v) => Some(v as i128),
+            Self::NodeId(offset) => Some(offset as i128 + node_id as i128),
+            Self::None | Self::Real(_) | Self::Text(_) | Self::Bytes(_) => None,
+        }
+    }
+}
