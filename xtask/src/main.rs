@@ -1,2 +1,92 @@
-//! odkit.
-fn main() {}
+//! `cargo xtask`: everything around the product, and no product code.
+//!
+//! `play` and `shots` set up, build and serve the browser page, `test` runs every
+//! check there is, `wasm-pack` makes the npm package. Standard library only.
+
+mod bundle;
+mod console;
+mod error;
+mod lock;
+mod play;
+mod repo;
+mod serve;
+mod setup;
+mod shots;
+mod stamp;
+mod test;
+mod wasm_pack;
+
+use std::process::ExitCode;
+
+use console::Console;
+use error::{Error, Result};
+use repo::Repo;
+
+const USAGE: &str = "\
+odkit's tasks
+
+usage: cargo xtask <command> [options]
+
+  play [--port N] [--no-serve]
+        set up what is needed, build the browser page and serve it on 127.0.0.1
+        (port 8080 or the next free one; --no-serve stops after the build)
+  test [--quick] [--long] [--only STAGE]... [--list]
+        run every check; --quick is the inner loop, --long gives fuzz-like tests
+        more time, --only runs single stages, --list names them
+  shots
+        build and serve the page, write its screenshots to target/shots/
+  wasm-pack [arguments]
+        run wasm-pack with the right tools in place; without arguments:
+        build playground --target web
+  help
+        this text
+
+With CI=true a missing tool fails a test stage instead of skipping it.";
+
+fn main() -> ExitCode {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    match run(&args) {
+        Ok(code) => code,
+        Err(Error::Usage(message)) => {
+            eprintln!("error: {message}\n\nTry `cargo xtask --help`.");
+            ExitCode::from(2)
+        }
+        Err(Error::Failed(message) | Error::Missing(message)) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &[String]) -> Result<ExitCode> {
+    let Some((command, rest)) = args.split_first() else {
+        console::say(USAGE);
+        return Ok(ExitCode::SUCCESS);
+    };
+    let wants_help = rest.iter().any(|a| a == "--help" || a == "-h");
+    if matches!(command.as_str(), "help" | "--help" | "-h")
+        || (wants_help && command != "wasm-pack")
+    {
+        console::say(USAGE);
+        return Ok(ExitCode::SUCCESS);
+    }
+    match command.as_str() {
+        "play" => {
+            let options = play::Options::parse(rest)?;
+            play::run(&Repo::locate()?, &Console::terminal(), &options)?;
+        }
+        "test" => {
+            let options = test::Options::parse(rest)?;
+            return test::run(&Repo::locate()?, &options);
+        }
+        "shots" => {
+            if let Some(extra) = rest.first() {
+                return Err(Error::Usage(format!("shots takes no `{extra}`")));
+            }
+            shots::run(&Repo::locate()?, &Console::terminal())?;
+        }
+        "wasm-pack" => wasm_pack::run(&Repo::locate()?, &Console::terminal(), rest)?,
+        other => return Err(Error::Usage(format!("no such command: `{other}`"))),
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,133 @@
+//! From Rust and TypeScript to the folder that is served.
+//!
+//! 1. `cargo build` makes `od_playground.wasm`,
+//! 2. wasm-bindgen and wasm-opt turn it into `playground/web/src/wasm/`,
+//! 3. `npm run build` bundles the page into `playground/web/dist/`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::console::{Console, cargo};
+use crate::error::{Error, Result};
+use crate::lock::SetupLock;
+use crate::repo::Repo;
+use crate::setup::target::{self, Compiler};
+use crate::setup::{binaryen, bindgen, node};
+use crate::stamp::{Fingerprint, Stamp};
+
+/// The size of the download counts more than the last bit of speed.
+pub(crate) const OPT_LEVEL: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
+
+/// The library's name, which every generated file starts with.
+const LIB: &str = "od_playground";
+
+/// Builds all of the page.
+pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
+    // What cannot be had is said before anything takes time.
+    node::check()?;
+    let web = repo.web();
+    if !web.join("package-lock.json").is_file() {
+        let web = repo.short(&web);
+        return Err(Error::Missing(format!(
+            "there is no {web}/package-lock.json"
+        )));
+    }
+    bindings(repo, console)?;
+    let _lock = SetupLock::acquire(repo, console)?;
+    node::ci(console, &web, "fetching the page's npm packages")?;
+    let mut build = node::npm(&web, &["run", "--silent", "build"]);
+    console.run("bundling the page", &mut build)?;
+    let index = repo.dist().join("index.html");
+    if index.is_file() {
+        Ok(())
+    } else {
+        let index = repo.short(&index);
+        Err(Error::Failed(format!("`npm run build` made no {index}")))
+    }
+}
+
+/// Builds the WebAssembly module and its JavaScript; the folder they are in.
+pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
+    node::check()?;
+    let _lock = SetupLock::acquire(repo, console)?;
+    let compiler = Compiler::get(repo, console, target::WASM)?;
+    let mut build = cargo(&repo.root, &["build", "--release", "--lib"]);
+    build.args(["--package", "od-playground", "--target", target::WASM]);
+    build.env(OPT_LEVEL.0, OPT_LEVEL.1);
+    compiler.apply(&mut build)?;
+    console.run("compiling the virtual encoder to WebAssembly", &mut build)?;
+    let wasm = repo
+        .target
+        .join(target::WASM)
+        .join("release")
+        .join(format!("{LIB}.wasm"));
+
+    let out = repo.bindings();
+    let module = out.join(format!("{LIB}_bg.wasm"));
+    let inputs = Fingerprint::new()
+        .file(&wasm)?
+        .text(&repo.locked_version("wasm-bindgen")?)
+        .file(&repo.root.join("xtask/tools/package-lock.json"))?
+        .text(&binaryen::FLAGS.join(" "));
+    let stamp = Stamp::new(out.join(".stamp"), inputs);
+    let script = out.join(format!("{LIB}.js"));
+    if stamp.is_current(&[&module, &script]) {
+        return Ok(out);
+    }
+    stamp.clear();
+    let tool = bindgen::get(repo, console)?;
+    prepare(&out)?;
+    let mut command = Command::new(tool);
+    command.args(["--target", "web", "--typescript", "--out-dir"]);
+    command.arg(&out).arg(&wasm).current_dir(&repo.root);
+    console.run(
+        "generating JavaScript and types (wasm-bindgen)",
+        &mut command,
+    )?;
+    // Without wasm-opt the page is larger and works: only a test has to insist.
+    match optimise(repo, console, &module) {
+        Ok(()) => stamp.set()?,
+        Err(error) if crate::test::is_ci() => return Err(error),
+        Err(error) => {
+            console.note(&format!("going on without wasm-opt: {}", error.message()));
+        }
+    }
+    Ok(out)
+}
+
+/// An empty folder that git ignores and whose JavaScript Node.js takes for modules.
+fn prepare(out: &Path) -> Result<()> {
+    if out.exists() {
+        fs::remove_dir_all(out).map_err(|e| Error::io("clear", out, &e))?;
+    }
+    fs::create_dir_all(out).map_err(|e| Error::io("create", out, &e))?;
+    let files = [
+        (".gitignore", "*\n"),
+        (
+            "package.json",
+            "{ \"type\": \"module\", \"private\": true }\n",
+        ),
+    ];
+    for (name, text) in files {
+        let path = out.join(name);
+        fs::write(&path, text).map_err(|e| Error::io("write", &path, &e))?;
+    }
+    Ok(())
+}
+
+fn optimise(repo: &Repo, console: &Console, module: &Path) -> Result<()> {
+    let tool = binaryen::WasmOpt::get(repo, console)?;
+    let smaller = module.with_extension("opt.wasm");
+    console.run(
+        "making the module smaller (wasm-opt)",
+        &mut tool.command(module, &smaller),
+    )?;
+    let size = |path: &Path| fs::metadata(path).map_or(0, |data| data.len() / 1024);
+    console.note(&format!(
+        "{} kB, before {} kB",
+        size(&smaller),
+        size(module)
+    ));
+    fs::rename(&smaller, module).map_err(|e| Error::io("write", module, &e))
+}

@@ -1,0 +1,228 @@
+//! Running programs: in `play` under the user's eyes, in `test` into a log.
+
+use std::cell::RefCell;
+use std::env;
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::error::{Error, Result};
+
+/// Writes a line to standard output. A reader that went away is not an error.
+pub(crate) fn say(line: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = writeln!(out, "{line}");
+    let _ = out.flush();
+}
+
+/// Where the output of steps goes.
+#[derive(Debug)]
+pub(crate) struct Console {
+    log: Option<File>,
+    limit: Option<Duration>,
+    last: RefCell<String>,
+}
+
+impl Console {
+    /// Steps are announced, programs write to the terminal.
+    pub(crate) fn terminal() -> Console {
+        Console {
+            log: None,
+            limit: None,
+            last: RefCell::default(),
+        }
+    }
+
+    /// Everything goes to `log`; a program that runs longer than `limit` is stopped.
+    pub(crate) fn to_log(log: File, limit: Duration) -> Console {
+        Console {
+            log: Some(log),
+            limit: Some(limit),
+            last: RefCell::default(),
+        }
+    }
+
+    /// A remark between the steps.
+    pub(crate) fn note(&self, text: &str) {
+        match &self.log {
+            None => say(&format!("  {text}")),
+            Some(log) => {
+                let mut log = log;
+                let _ = writeln!(log, "# {text}");
+            }
+        }
+    }
+
+    /// The last command line that was run, as one would type it.
+    pub(crate) fn last_command(&self) -> String {
+        self.last.borrow().clone()
+    }
+
+    /// Runs a program to its end; `what` says for people what it does.
+    pub(crate) fn run(&self, what: &str, command: &mut Command) -> Result<()> {
+        let started = Instant::now();
+        let shown = shown(command);
+        self.last.replace(shown.clone());
+        match &self.log {
+            None => say(&format!("» {what}")),
+            Some(log) => {
+                let mut log = log;
+                let _ = writeln!(log, "\n$ {shown}");
+                let copies = log
+                    .try_clone()
+                    .and_then(|out| Ok((out, log.try_clone()?)))
+                    .map_err(|e| Error::Failed(format!("cannot write the log: {e}")))?;
+                command.stdout(copies.0).stderr(copies.1);
+            }
+        }
+        let mut child = command
+            .stdin(Stdio::null())
+            .spawn()
+            .map_err(|e| Error::Missing(format!("cannot start `{shown}`: {e}")))?;
+        let status = self.wait(&mut child, started, &shown)?;
+        if !status.success() {
+            return Err(Error::Failed(format!(
+                "{what}: `{shown}` ended with {status}"
+            )));
+        }
+        if self.log.is_none() {
+            say(&format!("  done in {}", seconds(started.elapsed())));
+        }
+        Ok(())
+    }
+
+    fn wait(&self, child: &mut Child, started: Instant, shown: &str) -> Result<ExitStatus> {
+        let lost = |e| Error::Failed(format!("`{shown}` was lost: {e}"));
+        let Some(limit) = self.limit else {
+            return child.wait().map_err(lost);
+        };
+        loop {
+            if let Some(status) = child.try_wait().map_err(lost)? {
+                return Ok(status);
+            }
+            if started.elapsed() > limit {
+                let _ = child.kill();
+                let _ = child.wait();
+                let after = seconds(limit);
+                return Err(Error::Failed(format!(
+                    "`{shown}` was stopped after {after}"
+                )));
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+/// The standard output of a quiet program, or `None` if it is missing or fails.
+pub(crate) fn ask(program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
+    let output = Command::new(program.as_ref())
+        .args(args)
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| String::from(text.trim()))
+}
+
+/// Where a program is on PATH.
+pub(crate) fn which(name: &str) -> Option<PathBuf> {
+    let path = env::var_os("PATH")?;
+    env::split_paths(&path)
+        .flat_map(|dir| [dir.join(name), dir.join(format!("{name}.exe"))])
+        .find(|file| file.is_file())
+}
+
+/// `cargo` without what the surrounding `cargo run` left in the environment.
+pub(crate) fn cargo(dir: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new("cargo");
+    for (name, _) in env::vars_os() {
+        let name = name.to_string_lossy();
+        if name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_") {
+            command.env_remove(&*name);
+        }
+    }
+    command.args(args).current_dir(dir);
+    command
+}
+
+/// PATH with a folder in front.
+pub(crate) fn path_with(dir: &Path) -> Result<std::ffi::OsString> {
+    let old = env::var_os("PATH").unwrap_or_default();
+    env::join_paths(std::iter::once(dir.to_path_buf()).chain(env::split_paths(&old)))
+        .map_err(|e| Error::Failed(format!("PATH: {e}")))
+}
+
+/// A duration as people say it.
+pub(crate) fn seconds(duration: Duration) -> String {
+    let s = duration.as_secs_f64();
+    if s < 60.0 {
+        format!("{s:.1} s")
+    } else {
+        let whole = duration.as_secs();
+        format!("{} min {:02} s", whole / 60, whole % 60)
+    }
+}
+
+/// A command line that can be pasted into a shell at the repository's root.
+fn shown(command: &Command) -> String {
+    let mut line = String::new();
+    for (name, value) in command.get_envs() {
+        // PATH and the like would hide the command; the rest is what makes it work.
+        if let Some(value) = value.filter(|_| name != "PATH") {
+            let value = quoted(&value.to_string_lossy());
+            let _ = write!(line, "{}={value} ", name.to_string_lossy());
+        }
+    }
+    line.push_str(&quoted(&command.get_program().to_string_lossy()));
+    for arg in command.get_args() {
+        line.push(' ');
+        line.push_str(&quoted(&arg.to_string_lossy()));
+    }
+    match command.get_current_dir() {
+        Some(dir) if !dir.join("Cargo.lock").is_file() => {
+            format!("cd {} && {line}", quoted(&dir.to_string_lossy()))
+        }
+        _ => line,
+    }
+}
+
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=+/.,:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        String::from(word)
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{quoted, seconds, shown};
+    use std::process::Command;
+    use std::time::Duration;
+
+    #[test]
+    fn a_command_is_shown_as_one_would_type_it() {
+        let mut command = Command::new("cargo");
+        command
+            .args(["doc", "--features", "a b"])
+            .env("RUSTDOCFLAGS", "-D warnings")
+            .env("PATH", "/x");
+        assert_eq!(
+            shown(&command),
+            "RUSTDOCFLAGS='-D warnings' cargo doc --features 'a b'"
+        );
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+
+    #[test]
+    fn durations() {
+        assert_eq!(seconds(Duration::from_millis(1240)), "1.2 s");
+        assert_eq!(seconds(Duration::from_secs(125)), "2 min 05 s");
+    }
+}

@@ -1,0 +1,31 @@
+//! Why a command stopped, as far as the caller acts on the difference.
+
+use std::path::Path;
+
+/// The result of everything here that can fail.
+pub(crate) type Result<T> = std::result::Result<T, Error>;
+
+/// Why a command stopped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Error {
+    /// The command line is wrong: exit code 2.
+    Usage(String),
+    /// Something was tried and did not work: exit code 1.
+    Failed(String),
+    /// A tool or an input is not there. A test stage may be skipped for it.
+    Missing(String),
+}
+
+impl Error {
+    /// The text for people.
+    pub(crate) fn message(&self) -> &str {
+        match self {
+            Error::Usage(text) | Error::Failed(text) | Error::Missing(text) => text,
+        }
+    }
+
+    /// A file operation that failed, with the path that the bare `io::Error` lacks.
+    pub(crate) fn io(doing: &str, path: &Path, error: &std::io::Error) -> Error {
+        Error::Failed(format!("cannot {doing} {}: {error}", path.display()))
+    }
+}

@@ -1,0 +1,99 @@
+//! Where things are in the repository.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result};
+
+/// The repository's folders.
+#[derive(Debug, Clone)]
+pub(crate) struct Repo {
+    /// The workspace's root.
+    pub(crate) root: PathBuf,
+    /// Cargo's target directory.
+    pub(crate) target: PathBuf,
+}
+
+impl Repo {
+    /// Finds the workspace that this program was built from.
+    pub(crate) fn locate() -> Result<Repo> {
+        let manifest = env::var_os("CARGO_MANIFEST_DIR")
+            .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+        let root = manifest
+            .parent()
+            .filter(|root| root.join("Cargo.toml").is_file())
+            .ok_or_else(|| Error::Failed(String::from("run this with `cargo xtask`")))?
+            .to_path_buf();
+        let target = match env::var_os("CARGO_TARGET_DIR") {
+            Some(dir) if !dir.is_empty() => std::path::absolute(PathBuf::from(dir))
+                .map_err(|e| Error::Failed(format!("CARGO_TARGET_DIR: {e}")))?,
+            _ => root.join("target"),
+        };
+        Ok(Repo { root, target })
+    }
+
+    /// Tools that xtask fetched or built; they outlive `cargo clean`.
+    pub(crate) fn tools(&self) -> PathBuf {
+        self.root.join(".xtask")
+    }
+
+    /// What xtask itself leaves behind: logs, the Python environment, stamps.
+    pub(crate) fn cache(&self) -> PathBuf {
+        self.target.join("xtask")
+    }
+
+    /// The TypeScript page.
+    pub(crate) fn web(&self) -> PathBuf {
+        self.root.join("playground").join("web")
+    }
+
+    /// Where wasm-bindgen's output goes, before the page is bundled.
+    pub(crate) fn bindings(&self) -> PathBuf {
+        self.web().join("src").join("wasm")
+    }
+
+    /// The bundled page.
+    pub(crate) fn dist(&self) -> PathBuf {
+        self.web().join("dist")
+    }
+
+    /// The version of a package in the workspace's Cargo.lock.
+    pub(crate) fn locked_version(&self, package: &str) -> Result<String> {
+        let path = self.root.join("Cargo.lock");
+        let text = fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
+        lock_version(&text, package)
+            .map(String::from)
+            .ok_or_else(|| Error::Failed(format!("Cargo.lock has no package {package}")))
+    }
+
+    /// `path` as seen from the root, for messages.
+    pub(crate) fn short<'a>(&self, path: &'a Path) -> std::path::Display<'a> {
+        path.strip_prefix(&self.root).unwrap_or(path).display()
+    }
+}
+
+/// The `version` line that follows `name = "package"` in a Cargo.lock.
+fn lock_version<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
+    let name = format!("name = \"{package}\"");
+    let mut lines = lock.lines().skip_while(|line| *line != name);
+    lines.next()?;
+    lines
+        .next()?
+        .strip_prefix("version = \"")?
+        .strip_suffix('"')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lock_version;
+
+    #[test]
+    fn version_is_read_from_the_lock_file() {
+        let lock = "[[package]]\nname = \"wasm-bindgen-macro\"\nversion = \"9.9.9\"\n\n\
+                    [[package]]\nname = \"wasm-bindgen\"\nversion = \"0.2.130\"\n";
+        assert_eq!(lock_version(lock, "wasm-bindgen"), Some("0.2.130"));
+        assert_eq!(lock_version(lock, "wasm"), None);
+        assert_eq!(lock_version("", "wasm-bindgen"), None);
+    }
+}

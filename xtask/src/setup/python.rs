@@ -1,0 +1,62 @@
+//! A Python environment of our own, for the tests against foreign CANopen masters.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::debian;
+use crate::console::{Console, ask};
+use crate::error::{Error, Result};
+use crate::repo::Repo;
+use crate::stamp::{Fingerprint, Stamp};
+
+/// The Python of an environment with exactly what `requirements` pins.
+pub(crate) fn environment(repo: &Repo, console: &Console, requirements: &Path) -> Result<PathBuf> {
+    let dir = repo.cache().join("venv");
+    let bin = dir.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let python = bin.join("python");
+    let base = base(console)?;
+    let inputs = Fingerprint::new()
+        .text(&ask(&base, &["-VV"]).unwrap_or_default())
+        .file(requirements)?;
+    let stamp = Stamp::new(dir.join(".xtask-stamp"), inputs);
+    if stamp.is_current(&[&python]) {
+        return Ok(python);
+    }
+    if dir.exists() {
+        fs::remove_dir_all(&dir).map_err(|e| Error::io("remove", &dir, &e))?;
+    }
+    let mut venv = Command::new(&base);
+    venv.args(["-m", "venv"]).arg(&dir);
+    console.run("making a Python environment", &mut venv)?;
+    let mut pip = Command::new(&python);
+    pip.args([
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+    ])
+    .arg("--requirement")
+    .arg(requirements);
+    console.run("installing the pinned Python packages", &mut pip)?;
+    stamp.set()?;
+    Ok(python)
+}
+
+/// A Python 3 that can make environments; Debian splits that off its Python.
+fn base(console: &Console) -> Result<PathBuf> {
+    let candidates = ["python3", "python"];
+    let complete = |python: &&str| ask(python, &["-c", "import venv, ensurepip"]).is_some();
+    if let Some(python) = candidates.iter().find(|python| complete(python)) {
+        return Ok(PathBuf::from(python));
+    }
+    let packages = ["python3", "python3-venv"];
+    debian::install(console, &packages, "Python 3 with `venv` is missing")?;
+    // The python3 that comes first on PATH may be another one than Debian's.
+    ["python3", "/usr/bin/python3"]
+        .iter()
+        .find(|python| complete(python))
+        .map(PathBuf::from)
+        .ok_or_else(|| Error::Missing(String::from("no Python 3 here has `venv` and `ensurepip`")))
+}
