@@ -1,2 +1,29 @@
-//! odkit.
+//! A CANopen slave node and a CiA 406 encoder, sans-io.
+//!
+//! Frames and virtual time go in, frames, the next deadline and events come out.
+//! No clock, no thread, no allocation, no `unsafe`, and no input that panics.
 #![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "std")]
+extern crate std;
+
+mod abort;
+mod application;
+mod emcy;
+mod fifo;
+mod frame;
+mod ids;
+mod profile;
+mod store;
+mod time;
+pub mod wire;
+
+pub use abort::AbortCode;
+pub use application::{Application, Context, NoApplication, Reset, Signals};
+pub use emcy::{Change as ErrorChange, Error};
+pub use frame::{CanId, Frame};
+pub use ids::{CobId, NodeId};
+pub use profile::{LengthRule, PdoProfile, Profile, Restore, SdoProfile, StoreProfile};
+pub use store::{Store, StoreTooSmall, TextTooLong};
+pub use time::{Duration, Instant};

@@ -1,0 +1,92 @@
+//! SDO abort codes.
+
+use core::fmt;
+
+macro_rules! abort_codes {
+    ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
+        /// Why an SDO transfer ends (CiA 301, table 22); the number is the one on the wire.
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+        #[repr(u32)]
+        pub enum AbortCode { $(#[doc = $text] $(#[$doc])* $name = $code,)* }
+
+        impl AbortCode {
+            /// Every code, by ascending number.
+            pub const ALL: &[AbortCode] = &[$(AbortCode::$name),*];
+
+            /// The code with this number, if it is one.
+            pub const fn from_code(code: u32) -> Option<Self> {
+                match code { $($code => Some(Self::$name),)* _ => None }
+            }
+
+            /// What it says, in a few plain words.
+            pub const fn text(self) -> &'static str {
+                match self { $(Self::$name => $text),* }
+            }
+        }
+    };
+}
+
+abort_codes! {
+    ToggleBit = 0x0503_0000, "toggle bit did not alternate";
+    Timeout = 0x0504_0000, "SDO transfer timed out";
+    InvalidCommand = 0x0504_0001, "command specifier unknown or out of turn";
+    InvalidBlockSize = 0x0504_0002, "block size out of range";
+    InvalidSequence = 0x0504_0003, "block sequence number wrong";
+    Crc = 0x0504_0004, "block checksum wrong";
+    OutOfMemory = 0x0504_0005, "no memory left for the transfer";
+    UnsupportedAccess = 0x0601_0000, "object cannot be accessed like this";
+    WriteOnly = 0x0601_0001, "object is write only";
+    ReadOnly = 0x0601_0002, "object is read only";
+    SubZeroFirst = 0x0601_0003, "sub-index 0 must be 0 before members change";
+    NoObject = 0x0602_0000, "object does not exist";
+    NotMappable = 0x0604_0041, "object cannot be mapped into a PDO";
+    PdoTooLong = 0x0604_0042, "mapping exceeds the PDO length";
+    Incompatible = 0x0604_0043, "parameters do not go together";
+    DeviceIncompatible = 0x0604_0047, "device cannot do this internally";
+    Hardware = 0x0606_0000, "hardware error while accessing the object";
+    Length = 0x0607_0010, "length does not match the data type";
+    TooLong = 0x0607_0012, "data longer than the object";
+    TooShort = 0x0607_0013, "data shorter than the object";
+    NoSubIndex = 0x0609_0011, "sub-index does not exist";
+    ValueRange = 0x0609_0030, "value not allowed";
+    ValueTooHigh = 0x0609_0031, "value above the upper limit";
+    ValueTooLow = 0x0609_0032, "value below the lower limit";
+    MaximumBelowMinimum = 0x0609_0036, "maximum below minimum";
+    NoResource = 0x060A_0023, "resource not available";
+    General = 0x0800_0000, "general error";
+    NotStored = 0x0800_0020, "data cannot be stored (wrong signature)";
+    LocalControl = 0x0800_0021, "data cannot be stored because of local control";
+    DeviceState = 0x0800_0022, "not in the present device state";
+    NoDictionary = 0x0800_0023, "object dictionary missing or not generated";
+    NoData = 0x0800_0024, "no data available";
+}
+
+impl AbortCode {
+    /// The number on the wire.
+    #[inline]
+    pub const fn code(self) -> u32 {
+        self as u32
+    }
+}
+
+impl fmt::Display for AbortCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:08X}h {}", self.code(), self.text())
+    }
+}
+
+impl core::error::Error for AbortCode {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_comes_back_and_none_stands_twice() {
+        for (i, code) in AbortCode::ALL.iter().enumerate() {
+            assert_eq!(AbortCode::from_code(code.code()), Some(*code));
+            assert!(i == 0 || AbortCode::ALL[i - 1].code() < code.code());
+        }
+        assert_eq!(AbortCode::from_code(0x0602_0001), None);
+    }
+}

@@ -1,0 +1,122 @@
+//! Where the device's own behaviour plugs in.
+
+use od_model::Address;
+
+use crate::{AbortCode, Instant, NodeId, Store, emcy};
+
+/// What a reset takes back (CiA 301, chapter 7.3.2).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Reset {
+    /// Power came, or came back: everything in RAM is lost.
+    PowerOn,
+    /// NMT reset node: everything is taken from storage again.
+    Node,
+    /// NMT reset communication: 1000h–1FFFh is taken from storage again.
+    Communication,
+}
+
+/// What an application may use while it is called.
+pub struct Context<'c, 'a> {
+    /// The values.
+    pub store: &'c mut Store<'a>,
+    /// Now.
+    pub now: Instant,
+    /// What the application wants the node to do when the call is over.
+    pub signals: &'c mut Signals,
+}
+
+/// Wishes of an application to its node, carried out when the call is over.
+#[derive(Debug, Default)]
+pub struct Signals {
+    /// Errors that came or went, in order.
+    pub(crate) errors: emcy::Changes,
+    /// Communication objects were changed by the application itself.
+    pub(crate) reconfigure: bool,
+    /// The application's own deadline may have moved.
+    pub(crate) tick: bool,
+}
+
+impl Signals {
+    /// An error came: an EMCY is sent, 1001h and 1003h follow.
+    ///
+    /// An error that is there already is not reported again.
+    pub fn raise(&mut self, error: emcy::Error) {
+        self.errors.push(emcy::Change::Raised(error));
+    }
+
+    /// An error went: 1001h follows, and an EMCY "error reset" with this
+    /// manufacturer information is sent.
+    pub fn clear(&mut self, code: u16, info: [u8; 5]) {
+        self.errors.push(emcy::Change::Cleared { code, info });
+    }
+
+    /// Communication objects (1000h–1FFFh) were changed from inside; the services take them over.
+    pub fn reconfigure(&mut self) {
+        self.reconfigure = true;
+    }
+
+    /// [`Application::tick`] wants to be asked again for its deadline.
+    pub fn wake(&mut self) {
+        self.tick = true;
+    }
+}
+
+/// The device behind the dictionary: it validates writes, reacts to them, provides live values.
+///
+/// Every function has an empty default, so a device without behaviour is [`NoApplication`].
+/// Nothing here sends a frame: the node does, from what the store and the signals say.
+pub trait Application {
+    /// The values were reset and what storage held is loaded; make the rest agree.
+    fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
+        let _ = (cx, reset);
+    }
+
+    /// The node ID that the device starts with, if it decides that itself (switches,
+    /// a node-ID object, LSS); asked at [`Reset`]s, after storage is loaded.
+    fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
+        let _ = store;
+        None
+    }
+
+    /// The value at `address` is about to be read by an SDO or a PDO: bring it up to date.
+    ///
+    /// # Errors
+    /// The abort code that the SDO answers with; a PDO takes the value as it stands.
+    fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
+        let _ = (cx, address);
+        Ok(())
+    }
+
+    /// A master wants to write `value`, which has the object's length and lies in its
+    /// limits. The store still holds the old one.
+    ///
+    /// # Errors
+    /// The abort code that the SDO answers with; nothing is written then.
+    fn validate(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        value: &[u8],
+    ) -> Result<(), AbortCode> {
+        let _ = (cx, address, value);
+        Ok(())
+    }
+
+    /// The store holds the new value.
+    fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+        let _ = (cx, address);
+    }
+
+    /// The moment that the last call asked for has come, or the world outside changed.
+    /// Answers with the next moment, if there is one.
+    fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
+        let _ = cx;
+        None
+    }
+}
+
+/// A device that is its dictionary and nothing else.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoApplication;
+
+impl Application for NoApplication {}

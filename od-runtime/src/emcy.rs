@@ -1,0 +1,155 @@
+//! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
+
+use crate::fifo::Fifo;
+use crate::wire;
+use crate::{CobId, Frame, Instant, Store};
+use od_model::Address;
+
+/// Most errors that can be active at once, and that can wait to be sent.
+const ACTIVE: usize = 16;
+const QUEUE: usize = 8;
+
+/// An error: what the EMCY frame says of it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Error {
+    /// Emergency error code, for example 8130h.
+    pub code: u16,
+    /// The bits of 1001h that it sets while it lasts.
+    pub register: u8,
+    /// Manufacturer-specific bytes 3–7 of the frame.
+    pub info: [u8; 5],
+}
+
+/// An error came or went.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Change {
+    /// It came.
+    Raised(Error),
+    /// The one with this code went; `info` goes into the frame that says so.
+    Cleared {
+        /// Emergency error code.
+        code: u16,
+        /// Manufacturer-specific bytes 3–7 of the frame.
+        info: [u8; 5],
+    },
+}
+
+/// Changes on their way from the application to the node.
+pub(crate) type Changes = Fifo<Change, QUEUE>;
+
+/// The emergency producer.
+#[derive(Debug, Default)]
+pub(crate) struct Producer {
+    active: Fifo<Error, ACTIVE>,
+    waiting: Fifo<wire::emcy::Repr, QUEUE>,
+    blocked_until: Instant,
+}
+
+impl Producer {
+    /// Forgets everything: the device starts without errors.
+    pub(crate) fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Takes a change over into 1001h and 1003h. Answers whether an error came
+    /// that was not there.
+    ///
+    /// `send` is false where the NMT state or 1014h forbids the frame; the log
+    /// in 1003h is kept all the same.
+    pub(crate) fn change(&mut self, store: &mut Store<'_>, change: Change, send: bool) -> bool {
+        let (code, info, raised) = match change {
+            Change::Raised(error) => {
+                if self.active.iter().any(|known| known.code == error.code) {
+                    return false;
+                }
+                self.active.push(error);
+                log(store, error.code);
+                (error.code, error.info, true)
+            }
+            Change::Cleared { code, info } => {
+                if !self.active.remove(|known| known.code == code) {
+                    return false;
+                }
+                (0, info, false)
+            }
+        };
+        let register = self
+            .active
+            .iter()
+            .fold(0, |bits, error| bits | error.register);
+        store.set_unsigned(Address::new(0x1001, 0), register.into());
+        if send {
+            self.waiting.push(wire::emcy::Repr {
+                code,
+                register,
+                info,
+            });
+        }
+        raised
+    }
+
+    /// Is there an error that sets one of these bits of 1001h?
+    pub(crate) fn any_active(&self, register: u8) -> bool {
+        self.active
+            .iter()
+            .any(|error| error.register & register != 0)
+    }
+
+    /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.
+    pub(crate) fn poll(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
+        if self.waiting.is_empty() || now < self.blocked_until {
+            return None;
+        }
+        let cob_id = cob_id(store);
+        let repr = self.waiting.pop()?;
+        let inhibit = store.unsigned(0x1015, 0) * 100;
+        self.blocked_until = now.plus_micros(inhibit);
+        cob_id.map(|cob_id| Frame::full(cob_id.can_id(), repr.emit()))
+    }
+
+    /// When [`poll`](Self::poll) is due, if something waits.
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        (!self.waiting.is_empty()).then_some(self.blocked_until)
+    }
+}
+
+/// 1014h, if the device has it and it is valid.
+pub(crate) fn cob_id(store: &Store<'_>) -> Option<CobId> {
+    let raw = store.try_unsigned(0x1014, 0)?;
+    let cob_id = CobId::new(raw as u32);
+    cob_id.is_valid().then_some(cob_id)
+}
+
+/// Puts the code on top of 1003h; the oldest entry falls out.
+fn log(store: &mut Store<'_>, code: u16) {
+    let dictionary = store.dictionary();
+    let Some(object) = dictionary.object(0x1003) else {
+        return;
+    };
+    let capacity = dictionary
+        .members(object)
+        .last()
+        .map_or(0, |entry| entry.address.sub);
+    let count = (store.unsigned(0x1003, 0) as u8).min(capacity);
+    for sub in (1..=count.min(capacity.saturating_sub(1))).rev() {
+        let older = store.unsigned(0x1003, sub);
+        store.set_unsigned(Address::new(0x1003, sub + 1), older);
+    }
+    if capacity > 0 {
+        store.set_unsigned(Address::new(0x1003, 1), code.into());
+        store.set_unsigned(
+            Address::new(0x1003, 0),
+            u64::from(count.saturating_add(1).min(capacity)),
+        );
+    }
+}
+
+/// Empties 1003h, as writing 0 to its sub-index 0 does.
+pub(crate) fn clear_log(store: &mut Store<'_>) {
+    let dictionary = store.dictionary();
+    if let Some(object) = dictionary.object(0x1003) {
+        for entry in dictionary.members(object) {
+            store.set_unsigned(entry.address, 0);
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Node IDs and COB-IDs that cannot hold a wrong value.
+
+use core::fmt;
+
+use crate::CanId;
+
+/// A node ID, 1–127 (CiA 301, chapter 6.2).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct NodeId(u8);
+
+impl NodeId {
+    /// Node 1, as most devices are delivered.
+    pub const ONE: Self = Self(1);
+
+    /// The node ID `raw`; `None` outside 1–127.
+    pub const fn new(raw: u8) -> Option<Self> {
+        if raw >= 1 && raw <= 127 {
+            Some(Self(raw))
+        } else {
+            None
+        }
+    }
+
+    /// The number, 1–127.
+    #[inline]
+    pub const fn raw(self) -> u8 {
+        self.0
+    }
+
+    /// `base + node ID` of the predefined connection set, for example `580h` for an SDO answer.
+    #[inline]
+    pub const fn plus(self, base: u16) -> CanId {
+        CanId::standard(base + self.0 as u16)
+    }
+}
+
+impl fmt::Display for NodeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.0, f)
+    }
+}
+
+impl fmt::Debug for NodeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}
+
+/// The value of a COB-ID object: identifier and its three flag bits
+/// (CiA 301, objects 1005h, 1014h, 1400h, 1800h).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct CobId(u32);
+
+impl CobId {
+    /// Every value can be written; what it means is asked for.
+    pub const fn new(raw: u32) -> Self {
+        Self(raw)
+    }
+
+    /// The object's value.
+    pub const fn raw(self) -> u32 {
+        self.0
+    }
+
+    /// Bit 31 clear: the PDO or EMCY exists.
+    pub const fn is_valid(self) -> bool {
+        self.0 & 1 << 31 == 0
+    }
+
+    /// Bit 30 of a PDO clear: it may be asked for with a remote frame.
+    pub const fn allows_rtr(self) -> bool {
+        self.0 & 1 << 30 == 0
+    }
+
+    /// Bit 30 of 1005h set: the device produces SYNC.
+    pub const fn produces_sync(self) -> bool {
+        self.0 & 1 << 30 != 0
+    }
+
+    /// The identifier: 29 bits with bit 29 set, else 11.
+    pub const fn can_id(self) -> CanId {
+        if self.0 & 1 << 29 != 0 {
+            CanId::extended(self.0)
+        } else {
+            CanId::standard(self.0 as u16)
+        }
+    }
+
+    /// Bits 11–28 belong to a 29-bit identifier; with bit 29 clear they have to be 0.
+    pub const fn is_consistent(self) -> bool {
+        self.0 & 1 << 29 != 0 || self.0 & 0x1FFF_F800 == 0
+    }
+
+    /// Is it one that CiA 301 (table 40) keeps for NMT, SDO, error control and LSS?
+    ///
+    /// 000h, 001h–07Fh, 101h–180h, 581h–5FFh, 601h–67Fh, 6E0h–6FFh, 701h–7FFh.
+    pub const fn is_restricted(self) -> bool {
+        match self.can_id().as_standard() {
+            Some(id) => matches!(
+                id,
+                0x000..=0x07F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x7FF
+            ),
+            None => false,
+        }
+    }
+}
+
+impl fmt::Debug for CobId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:08X}h", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cob_id_bits_are_those_of_cia_301() {
+        let cob = CobId::new(0x4000_0181);
+        assert!(cob.is_valid() && !cob.allows_rtr() && cob.is_consistent());
+        assert_eq!(cob.can_id(), CanId::standard(0x181));
+        assert_eq!(CobId::new(0x2001_0181).can_id(), CanId::extended(0x1_0181));
+        assert!(!CobId::new(0x0000_0800).is_consistent());
+        assert!(CobId::new(0x601).is_restricted() && !CobId::new(0x181).is_restricted());
+        assert!(NodeId::new(0).is_none() && NodeId::new(128).is_none());
+    }
+}

@@ -1,0 +1,258 @@
+//! Values: a slice that the caller owns, laid out by the dictionary.
+
+use od_model::typed::{DeviceWritable, Scalar, Text, Var};
+use od_model::{Address, Dictionary, Entry, Literal, Slot};
+
+use crate::{AbortCode, NodeId};
+
+/// The slice is shorter than [`Dictionary::store_len`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct StoreTooSmall {
+    /// Bytes that the dictionary needs.
+    pub needed: usize,
+}
+
+/// The text is longer than the object's capacity.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TextTooLong {
+    /// Bytes that the object can hold.
+    pub capacity: usize,
+}
+
+/// The current values of a device, over a dictionary and a slice of the caller's.
+///
+/// Typed access goes by the handles that `object_dictionary!` makes; services go
+/// by entry or address. A handle of another dictionary reads 0 and writes nothing
+/// where it reaches outside; it never panics.
+pub struct Store<'a> {
+    dictionary: Dictionary<'a>,
+    values: &'a mut [u8],
+    node_id: NodeId,
+}
+
+impl<'a> Store<'a> {
+    /// Lays `values` out by `dictionary`. The bytes stay as they are: call
+    /// [`reset`](Self::reset) before first use.
+    ///
+    /// # Errors
+    /// [`StoreTooSmall`] where `values` is shorter than [`Dictionary::store_len`].
+    pub fn new(
+        dictionary: Dictionary<'a>,
+        values: &'a mut [u8],
+        node_id: NodeId,
+    ) -> Result<Self, StoreTooSmall> {
+        let needed = dictionary.store_len();
+        if values.len() < needed {
+            return Err(StoreTooSmall { needed });
+        }
+        Ok(Self {
+            dictionary,
+            values,
+            node_id,
+        })
+    }
+
+    /// The dictionary.
+    #[inline]
+    pub fn dictionary(&self) -> Dictionary<'a> {
+        self.dictionary
+    }
+
+    /// The node ID that `$NODEID` stands for.
+    #[inline]
+    pub fn node_id(&self) -> NodeId {
+        self.node_id
+    }
+
+    /// Every value for which `which` is true becomes its default.
+    pub fn reset(&mut self, mut which: impl FnMut(&Entry) -> bool) {
+        for entry in self
+            .dictionary
+            .entries()
+            .iter()
+            .filter(|entry| which(entry))
+        {
+            self.reset_entry(entry);
+        }
+    }
+
+    /// One value becomes its default; a description that gives none means 0 or empty.
+    pub fn reset_entry(&mut self, entry: &Entry) {
+        let mut number = [0; 8];
+        let bytes = default_bytes(self.dictionary, entry, self.node_id, &mut number);
+        // The layout left room for the default; a longer one cannot be.
+        let _ = put(self.values, entry, bytes);
+    }
+
+    /// Is the value what [`reset_entry`](Self::reset_entry) would make of it?
+    pub fn is_default(&self, entry: &Entry) -> bool {
+        let (mut a, mut b) = ([0; 8], [0; 8]);
+        self.bytes(entry, &mut a) == default_bytes(self.dictionary, entry, self.node_id, &mut b)
+    }
+
+    /// The value of a handle.
+    #[inline]
+    pub fn get<T: Scalar, A, M>(&self, var: Var<T, A, M>) -> T {
+        match slot(self.values, var.slot()) {
+            Some(bytes) if !bytes.is_empty() => T::from_wire(bytes),
+            _ => {
+                let mut number = [0; 8];
+                T::from_wire(match self.dictionary.find(var.address()) {
+                    Ok(entry) => self.bytes(entry, &mut number),
+                    Err(_) => &[],
+                })
+            }
+        }
+    }
+
+    /// Sets the value of a handle. Limits are not looked at: they bind the master, not the device.
+    #[inline]
+    pub fn set<T: Scalar, A: DeviceWritable, M>(&mut self, var: Var<T, A, M>, value: T) {
+        if let Some(bytes) = slot_mut(self.values, var.slot()) {
+            let wire = value.to_wire();
+            let len = bytes.len().min(8);
+            bytes[..len].copy_from_slice(&wire[..len]);
+        }
+    }
+
+    /// The bytes of a string or domain.
+    pub fn text<A>(&self, text: Text<A>) -> &[u8] {
+        match self.dictionary.find(text.address()) {
+            Ok(entry) => variable(self.dictionary, self.values, entry),
+            Err(_) => &[],
+        }
+    }
+
+    /// Sets a string or domain.
+    ///
+    /// # Errors
+    /// [`TextTooLong`] where it does not fit; the value stays as it was.
+    pub fn set_text<A: DeviceWritable>(
+        &mut self,
+        text: Text<A>,
+        bytes: &[u8],
+    ) -> Result<(), TextTooLong> {
+        let capacity = usize::from(text.slot().len.saturating_sub(2));
+        match self.dictionary.find(text.address()) {
+            Ok(entry) => put(self.values, entry, bytes).map_err(|_| TextTooLong { capacity }),
+            Err(_) => Err(TextTooLong { capacity: 0 }),
+        }
+    }
+
+    /// The value's bytes as an SDO carries them. `number` is room for those of a
+    /// `const` number, which stands nowhere in the store.
+    #[inline]
+    pub fn bytes<'b>(&'b self, entry: &Entry, number: &'b mut [u8; 8]) -> &'b [u8] {
+        if entry.is_variable() {
+            return variable(self.dictionary, self.values, entry);
+        }
+        match slot(self.values, entry.slot) {
+            Some(bytes) if !bytes.is_empty() => bytes,
+            _ => default_bytes(self.dictionary, entry, self.node_id, number),
+        }
+    }
+
+    /// Puts bytes as an SDO carries them in place, if they have the right length.
+    ///
+    /// # Errors
+    /// [`AbortCode::TooLong`] or [`AbortCode::TooShort`] by the entry's length or capacity;
+    /// [`AbortCode::ReadOnly`] where nothing is stored.
+    pub fn put(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
+        put(self.values, entry, bytes)
+    }
+
+    /// The number at an address: 0 where the object is missing or no integer.
+    pub fn unsigned(&self, index: u16, sub: u8) -> u64 {
+        self.try_unsigned(index, sub).unwrap_or(0)
+    }
+
+    /// The number at an address, if there is such an object; signed ones are extended.
+    pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
+        self.dictionary
+            .entry(index, sub)
+            .map(|entry| self.number(entry))
+    }
+
+    /// The number that an entry holds, little-endian, eight bytes at most.
+    #[inline]
+    pub fn number(&self, entry: &Entry) -> u64 {
+        let mut number = [0; 8];
+        u64::from_wire(self.bytes(entry, &mut number))
+    }
+
+    /// Puts a number at an address, cut to the entry's length; `false` where there is no such object.
+    pub fn set_unsigned(&mut self, address: Address, value: u64) -> bool {
+        let Ok(entry) = self.dictionary.find(address) else {
+            return false;
+        };
+        match entry.data_type.size() {
+            Some(size) => put(self.values, entry, &value.to_le_bytes()[..size.min(8)]).is_ok(),
+            None => false,
+        }
+    }
+}
+
+#[inline]
+fn slot(values: &[u8], slot: Slot) -> Option<&[u8]> {
+    let start = slot.offset as usize;
+    values.get(start..start + usize::from(slot.len))
+}
+
+#[inline]
+fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
+    let start = slot.offset as usize;
+    values.get_mut(start..start + usize::from(slot.len))
+}
+
+/// A string: two bytes of length, then the bytes; the default where nothing is stored.
+fn variable<'b>(dictionary: Dictionary<'b>, values: &'b [u8], entry: &Entry) -> &'b [u8] {
+    match slot(values, entry.slot) {
+        Some([low, high, rest @ ..]) => {
+            let len = usize::from(u16::from_le_bytes([*low, *high]));
+            rest.get(..len).unwrap_or(rest)
+        }
+        _ => dictionary.literal_bytes(entry.default),
+    }
+}
+
+fn default_bytes<'b>(
+    dictionary: Dictionary<'b>,
+    entry: &Entry,
+    node_id: NodeId,
+    number: &'b mut [u8; 8],
+) -> &'b [u8] {
+    let Some(size) = entry.data_type.size() else {
+        return dictionary.literal_bytes(entry.default);
+    };
+    *number = match entry.default {
+        Literal::Real(value) if size == 4 => (value as f32).to_wire(),
+        Literal::Real(value) => value.to_wire(),
+        literal => (literal.integer(node_id.raw()).unwrap_or(0) as u64).to_le_bytes(),
+    };
+    &number[..size.min(8)]
+}
+
+fn put(values: &mut [u8], entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
+    let to = slot_mut(values, entry.slot)
+        .filter(|to| !to.is_empty())
+        .ok_or(AbortCode::ReadOnly)?;
+    let room = if entry.is_variable() {
+        let [low, high, room @ ..] = to else {
+            return Err(AbortCode::TooLong);
+        };
+        if bytes.len() > room.len() {
+            return Err(AbortCode::TooLong);
+        }
+        // The room is shorter than 64 KiB, so the length fits.
+        [*low, *high] = (bytes.len() as u16).to_le_bytes();
+        &mut room[..bytes.len()]
+    } else {
+        match bytes.len().cmp(&to.len()) {
+            core::cmp::Ordering::Less => return Err(AbortCode::TooShort),
+            core::cmp::Ordering::Greater => return Err(AbortCode::TooLong),
+            core::cmp::Ordering::Equal => to,
+        }
+    };
+    room.copy_from_slice(bytes);
+    Ok(())
+}

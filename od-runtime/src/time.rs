@@ -1,0 +1,94 @@
+//! Virtual time: a count of microseconds that the caller owns.
+
+use core::fmt;
+use core::ops::{Add, Sub};
+
+pub use core::time::Duration;
+
+/// A moment, in microseconds since an origin of the caller's choice (power-on, say).
+///
+/// Nothing below the host reads a clock; a moment comes in as an argument.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Instant(u64);
+
+impl Instant {
+    /// The origin.
+    pub const ZERO: Self = Self(0);
+
+    /// `micros` microseconds after the origin.
+    pub const fn from_micros(micros: u64) -> Self {
+        Self(micros)
+    }
+
+    /// `millis` milliseconds after the origin.
+    pub const fn from_millis(millis: u64) -> Self {
+        Self(millis.saturating_mul(1000))
+    }
+
+    /// Microseconds since the origin.
+    pub const fn as_micros(self) -> u64 {
+        self.0
+    }
+
+    /// The moment `millis` milliseconds later.
+    pub const fn plus_millis(self, millis: u64) -> Self {
+        self.plus_micros(millis.saturating_mul(1000))
+    }
+
+    /// The moment `micros` microseconds later; the end of time at the latest.
+    pub const fn plus_micros(self, micros: u64) -> Self {
+        Self(self.0.saturating_add(micros))
+    }
+
+    /// Microseconds since `earlier`; 0 if that is later.
+    pub const fn micros_since(self, earlier: Self) -> u64 {
+        self.0.saturating_sub(earlier.0)
+    }
+
+    /// The next moment of a period of `micros` that had one at `self`, after `now`.
+    ///
+    /// A caller that comes late gets one tick, not one for each that was missed.
+    pub(crate) const fn next_period(self, micros: u64, now: Self) -> Self {
+        let next = self.plus_micros(micros);
+        if next.0 > now.0 {
+            return next;
+        }
+        let micros = if micros == 0 { 1 } else { micros };
+        self.plus_micros(((now.0 - self.0) / micros + 1).saturating_mul(micros))
+    }
+}
+
+impl Add<Duration> for Instant {
+    type Output = Self;
+    fn add(self, duration: Duration) -> Self {
+        self.plus_micros(u64::try_from(duration.as_micros()).unwrap_or(u64::MAX))
+    }
+}
+
+impl Sub for Instant {
+    type Output = Duration;
+    fn sub(self, earlier: Self) -> Duration {
+        Duration::from_micros(self.micros_since(earlier))
+    }
+}
+
+impl fmt::Debug for Instant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{:06}", self.0 / 1_000_000, self.0 % 1_000_000)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_late_caller_gets_one_tick() {
+        let at = |ms| Instant::from_millis(ms);
+        assert_eq!(at(10).next_period(5_000, at(10)), at(15));
+        assert_eq!(at(10).next_period(5_000, at(12)), at(15));
+        assert_eq!(at(10).next_period(5_000, at(15)), at(20));
+        assert_eq!(at(10).next_period(5_000, at(31)), at(35));
+        assert_eq!(at(10).next_period(0, at(31)), Instant::from_micros(31_001));
+    }
+}

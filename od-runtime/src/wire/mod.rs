@@ -1,0 +1,6 @@
+//! Bytes to meaning and back, one module a service; nothing here has state.
+
+pub mod emcy;
+pub mod nmt;
+pub mod pdo;
+pub mod sdo;

@@ -1,0 +1,101 @@
+//! NMT commands, and the state byte of boot-up, heartbeat and guarding (CiA 301, chapters 7.2.8 and 7.3.2).
+
+use core::fmt;
+
+/// The NMT commands.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[repr(u8)]
+pub enum Command {
+    /// Start remote node: to Operational.
+    Start = 0x01,
+    /// Stop remote node: to Stopped.
+    Stop = 0x02,
+    /// Enter Pre-operational.
+    EnterPreOperational = 0x80,
+    /// Reset node.
+    ResetNode = 0x81,
+    /// Reset communication.
+    ResetCommunication = 0x82,
+}
+
+impl Command {
+    /// The command with this specifier, if there is one.
+    pub const fn from_code(code: u8) -> Option<Self> {
+        Some(match code {
+            0x01 => Self::Start,
+            0x02 => Self::Stop,
+            0x80 => Self::EnterPreOperational,
+            0x81 => Self::ResetNode,
+            0x82 => Self::ResetCommunication,
+            _ => return None,
+        })
+    }
+}
+
+/// The states of an NMT slave; the number is the one a heartbeat carries.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[repr(u8)]
+pub enum State {
+    /// Between reset and boot-up; as a heartbeat it is the boot-up message.
+    Initialising = 0x00,
+    /// Neither SDO nor PDO, SYNC, EMCY.
+    Stopped = 0x04,
+    /// Everything.
+    Operational = 0x05,
+    /// Everything but PDOs.
+    PreOperational = 0x7F,
+}
+
+impl State {
+    /// The state with this number, if there is one.
+    pub const fn from_code(code: u8) -> Option<Self> {
+        Some(match code {
+            0x00 => Self::Initialising,
+            0x04 => Self::Stopped,
+            0x05 => Self::Operational,
+            0x7F => Self::PreOperational,
+            _ => return None,
+        })
+    }
+
+    /// The standard's name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Initialising => "Initialising",
+            Self::Stopped => "Stopped",
+            Self::Operational => "Operational",
+            Self::PreOperational => "Pre-operational",
+        }
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// What an NMT frame (COB-ID 000h) says: a command, and to which node; 0 is all.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Repr {
+    /// The command.
+    pub command: Command,
+    /// The node ID, 0 for every node.
+    pub node: u8,
+}
+
+impl Repr {
+    /// The meaning of a frame's bytes; `None` unless there are two and the first is a command.
+    pub fn parse(data: &[u8]) -> Option<Self> {
+        let &[command, node] = data else { return None };
+        Some(Self {
+            command: Command::from_code(command)?,
+            node,
+        })
+    }
+
+    /// The frame's bytes.
+    pub const fn emit(self) -> [u8; 2] {
+        [self.command as u8, self.node]
+    }
+}
