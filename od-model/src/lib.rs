@@ -32,6 +32,8 @@ mod description;
 #[cfg(feature = "eds")]
 mod diagnostic;
 #[cfg(feature = "eds")]
+pub mod patch;
+#[cfg(feature = "eds")]
 mod tables;
 
 #[cfg(feature = "eds")]

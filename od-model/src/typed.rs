@@ -11,6 +11,9 @@ mod sealed {
     pub trait Sealed {}
 }
 
+/// Types that a handle knows and does not hold: whatever they are, it is `Send` and `Sync`.
+type Marker<T> = PhantomData<fn() -> T>;
+
 /// A Rust type that an entry can have.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not the Rust type of any CANopen data type",
@@ -131,7 +134,7 @@ pub struct Var<T, A, M = NoPdo> {
     address: Address,
     slot: Slot,
     bits: u8,
-    marker: PhantomData<fn() -> (T, A, M)>,
+    marker: Marker<(T, A, M)>,
 }
 
 impl<T, A, M> Clone for Var<T, A, M> {
@@ -183,7 +186,7 @@ impl<T, A, M> Var<T, A, M> {
 pub struct Text<A> {
     address: Address,
     slot: Slot,
-    marker: PhantomData<fn() -> A>,
+    marker: Marker<A>,
 }
 
 impl<A> Clone for Text<A> {
@@ -266,6 +269,95 @@ pub const fn pdo<const N: usize>(entries: [MapEntry; N]) -> Mapping<N> {
         "this PDO mapping is longer than the 64 bits of a CAN frame"
     );
     Mapping { entries }
+}
+
+/// What generated code is written with; not an API.
+#[doc(hidden)]
+pub mod emit {
+    pub use super::{Const, NoPdo, Pdo, Ro, Rw, Rwr, Rww, Text, Var, Wo};
+    use crate::{Address, Slot};
+
+    pub const fn __v<T, A, M>(
+        index: u16,
+        sub: u8,
+        offset: u32,
+        len: u16,
+        bits: u8,
+    ) -> Var<T, A, M> {
+        Var::new(Address::new(index, sub), Slot { offset, len }, bits)
+    }
+
+    pub const fn __t<A>(index: u16, sub: u8, offset: u32, len: u16) -> Text<A> {
+        Text::new(Address::new(index, sub), Slot { offset, len })
+    }
+
+    /// One short call a row: what 6,000 rows cost to compile is what one costs.
+    pub mod table {
+        pub use crate::{Access as A, DataType as T, Entry, Object, ObjectCode as C};
+        use crate::{Address, Group, Literal, Range, Slot};
+
+        pub const GN: Group = Group::None;
+        pub const GC: Group = Group::Communication;
+        pub const GA: Group = Group::Application;
+        pub const GM: Group = Group::Manufacturer;
+        pub const N: Literal = Literal::None;
+        pub use Literal::{NodeId as D, Real as R, Signed as S, Unsigned as U};
+
+        pub const fn t(start: u32, len: u32) -> Literal {
+            Literal::Text(Range::new(start, len))
+        }
+
+        pub const fn b(start: u32, len: u32) -> Literal {
+            Literal::Bytes(Range::new(start, len))
+        }
+
+        pub const fn o(
+            index: u16,
+            code: C,
+            name: u32,
+            name_len: u32,
+            first: u32,
+            count: u16,
+        ) -> Object {
+            Object {
+                index,
+                code,
+                name: Range::new(name, name_len),
+                first,
+                count,
+            }
+        }
+
+        #[allow(clippy::too_many_arguments)] // a row of a table
+        pub const fn e(
+            index: u16,
+            sub: u8,
+            data_type: T,
+            access: A,
+            mappable: bool,
+            group: Group,
+            name: u32,
+            name_len: u32,
+            default: Literal,
+            low: Literal,
+            high: Literal,
+            offset: u32,
+            len: u16,
+        ) -> Entry {
+            Entry {
+                address: Address::new(index, sub),
+                data_type,
+                access,
+                mappable,
+                group,
+                name: Range::new(name, name_len),
+                default,
+                low,
+                high,
+                slot: Slot { offset, len },
+            }
+        }
+    }
 }
 
 #[cfg(test)]
