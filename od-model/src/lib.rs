@@ -28,9 +28,13 @@ pub use types::{Access, DataType, Group, Kind, ObjectCode};
 pub use value::{Literal, Range};
 
 #[cfg(feature = "eds")]
+pub mod check;
+#[cfg(feature = "eds")]
 mod description;
 #[cfg(feature = "eds")]
 mod diagnostic;
+#[cfg(feature = "eds")]
+pub mod eds;
 #[cfg(feature = "eds")]
 pub mod patch;
 #[cfg(feature = "eds")]
