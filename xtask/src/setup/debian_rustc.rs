@@ -17,9 +17,44 @@ use crate::stamp::{Fingerprint, Stamp};
 
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 
-/// Debian's compiler with the target's library in a sysroot of our own; the folder
-/// that holds its `rustc`.
-pub(super) fn get(repo: &Repo, console: &Console, target: &str) -> Result<PathBuf> {
+/// The paths of a private sysroot.
+struct Private {
+    dir: PathBuf,
+    bin: PathBuf,
+    sysroot: PathBuf,
+    library: PathBuf,
+    stamp: Stamp,
+}
+
+impl Private {
+    /// For Debian's compiler of this version; nothing is made yet.
+    fn new(repo: &Repo, target: &str, version: &str) -> Private {
+        let dir = repo.tools().join("rust");
+        let sysroot = dir.join("sysroot");
+        let inputs = Fingerprint::new().text(version).text(target);
+        Private {
+            bin: dir.join("bin"),
+            library: std_of(&sysroot, target),
+            stamp: Stamp::new(dir.join(format!("{target}.stamp")), inputs),
+            sysroot,
+            dir,
+        }
+    }
+
+    fn is_current(&self) -> bool {
+        let rustc = self.bin.join("rustc");
+        self.stamp.is_current(&[&self.library, &rustc])
+    }
+}
+
+/// The folder of a `rustc` that `make` made for the compiler that is installed.
+pub(super) fn made_before(repo: &Repo, target: &str) -> Option<PathBuf> {
+    let private = Private::new(repo, target, &ask(DEBIAN_RUSTC, &["-vV"])?);
+    private.is_current().then_some(private.bin)
+}
+
+/// Makes Debian's compiler able to build for `target`; the folder of its `rustc`.
+pub(super) fn make(repo: &Repo, console: &Console, target: &str) -> Result<PathBuf> {
     check(repo, console, target)?;
     let debian = |args: &[&str]| {
         ask(DEBIAN_RUSTC, args)
@@ -32,36 +67,30 @@ pub(super) fn get(repo: &Repo, console: &Console, target: &str) -> Result<PathBu
         .unwrap_or_default();
     let theirs = PathBuf::from(debian(&["--print", "sysroot"])?);
 
-    let dir = repo.tools().join("rust");
-    let (bin, sysroot) = (dir.join("bin"), dir.join("sysroot"));
-    let library = std_of(&sysroot, target);
-    let inputs = Fingerprint::new().text(&version).text(target);
-    let stamp = Stamp::new(dir.join(format!("{target}.stamp")), inputs);
-    if stamp.is_current(&[&library, &bin.join("rustc")]) {
-        return Ok(bin);
-    }
-    stamp.clear();
-    let built = build_library(&dir, console, target)?;
+    let private = Private::new(repo, target, &version);
+    private.stamp.clear();
+    let built = build_library(&private.dir, console, target)?;
+    let library = &private.library;
     if library.exists() {
-        fs::remove_dir_all(&library).map_err(|e| Error::io("remove", &library, &e))?;
+        fs::remove_dir_all(library).map_err(|e| Error::io("remove", library, &e))?;
     }
-    fs::create_dir_all(&library).map_err(|e| Error::io("create", &library, &e))?;
+    fs::create_dir_all(library).map_err(|e| Error::io("create", library, &e))?;
     for file in built {
         let to = library.join(file.file_name().unwrap_or_default());
         fs::copy(&file, &to).map_err(|e| Error::io("write", &to, &e))?;
     }
     // Build scripts and macros run here, so the host's library has to be there too.
-    let link = sysroot.join("lib/rustlib").join(host);
+    let link = private.sysroot.join("lib/rustlib").join(host);
     if !link.exists() {
         script::symlink(&theirs.join("lib/rustlib").join(host), &link)?;
     }
-    let script = format!(
+    let text = format!(
         "#!/bin/sh\nexec {DEBIAN_RUSTC} --sysroot '{}' \"$@\"\n",
-        sysroot.display()
+        private.sysroot.display()
     );
-    script::write(&bin, "rustc", &script)?;
-    stamp.set()?;
-    Ok(bin)
+    script::write(&private.bin, "rustc", &text)?;
+    private.stamp.set()?;
+    Ok(private.bin)
 }
 
 /// Debian's compiler is only a way out if it can be had and is new enough.

@@ -30,13 +30,19 @@ impl Compiler {
             target,
         };
         let sysroot = sysroot(repo)?;
-        if std_of(&sysroot, target).is_dir() || rustup_adds(repo, console, target) {
+        if std_of(&sysroot, target).is_dir() {
             return Ok(ready);
         }
-        console.note(&format!(
-            "no {target} from rustup: building it with Debian's compiler"
-        ));
-        let private = debian_rustc::get(repo, console, target)?;
+        // What was made here before saves asking a server that did not answer then.
+        let private = match debian_rustc::made_before(repo, target) {
+            Some(bin) => bin,
+            None if rustup_adds(repo, console, target) => return Ok(ready),
+            None => {
+                let text = format!("no {target} from rustup: building it with Debian's compiler");
+                console.note(&text);
+                debian_rustc::make(repo, console, target)?
+            }
+        };
         let host = host(repo)?;
         let linker = sysroot.join("lib/rustlib").join(host).join("bin/rust-lld");
         if !linker.is_file() {
@@ -102,7 +108,9 @@ fn rustup_adds(repo: &Repo, console: &Console, target: &str) -> bool {
         return false;
     }
     let mut add = Command::new("rustup");
-    add.args(["target", "add", target]).current_dir(&repo.root);
+    add.args(["target", "add", target])
+        .current_dir(&repo.root)
+        .env("RUST_BACKTRACE", "0");
     let what = format!("adding the target {target} with rustup");
     console.run(&what, &mut add).is_ok()
         && sysroot(repo).is_ok_and(|sysroot| std_of(&sysroot, target).is_dir())
