@@ -1,1 +1,15 @@
-//! odkit.
+//! odkit and its peers under the same load: one SDO upload through the whole
+//! node, one PDO cycle, simulated seconds per second.
+//!
+//! `README.md` beside this crate says how to run it and how to read it. A new
+//! contender implements [`contender::Upload`] (and [`contender::Pdo`]) and gets
+//! a line in [`roster`].
+
+pub mod callgrind;
+pub mod contender;
+pub mod objects;
+pub mod peers;
+pub mod results;
+pub mod roster;
+pub mod stopwatch;
+pub mod table;

@@ -1,0 +1,109 @@
+//! Who takes part, in which discipline and size.
+
+use std::fmt;
+use std::num::ParseIntError;
+use std::str::FromStr;
+
+use crate::contender::{Cycles, Nothing, Subject, Uploads};
+use crate::objects::{PDO_SIZE, SIZES};
+use crate::peers::canopen_rs::{CanopenRs, OWN};
+use crate::peers::canopen_sdo::CanopenSdo;
+use crate::peers::zencan::Zencan;
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Discipline {
+    /// One expedited SDO upload from a dictionary of this many objects.
+    Upload(usize),
+    /// One SYNC in, one TPDO out.
+    Pdo,
+    /// One second of virtual time of a gxmm with a 1 ms PDO.
+    Simulation,
+}
+
+impl fmt::Display for Discipline {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Upload(size) => write!(f, "{size}"),
+            Self::Pdo => f.write_str("pdo"),
+            Self::Simulation => f.write_str("simulation"),
+        }
+    }
+}
+
+impl FromStr for Discipline {
+    type Err = ParseIntError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text {
+            "pdo" => Ok(Self::Pdo),
+            "simulation" => Ok(Self::Simulation),
+            size => size.parse().map(Self::Upload),
+        }
+    }
+}
+
+/// The loop without a node.
+pub const NOTHING: &str = "(loop alone)";
+/// The floor.
+pub const CANOPEN_SDO: &str = "canopen-sdo";
+/// A peer.
+pub const CANOPEN_RS: &str = "canopen-rs";
+/// A peer.
+pub const ZENCAN: &str = "zencan-node";
+/// We.
+pub const ODKIT: &str = "odkit";
+
+/// All disciplines, in the order of the table.
+pub fn disciplines() -> impl Iterator<Item = Discipline> {
+    let uploads = SIZES.into_iter().map(Discipline::Upload);
+    uploads.chain([Discipline::Pdo, Discipline::Simulation])
+}
+
+/// All contenders, in the order of the table.
+pub const NAMES: [&str; 5] = [ODKIT, CANOPEN_RS, ZENCAN, CANOPEN_SDO, NOTHING];
+
+/// The contender of that name, ready to be measured and found to answer right;
+/// none if it does not take part.
+pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
+    let mut subject = match discipline {
+        Discipline::Upload(size) => upload(name, size)?,
+        Discipline::Pdo => pdo(name)?,
+        Discipline::Simulation => return None,
+    };
+    subject.verify();
+    Some(subject)
+}
+
+/// Boxes a contender together with its load.
+macro_rules! uploads {
+    ($contender:expr, $size:expr) => {
+        Some(Box::new(Uploads::new($contender, $size)))
+    };
+}
+
+fn upload(name: &str, size: usize) -> Option<Box<dyn Subject>> {
+    match (name, size) {
+        (NOTHING, _) => uploads!(Nothing, size),
+        (ZENCAN, _) => uploads!(Zencan::new(size)?, size),
+        (CANOPEN_RS, 16) => uploads!(CanopenRs::<{ 16 + OWN }>::new(size), size),
+        (CANOPEN_RS, 120) => uploads!(CanopenRs::<{ 120 + OWN }>::new(size), size),
+        (CANOPEN_RS, 1_000) => uploads!(CanopenRs::<{ 1_000 + OWN }>::new(size), size),
+        (CANOPEN_RS, 5_000) => uploads!(CanopenRs::<{ 5_000 + OWN }>::new(size), size),
+        (CANOPEN_SDO, 16) => uploads!(CanopenSdo::<16>::new(), size),
+        (CANOPEN_SDO, 120) => uploads!(CanopenSdo::<120>::new(), size),
+        (CANOPEN_SDO, 1_000) => uploads!(CanopenSdo::<1_000>::new(), size),
+        (CANOPEN_SDO, 5_000) => uploads!(CanopenSdo::<5_000>::new(), size),
+        _ => None,
+    }
+}
+
+fn pdo(name: &str) -> Option<Box<dyn Subject>> {
+    match name {
+        CANOPEN_RS => Some(Box::new(Cycles(CanopenRs::<{ PDO_SIZE + OWN }>::new(
+            PDO_SIZE,
+        )))),
+        ZENCAN => Some(Box::new(Cycles(Zencan::new(PDO_SIZE)?))),
+        _ => None,
+    }
+}

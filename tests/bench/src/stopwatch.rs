@@ -1,0 +1,48 @@
+//! Time per operation on a machine that others use too.
+//!
+//! All contenders of a discipline take turns, in short rounds: a slow second of
+//! the machine then hits all of them, and the ratios hold. The median of the
+//! rounds is the result.
+
+use std::time::{Duration, Instant};
+
+use crate::contender::Subject;
+
+/// How long a round of one contender takes.
+const ROUND: Duration = Duration::from_millis(2);
+
+/// Nanoseconds per operation of each subject, the median of `rounds`.
+pub fn race(subjects: &mut [Box<dyn Subject>], rounds: usize) -> Vec<f64> {
+    let counts: Vec<u64> = subjects.iter_mut().map(|s| calibrate(s.as_mut())).collect();
+    let mut times = vec![Vec::with_capacity(rounds); subjects.len()];
+    for _ in 0..rounds {
+        for ((subject, &count), times) in subjects.iter_mut().zip(&counts).zip(&mut times) {
+            times.push(time(subject.as_mut(), count).as_secs_f64() * 1e9 / count as f64);
+        }
+    }
+    times.into_iter().map(median).collect()
+}
+
+/// The count of operations that fills one round; warms the subject up, too.
+fn calibrate(subject: &mut dyn Subject) -> u64 {
+    let mut count = 16;
+    loop {
+        let taken = time(subject, count);
+        if taken >= ROUND / 4 {
+            let scale = ROUND.as_secs_f64() / taken.as_secs_f64();
+            return ((count as f64 * scale) as u64).max(1);
+        }
+        count *= 4;
+    }
+}
+
+fn time(subject: &mut dyn Subject, count: u64) -> Duration {
+    let start = Instant::now();
+    subject.run(count);
+    start.elapsed()
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}

@@ -1,0 +1,173 @@
+//! The results as Markdown, ready for a README.
+
+use std::fmt::Write as _;
+
+use crate::objects::SIZES;
+use crate::results::{Results, Unit};
+use crate::roster::{CANOPEN_RS, CANOPEN_SDO, Discipline, NAMES, ODKIT, ZENCAN};
+
+/// The dictionary size at which contenders are compared.
+const COMPARED: Discipline = Discipline::Upload(120);
+/// The smallest and the largest size of the mark on growth.
+const GROWTH: (Discipline, Discipline) = (COMPARED, Discipline::Upload(5_000));
+
+/// Two tables: what was measured, and the marks.
+pub fn render(results: &Results) -> String {
+    let mut text = measured(results);
+    text.push('\n');
+    text.push_str(&marks(results));
+    text
+}
+
+/// One row per contender, one column per discipline.
+fn measured(results: &Results) -> String {
+    let disciplines: Vec<Discipline> = SIZES
+        .map(Discipline::Upload)
+        .into_iter()
+        .chain([Discipline::Pdo])
+        .collect();
+    let mut text = String::from("| |");
+    for discipline in &disciplines {
+        match discipline {
+            Discipline::Upload(size) => cell(&mut text, &format!("upload, {size} objects")),
+            Discipline::Pdo => cell(&mut text, "SYNC → TPDO"),
+            Discipline::Simulation => {}
+        }
+    }
+    text.push_str("\n|---|");
+    text.push_str(&"--:|".repeat(disciplines.len()));
+    text.push('\n');
+    for name in NAMES {
+        if !disciplines.iter().any(|d| taken(results, *d, name)) {
+            continue;
+        }
+        text.push('|');
+        cell(&mut text, name);
+        for &discipline in &disciplines {
+            let time = results.get(Unit::Nanoseconds, discipline, name);
+            let count = results.get(Unit::Instructions, discipline, name);
+            let time = time.map(|time| format!("{time:.1} ns"));
+            let count = count.map(|count| format!("{count:.0} instr."));
+            let parts: Vec<String> = time.into_iter().chain(count).collect();
+            cell(
+                &mut text,
+                if parts.is_empty() {
+                    "–".to_owned()
+                } else {
+                    parts.join(", ")
+                }
+                .as_str(),
+            );
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// One row per mark that the project set itself.
+fn marks(results: &Results) -> String {
+    let time = |discipline, name| results.get(Unit::Nanoseconds, discipline, name);
+    let ours = time(COMPARED, ODKIT);
+    let faster_peer = [CANOPEN_RS, ZENCAN]
+        .into_iter()
+        .filter_map(|name| time(COMPARED, name))
+        .min_by(f64::total_cmp);
+    let simulated = time(Discipline::Simulation, ODKIT).map(|nanoseconds| 1e9 / nanoseconds);
+
+    let mut text = String::from("| mark | wanted | measured | met |\n|---|--:|--:|---|\n");
+    row(
+        &mut text,
+        "upload at 120 objects: times as fast as the faster of canopen-rs and zencan-node",
+        Wanted::AtLeast(3.0),
+        ratio(faster_peer, ours),
+    );
+    row(
+        &mut text,
+        "upload at 120 objects: times the time of canopen-sdo over a `match`",
+        Wanted::AtMost(2.5),
+        ratio(ours, time(COMPARED, CANOPEN_SDO)),
+    );
+    row(
+        &mut text,
+        "upload: times the time at 5,000 objects, against 120",
+        Wanted::AtMost(1.3),
+        ratio(time(GROWTH.1, ODKIT), time(GROWTH.0, ODKIT)),
+    );
+    row(
+        &mut text,
+        "simulated seconds per second, gxmm with a 1 ms PDO",
+        Wanted::AtLeast(20_000.0),
+        simulated,
+    );
+    text
+}
+
+/// The good side of a mark.
+enum Wanted {
+    AtLeast(f64),
+    AtMost(f64),
+}
+
+fn row(text: &mut String, mark: &str, wanted: Wanted, measured: Option<f64>) {
+    let (sign, bound) = match wanted {
+        Wanted::AtLeast(bound) => ('≥', bound),
+        Wanted::AtMost(bound) => ('≤', bound),
+    };
+    let number = |number: f64| match number {
+        large if large >= 1_000.0 => format!("{large:.0}"),
+        small => format!("{small:.2}"),
+    };
+    let met = measured.map(|measured| match wanted {
+        Wanted::AtLeast(bound) => measured >= bound,
+        Wanted::AtMost(bound) => measured <= bound,
+    });
+    let met = match met {
+        Some(true) => "yes",
+        Some(false) => "**no**",
+        None => "not measured",
+    };
+    let measured = measured.map_or_else(|| "–".to_owned(), number);
+    let bound = number(bound);
+    writeln!(text, "| {mark} | {sign} {bound} | {measured} | {met} |").expect("a String takes all");
+}
+
+fn ratio(dividend: Option<f64>, divisor: Option<f64>) -> Option<f64> {
+    Some(dividend? / divisor?)
+}
+
+fn taken(results: &Results, discipline: Discipline, name: &str) -> bool {
+    results.get(Unit::Nanoseconds, discipline, name).is_some()
+        || results.get(Unit::Instructions, discipline, name).is_some()
+}
+
+fn cell(text: &mut String, content: &str) {
+    write!(text, " {content} |").expect("a String takes all");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn marks_are_judged_on_the_right_side() {
+        let mut results = Results::load(Path::new("there is no such directory"));
+        for (name, time) in [
+            (ODKIT, 30.0),
+            (CANOPEN_RS, 90.0),
+            (ZENCAN, 120.0),
+            (CANOPEN_SDO, 10.0),
+        ] {
+            results.set(Unit::Nanoseconds, COMPARED, name, time);
+        }
+        results.set(Unit::Nanoseconds, GROWTH.1, ODKIT, 36.0);
+        let text = marks(&results);
+        let verdicts: Vec<&str> = text
+            .lines()
+            .skip(2)
+            .filter_map(|line| line.rsplit('|').nth(1))
+            .map(str::trim)
+            .collect();
+        assert_eq!(verdicts, ["yes", "**no**", "yes", "not measured"]);
+    }
+}
