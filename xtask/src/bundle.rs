@@ -11,7 +11,7 @@ use std::process::Command;
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::lock::SetupLock;
-use crate::repo::Repo;
+use crate::repo::{self, Repo};
 use crate::setup::target::{self, Compiler};
 use crate::setup::{binaryen, bindgen, node};
 use crate::stamp::{Fingerprint, Stamp};
@@ -33,8 +33,8 @@ pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
             "there is no {web}/package-lock.json"
         )));
     }
-    bindings(repo, console)?;
     let _lock = SetupLock::acquire(repo, console)?;
+    generate(repo, console)?;
     node::ci(console, &web, "fetching the page's npm packages")?;
     let mut build = node::npm(&web, &["run", "--silent", "build"]);
     console.run("bundling the page", &mut build)?;
@@ -51,6 +51,11 @@ pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
 pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
     node::check()?;
     let _lock = SetupLock::acquire(repo, console)?;
+    generate(repo, console)
+}
+
+/// Steps 1 and 2, for a caller that holds the lock.
+fn generate(repo: &Repo, console: &Console) -> Result<PathBuf> {
     let compiler = Compiler::get(repo, console, target::WASM)?;
     let mut build = cargo(&repo.root, &["build", "--release", "--lib"]);
     build.args(["--package", "od-playground", "--target", target::WASM]);
@@ -88,7 +93,7 @@ pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
     // Without wasm-opt the page is larger and works: only a test has to insist.
     match optimise(repo, console, &module) {
         Ok(()) => stamp.set()?,
-        Err(error) if crate::test::is_ci() => return Err(error),
+        Err(error) if repo::is_ci() => return Err(error),
         Err(error) => {
             console.note(&format!("going on without wasm-opt: {}", error.message()));
         }

@@ -6,6 +6,11 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 
+/// With `CI=true` nothing that can be had is done without.
+pub(crate) fn is_ci() -> bool {
+    env::var("CI").is_ok_and(|value| value == "true" || value == "1")
+}
+
 /// The repository's folders.
 #[derive(Debug, Clone)]
 pub(crate) struct Repo {

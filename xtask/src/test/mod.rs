@@ -4,14 +4,13 @@ mod counts;
 mod report;
 mod stages;
 
-use std::env;
 use std::fs::{self, File};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use crate::console::{Console, say};
 use crate::error::{Error, Result};
-use crate::repo::Repo;
+use crate::repo::{Repo, is_ci};
 use counts::Counts;
 use report::{Outcome, Report};
 use stages::{STAGES, Stage};
@@ -72,11 +71,6 @@ fn known(name: &str) -> Result<String> {
         "no stage `{name}`; there are {}",
         names.join(", ")
     )))
-}
-
-/// With `CI=true` nothing is skipped.
-pub(crate) fn is_ci() -> bool {
-    env::var("CI").is_ok_and(|value| value == "true" || value == "1")
 }
 
 /// What a stage gets to work with.

@@ -18,10 +18,14 @@ const CRATES: [&str; 5] = [
 ];
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
-    run(context, "formatting", &["fmt", "--all", "--check"])?;
-    let bindgen = ["--manifest-path", "xtask/bindgen/Cargo.toml"];
-    let args = [&["fmt"][..], &bindgen, &["--check"]].concat();
-    run(context, "formatting", &args)
+    let check = ["--check", "--", "--color=never"];
+    let bindgen = ["fmt", "--manifest-path", "xtask/bindgen/Cargo.toml"];
+    run(context, "formatting", &[&bindgen[..], &check].concat())?;
+    run(
+        context,
+        "formatting",
+        &[&["fmt", "--all"], &check[..]].concat(),
+    )
 }
 
 pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
