@@ -49,8 +49,10 @@ pub const NOTHING: &str = "(loop alone)";
 pub const CANOPEN_SDO: &str = "canopen-sdo";
 /// A peer.
 pub const CANOPEN_RS: &str = "canopen-rs";
-/// A peer.
+/// A peer, with a critical section that costs nothing.
 pub const ZENCAN: &str = "zencan-node";
+/// The same peer with its default features: feature `zencan-std`.
+pub const ZENCAN_STD: &str = "zencan-node (std)";
 /// We.
 pub const ODKIT: &str = "odkit";
 
@@ -61,7 +63,14 @@ pub fn disciplines() -> impl Iterator<Item = Discipline> {
 }
 
 /// All contenders, in the order of the table.
-pub const NAMES: [&str; 5] = [ODKIT, CANOPEN_RS, ZENCAN, CANOPEN_SDO, NOTHING];
+pub const NAMES: [&str; 6] = [ODKIT, CANOPEN_RS, ZENCAN, ZENCAN_STD, CANOPEN_SDO, NOTHING];
+
+/// Which of the two zencan-nodes was built: they cannot be in one program.
+const ZENCAN_BUILT: &str = if cfg!(feature = "zencan-std") {
+    ZENCAN_STD
+} else {
+    ZENCAN
+};
 
 /// The contender of that name, ready to be measured and found to answer right;
 /// none if it does not take part.
@@ -85,7 +94,7 @@ macro_rules! uploads {
 fn upload(name: &str, size: usize) -> Option<Box<dyn Subject>> {
     match (name, size) {
         (NOTHING, _) => uploads!(Nothing, size),
-        (ZENCAN, _) => uploads!(Zencan::new(size)?, size),
+        (ZENCAN_BUILT, _) => uploads!(Zencan::new(size)?, size),
         (CANOPEN_RS, 16) => uploads!(CanopenRs::<{ 16 + OWN }>::new(size), size),
         (CANOPEN_RS, 120) => uploads!(CanopenRs::<{ 120 + OWN }>::new(size), size),
         (CANOPEN_RS, 1_000) => uploads!(CanopenRs::<{ 1_000 + OWN }>::new(size), size),
@@ -103,7 +112,7 @@ fn pdo(name: &str) -> Option<Box<dyn Subject>> {
         CANOPEN_RS => Some(Box::new(Cycles(CanopenRs::<{ PDO_SIZE + OWN }>::new(
             PDO_SIZE,
         )))),
-        ZENCAN => Some(Box::new(Cycles(Zencan::new(PDO_SIZE)?))),
+        ZENCAN_BUILT => Some(Box::new(Cycles(Zencan::new(PDO_SIZE)?))),
         _ => None,
     }
 }
