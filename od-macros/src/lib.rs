@@ -1,1 +1,130 @@
-//! odkit.
+//! `object_dictionary!`: an EDS file, or rows in the source, become a typed `const`
+//! object dictionary.
+//!
+//! ```
+//! use od_macros::object_dictionary;
+//! use od_model::typed::{Mapping, pdo};
+//!
+//! object_dictionary! {
+//!     /// A thermometer.
+//!     pub mod thermometer {
+//!         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+//!         add 0x1001 { name = "Error register"; type = u8; mappable = true }
+//!         add 0x1018 { code = record; name = "Identity object" }
+//!         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+//!         add 0x2000 { name = "Temperature"; type = i16; mappable = true; low = -400; high = 1250 }
+//!         add 0x2001 { name = "Fahrenheit"; type = bool; access = rw; default = false }
+//!
+//!         variant outdoor {
+//!             modify 0x2000 { low = -900 }
+//!             remove 0x2001;
+//!         }
+//!     }
+//! }
+//!
+//! const TPDO1: Mapping<2> = pdo([thermometer::TEMPERATURE.map(), thermometer::ERROR_REGISTER.map()]);
+//!
+//! let entry = thermometer::DICTIONARY.entry(0x2000, 0).unwrap();
+//! assert_eq!(thermometer::DICTIONARY.text(entry.name), "Temperature");
+//! assert!(thermometer::outdoor::DICTIONARY.entry(0x2001, 0).is_none());
+//! assert_eq!(thermometer::identity_object::VENDOR_ID.address().sub, 1);
+//! ```
+//!
+//! The crate that calls it needs `od-model` beside `od-macros`.
+//!
+//! # Grammar
+//!
+//! ```text
+//! call      = { attribute } [ visibility ] "mod" name "{" { item } "}"
+//! item      = "eds" "=" "path" ";"                 relative to this source file
+//!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
+//!           | { attribute } "variant" name "{" { statement } "}"
+//!           | statement
+//! statement = "add" target "{" fields "}"          what is not there yet
+//!           | "modify" target "{" fields "}"       what is
+//!           | "remove" target ";"
+//!           | "rename" target "=" IDENTIFIER ";"   the handle, not the object
+//! target    = 0x6004 | 0x1018sub2                  sub-indices are hex, as in the EDS
+//! fields    = [ field { ";" field } [ ";" ] ]
+//! field     = "name" "=" "text"
+//!           | "type" "=" u8 … u64, i8 … i64, f32, f64, bool, str, or UNSIGNED24,
+//!                        OCTET_STRING, DOMAIN … as CiA 301 spells them
+//!           | "access" "=" ro | wo | rw | rwr | rww | const
+//!           | "default" "=" value | "low" "=" value | "high" "=" value
+//!           | "mappable" "=" true | false
+//!           | "save" "=" communication | application | manufacturer | none
+//!           | "code" "=" var | array | record | domain
+//! value     = 42 | -1 | 0x1F | 1.5 | true | "text" | b"bytes" | none
+//!           | "$NODEID" [ "+" 0x180 ]              "NODEID" inside macro_rules
+//! ```
+//!
+//! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
+//! mappable unless it says so. A RECORD or an ARRAY is added first and its members
+//! after it; sub-index 0 comes by itself where no `add` gives it. `none` takes a
+//! default or a limit away.
+//!
+//! The statements of the module make the base; each variant starts from it. They
+//! are strict: to edit what is not there is an error, and to add what is, too.
+//!
+//! # What is made
+//!
+//! A module with `DICTIONARY`, `STORE_LEN` and a handle for every value: constants
+//! for VARs, modules of constants for RECORDs and ARRAYs. Names come from the
+//! EDS's: `Device type` is `DEVICE_TYPE`, `Identity object` the module
+//! `identity_object`. What is not a letter or a digit separates words. **Names that
+//! repeat all get their index or sub-index behind**, `RESERVED_2110`, `RESERVED_2111`
+//! or `RESERVED_05`; `rename` gives better ones, and two renames that meet are an
+//! error. Every item's documentation says index, type, access, default, limits and
+//! where it stands in the EDS.
+//!
+//! A variant is a module inside: `thermometer::outdoor` has its own `DICTIONARY` and
+//! hands on those handles that it keeps, so that one which it removed is not found.
+//! It stands inside because it is written inside, takes the family's visibility with
+//! it and can reach what it hands on. The family has one storage layout: **a handle
+//! of the family is good for the store of every variant that keeps the object and
+//! its type**, so code for all variants is written once, with the family's handles.
+//!
+//! # Faults
+//!
+//! All at once: those of the call at their tokens; those of the EDS at its path, the
+//! text says `file:line:column`. The module is made nevertheless from what is
+//! sound, so that one mistake is one error. Warnings do not stop a build: `odkit
+//! check` shows them, the module's documentation has their number.
+//!
+//! A change of the EDS rebuilds. Nothing of its text but names, texts and values is
+//! in the binary.
+
+mod docs;
+mod emit;
+mod family;
+mod fields;
+mod handles;
+mod input;
+mod layout;
+mod lower;
+mod names;
+mod profile;
+mod report;
+mod source;
+mod words;
+
+use proc_macro2::TokenStream;
+
+/// A module with a typed, const object dictionary, from an EDS file or from rows. See the crate.
+#[proc_macro]
+pub fn object_dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    expand(input.into()).into()
+}
+
+/// Parse, build, emit; whatever was wrong is told beside what could be made.
+fn expand(tokens: TokenStream) -> TokenStream {
+    let mut report = report::Report::default();
+    let made = input::Input::read(tokens, &mut report).map(|input| {
+        let source = source::read(&input, &mut report);
+        let family = family::build(&input, &source, &mut report);
+        emit::module(&input, &source, &family)
+    });
+    let mut tokens = report.into_tokens();
+    tokens.extend(made);
+    tokens
+}

@@ -120,11 +120,21 @@ impl DeviceWritable for Rww {}
 /// A PDOMapping flag under which a PDO can carry the value.
 #[diagnostic::on_unimplemented(
     message = "this object cannot be mapped into a PDO",
-    label = "PDOMapping=0 in the EDS",
-    note = "map an object whose EDS section says PDOMapping=1"
+    label = "it has PDOMapping=0",
+    note = "map one whose EDS section says PDOMapping=1, or whose row says `mappable = true`"
 )]
 pub trait Mappable: sealed::Sealed {}
 impl Mappable for Pdo {}
+
+/// Kept by no handle of a text: [`Text::map`] exists to say so.
+#[doc(hidden)]
+#[diagnostic::on_unimplemented(
+    message = "a string or a domain cannot be mapped into a PDO",
+    label = "its length is not known before it is sent",
+    note = "a PDO carries numbers of fixed length; a master reads a text by SDO"
+)]
+pub trait FixedLength {}
+impl FixedLength for Pdo {}
 
 /// Handle of one value: `T` is its Rust type, `A` its access type, `M` its PDO mapping flag.
 ///
@@ -216,6 +226,18 @@ impl<A> Text<A> {
         self.address
     }
 
+    /// Does not compile: no PDO can carry a string. It is here to say so.
+    #[doc(hidden)]
+    pub const fn map(self) -> MapEntry
+    where
+        Self: FixedLength,
+    {
+        MapEntry {
+            address: self.address,
+            bits: 0,
+        }
+    }
+
     /// Where the string stands in the store; two bytes of it are its length.
     pub const fn slot(self) -> Slot {
         self.slot
@@ -257,6 +279,7 @@ impl<const N: usize> Mapping<N> {
 /// Where the entries together are longer than the 64 bits of a CAN frame
 /// (CiA 301, chapter 7.5.2.36: abort 06040042h).
 #[must_use]
+#[track_caller]
 pub const fn pdo<const N: usize>(entries: [MapEntry; N]) -> Mapping<N> {
     let mut bits = 0u32;
     let mut i = 0;

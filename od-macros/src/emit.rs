@@ -1,0 +1,229 @@
+//! Tokens out: tables, handles, and the tracking include.
+//!
+//! Written as text and lexed once: for thousands of entries that is several times
+//! faster than to build the tokens one by one, and easier to read here.
+
+use std::fmt::Write;
+
+use od_model::{Group, Literal, Tables};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use crate::family::{Device, Family};
+use crate::handles::{Body, Handle, Item};
+use crate::input::Input;
+use crate::source::Source;
+
+/// The module that a call makes.
+pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenStream {
+    let Input {
+        attrs,
+        visibility,
+        name,
+        ..
+    } = input;
+    let mut text = String::new();
+    device(&mut text, &family.base, &[]);
+    let body = lex(&text);
+    let track = source
+        .path
+        .as_ref()
+        .and_then(|path| path.to_str())
+        .map(|path| {
+            quote! { const _: &[u8] = ::core::include_bytes!(#path); }
+        });
+    let about = about(source, family);
+    let variants = input
+        .variants
+        .iter()
+        .zip(&family.variants)
+        .map(|(variant, device)| {
+            let mut text = String::new();
+            self::device(&mut text, device, &family.base.items);
+            wrap(&variant.attrs, &variant.name, &lex(&text))
+        });
+    quote! {
+        #(#attrs)*
+        #[doc = #about]
+        #[allow(dead_code, unused_imports, unreachable_pub, clippy::all)]
+        #visibility mod #name {
+            #track
+            #body
+            #(#variants)*
+        }
+    }
+}
+
+fn wrap(attrs: &[syn::Attribute], name: &Ident, body: &TokenStream) -> TokenStream {
+    let about = "A variant: its own dictionary, and the handles that it keeps.";
+    quote! {
+        #(#attrs)*
+        #[doc = #about]
+        pub mod #name { #body }
+    }
+}
+
+fn about(source: &Source, family: &Family) -> String {
+    let objects = family.base.tables.objects.len();
+    let mut text = format!("\n\n{objects} objects");
+    if let Some(shown) = &source.shown {
+        let _ = write!(text, ", from `{shown}`");
+    }
+    text.push('.');
+    let warnings = source.findings.iter().filter(|f| !f.is_error()).count();
+    if warnings > 0 {
+        let _ = write!(text, " `odkit check` has {warnings} remarks on the file.");
+    }
+    text
+}
+
+fn lex(text: &str) -> TokenStream {
+    // The text is made here, from escaped strings and checked identifiers.
+    match text.parse() {
+        Ok(tokens) => tokens,
+        Err(error) => {
+            let message = format!("odkit made code that does not lex, please report this: {error}");
+            quote! { ::core::compile_error!(#message); }
+        }
+    }
+}
+
+/// Everything in the module of one device; what `family` has alike, a variant hands on.
+fn device(out: &mut String, device: &Device, family: &[Item]) {
+    out.push_str("use ::od_model::typed::emit::*;\n");
+    dictionary(out, &device.tables);
+    let mut handed_on = Vec::new();
+    for item in &device.items {
+        match family.iter().find(|other| other.index == item.index) {
+            Some(other) if other.alike(item) => {
+                handed_on.push(hand_on(&other.name, &item.name));
+            }
+            other => self::item(out, item, other),
+        }
+    }
+    if !handed_on.is_empty() {
+        let _ = writeln!(out, "pub use super::{{{}}};", handed_on.join(", "));
+    }
+}
+
+fn hand_on(from: &str, to: &str) -> String {
+    match from == to {
+        true => from.to_string(),
+        false => format!("{from} as {to}"),
+    }
+}
+
+fn item(out: &mut String, item: &Item, family: Option<&Item>) {
+    match &item.body {
+        Body::Value(handle) => constant(out, item.index, handle),
+        Body::Members(handles) => {
+            let _ = writeln!(
+                out,
+                "#[doc = {:?}] pub mod {} {{ use ::od_model::typed::emit::*;",
+                item.doc, item.name
+            );
+            let mut handed_on = Vec::new();
+            for handle in handles {
+                let others = family.map(Item::members).unwrap_or_default();
+                match others.iter().find(|other| other.alike(handle)) {
+                    Some(other) => handed_on.push(hand_on(&other.name, &handle.name)),
+                    None => constant(out, item.index, handle),
+                }
+            }
+            if let (Some(family), false) = (family, handed_on.is_empty()) {
+                let list = handed_on.join(", ");
+                let _ = writeln!(out, "pub use super::super::{}::{{{list}}};", family.name);
+            }
+            out.push_str("}\n");
+        }
+    }
+}
+
+fn constant(out: &mut String, index: u16, handle: &Handle) {
+    let Handle {
+        name,
+        doc,
+        sub,
+        slot,
+        ..
+    } = handle;
+    let rust_type = handle.rust_type();
+    let _ = write!(out, "#[doc = {doc:?}] pub const {name}: {rust_type} = ");
+    let (offset, len) = (slot.offset, slot.len);
+    let _ = match handle.data_type.bits() {
+        Some(bits) => writeln!(out, "__v({index:#06X}, {sub}, {offset}, {len}, {bits});"),
+        None => writeln!(out, "__t({index:#06X}, {sub}, {offset}, {len});"),
+    };
+}
+
+/// `DICTIONARY` with its tables inside, so that they need no names outside.
+fn dictionary(out: &mut String, tables: &Tables) {
+    let objects = tables.objects.len();
+    let entries = tables.entries.len();
+    let _ = write!(
+        out,
+        "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
+pub const DICTIONARY: ::od_model::Dictionary<'static> = {{
+use ::od_model::typed::emit::table::*;
+static INDICES: [u16; {objects}] = ["
+    );
+    for index in &tables.indices {
+        let _ = write!(out, "{index:#06X},");
+    }
+    let _ = write!(out, "];\nstatic OBJECTS: [Object; {objects}] = [");
+    for o in &tables.objects {
+        let _ = writeln!(
+            out,
+            "o({:#06X},C::{:?},{},{},{},{}),",
+            o.index, o.code, o.name.start, o.name.len, o.first, o.count
+        );
+    }
+    let _ = write!(out, "];\nstatic ENTRIES: [Entry; {entries}] = [");
+    for e in &tables.entries {
+        let group = match e.group {
+            Group::None => "N",
+            Group::Communication => "C",
+            Group::Application => "A",
+            Group::Manufacturer => "M",
+        };
+        let _ = write!(
+            out,
+            "e({:#06X},{},T::{:?},A::{:?},{},G{group},{},{},",
+            e.address.index,
+            e.address.sub,
+            e.data_type,
+            e.access,
+            e.mappable,
+            e.name.start,
+            e.name.len
+        );
+        for value in [e.default, e.low, e.high] {
+            literal(out, value);
+        }
+        let _ = writeln!(out, "{},{}),", e.slot.offset, e.slot.len);
+    }
+    let blob = tables.blob.escape_ascii();
+    let text = &tables.text;
+    let _ = write!(
+        out,
+        "];
+::od_model::Dictionary::new(&INDICES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\")
+}};
+#[doc = \"Bytes that a store of the values needs.\"]
+pub const STORE_LEN: usize = DICTIONARY.store_len();
+"
+    );
+}
+
+fn literal(out: &mut String, value: Literal) {
+    let _ = match value {
+        Literal::None => write!(out, "N,"),
+        Literal::Unsigned(v) => write!(out, "U({v}),"),
+        Literal::Signed(v) => write!(out, "S({v}),"),
+        Literal::Real(v) if v.is_finite() => write!(out, "R({v:?}),"),
+        Literal::Real(v) => write!(out, "R(f64::from_bits({})),", v.to_bits()),
+        Literal::NodeId(v) => write!(out, "D({v}),"),
+        Literal::Text(range) => write!(out, "t({},{}),", range.start, range.len),
+        Literal::Bytes(range) => write!(out, "b({},{}),", range.start, range.len),
+    };
+}

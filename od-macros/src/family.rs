@@ -1,0 +1,198 @@
+//! A base and its variants: edits applied, rules checked, handles named.
+
+use std::collections::BTreeSet;
+
+use od_model::patch::{self, Edit};
+use od_model::{Address, Description, Diagnostic, Tables};
+use proc_macro2::Span;
+
+use crate::handles::{self, Item, Naming};
+use crate::input::{Input, Statement};
+use crate::report::{Place, Report};
+use crate::source::Source;
+use crate::{layout, lower};
+
+/// What a call describes.
+pub(crate) struct Family {
+    pub(crate) base: Device,
+    /// In the order of the call's variants.
+    pub(crate) variants: Vec<Device>,
+}
+
+/// One device.
+pub(crate) struct Device {
+    pub(crate) tables: Tables,
+    pub(crate) items: Vec<Item>,
+}
+
+/// Builds all there is to build; what is wrong goes to `report`.
+pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Family {
+    // Without the file nothing is known to be wrong: one mistake, one error.
+    // The same after a fault of grammar.
+    let quiet = !report.is_empty();
+    let home = match &input.eds {
+        Some(path) => path.span(),
+        None => input.name.span(),
+    };
+    let file = source.shown.as_deref();
+    let told = Findings { home, file, quiet };
+
+    let mut base = source.description.clone();
+    let found = told.patch(
+        &mut base,
+        &source.description,
+        &input.statements,
+        home,
+        "",
+        report,
+    );
+    let mut eds = source.findings.clone();
+    eds.extend(
+        found
+            .iter()
+            .filter(|f| !source.findings.contains(f))
+            .cloned(),
+    );
+    eds.sort_by_key(|finding| finding.span.map_or(0, |span| span.start));
+    told.tell(&eds, &base, report);
+    if let (Some(profile), false) = (&input.profile, quiet) {
+        crate::profile::check(profile, &base, report);
+    }
+
+    let variants: Vec<Description> = input
+        .variants
+        .iter()
+        .map(|variant| {
+            let mut description = base.clone();
+            let context = format!("variant `{}`: ", variant.name);
+            told.patch(
+                &mut description,
+                &base,
+                &variant.statements,
+                variant.name.span(),
+                &context,
+                report,
+            );
+            description
+        })
+        .collect();
+    devices(input, source, base, variants, report)
+}
+
+fn devices(
+    input: &Input,
+    source: &Source,
+    base: Description,
+    variants: Vec<Description>,
+    report: &mut Report,
+) -> Family {
+    let mut tables = Tables::new(&base);
+    let mut others: Vec<Tables> = variants.iter().map(Tables::new).collect();
+    let mut all: Vec<&mut Tables> = std::iter::once(&mut tables).chain(&mut others).collect();
+    layout::lay_out(&mut all);
+
+    let file = source.shown.as_deref().unwrap_or_default();
+    let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
+    let modules = input.variants.iter().map(|v| v.name.to_string()).collect();
+    let naming = Naming {
+        file,
+        family: &[],
+        modules,
+        statements: &input.statements,
+    };
+    let items = handles::items(&base, &tables, &naming, report);
+    let mut family = Family {
+        base: Device { tables, items },
+        variants: Vec::new(),
+    };
+    for ((variant, description), tables) in input.variants.iter().zip(variants).zip(others) {
+        let naming = Naming {
+            file,
+            family: &family.base.items,
+            modules: BTreeSet::new(),
+            statements: &variant.statements,
+        };
+        let items = handles::items(&description, &tables, &naming, report);
+        family.variants.push(Device { tables, items });
+    }
+    family
+}
+
+/// Where findings go.
+struct Findings<'a> {
+    home: Span,
+    file: Option<&'a str>,
+    quiet: bool,
+}
+
+impl Findings<'_> {
+    /// Applies statements to `description`, which is still `before`, and checks the result.
+    ///
+    /// Faults of the statements are told. What the checks find in a base is
+    /// returned; what they find in a variant that was not there `before` is told
+    /// at the edit that made it, or at `home`.
+    fn patch(
+        &self,
+        description: &mut Description,
+        before: &Description,
+        statements: &[Statement],
+        home: Span,
+        context: &str,
+        report: &mut Report,
+    ) -> Vec<Diagnostic> {
+        let edits = lower::edits(statements, report);
+        let mut findings = patch::apply(description, &edits);
+        findings.extend(handles::check_renames(statements, description, report));
+        if self.quiet {
+            return Vec::new();
+        }
+        if !findings.is_empty() {
+            self.tell(&findings, description, report);
+            return Vec::new();
+        }
+        let findings = od_model::check::check(description);
+        if edits.is_empty() {
+            return if context.is_empty() {
+                findings
+            } else {
+                Vec::new()
+            };
+        }
+        let known = match before.objects.is_empty() {
+            true => Vec::new(),
+            false => od_model::check::check(before),
+        };
+        let (old, new): (Vec<_>, Vec<_>) = findings.into_iter().partition(|f| known.contains(f));
+        for finding in new.iter().filter(|f| f.is_error()) {
+            let at = report
+                .token(finding)
+                .or_else(|| self.culprit(finding, &edits, report))
+                .unwrap_or(home.into());
+            report.blame(at, context, finding, self.file, &|a| {
+                name_of(description, a)
+            });
+        }
+        if context.is_empty() { old } else { Vec::new() }
+    }
+
+    /// The last edit of the object that a finding is about.
+    fn culprit(&self, finding: &Diagnostic, edits: &[Edit], report: &Report) -> Option<Place> {
+        let address = finding.address?;
+        let edit = edits
+            .iter()
+            .rev()
+            .find(|edit| edit.target.index == address.index)?;
+        report.span(edit.target.span)
+    }
+
+    fn tell(&self, findings: &[Diagnostic], description: &Description, report: &mut Report) {
+        report.findings(findings, self.home, self.file, &|a| name_of(description, a));
+    }
+}
+
+fn name_of(description: &Description, address: Address) -> Option<String> {
+    match description.entry(address) {
+        Some(entry) => Some(entry.name.value.clone()),
+        None => Some(description.objects.get(&address.index)?.name.value.clone()),
+    }
+}

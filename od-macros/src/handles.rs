@@ -1,0 +1,356 @@
+//! Which typed handles a device has, and what they are called.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_model::patch::{self, Target};
+use od_model::{Access, DataType, Description, Kind, Slot, Spanned, Tables};
+use proc_macro2::Ident;
+
+use crate::input::{At, Statement};
+use crate::report::Report;
+use crate::{docs, names};
+
+/// What stands for one object in the module.
+#[derive(Clone, PartialEq)]
+pub(crate) struct Item {
+    pub(crate) index: u16,
+    /// The object's name in the description.
+    label: String,
+    pub(crate) name: String,
+    pub(crate) doc: String,
+    pub(crate) body: Body,
+}
+
+/// A constant, or a module of constants.
+#[derive(Clone, PartialEq)]
+pub(crate) enum Body {
+    Value(Handle),
+    Members(Vec<Handle>),
+}
+
+/// One constant.
+#[derive(Clone, PartialEq)]
+pub(crate) struct Handle {
+    pub(crate) sub: u8,
+    label: String,
+    pub(crate) name: String,
+    pub(crate) doc: String,
+    pub(crate) data_type: DataType,
+    pub(crate) access: Access,
+    pub(crate) mappable: bool,
+    pub(crate) slot: Slot,
+}
+
+/// Names that the module needs for itself.
+const CONSTANTS: [&str; 2] = ["DICTIONARY", "STORE_LEN"];
+
+/// What bears on names besides the description.
+pub(crate) struct Naming<'a> {
+    /// The EDS file's name, for the docs.
+    pub(crate) file: &'a str,
+    /// The family's items: a variant calls what it keeps by the same names.
+    pub(crate) family: &'a [Item],
+    /// Module names that are not free: the variants'.
+    pub(crate) modules: BTreeSet<String>,
+    /// The statements with the renames.
+    pub(crate) statements: &'a [Statement],
+}
+
+/// The items of everything in `tables`, which `description` explains.
+pub(crate) fn items(
+    description: &Description,
+    tables: &Tables,
+    naming: &Naming<'_>,
+    report: &mut Report,
+) -> Vec<Item> {
+    let mut items = Vec::new();
+    for object in &tables.objects {
+        let Some(about) = description.objects.get(&object.index) else {
+            continue;
+        };
+        let first = object.first as usize;
+        let entries = tables
+            .entries
+            .iter()
+            .skip(first)
+            .take(object.count as usize);
+        let handles: Vec<Handle> = entries
+            .filter_map(|entry| {
+                let described = about.entries.get(&entry.address.sub)?;
+                Some(Handle {
+                    sub: entry.address.sub,
+                    label: described.name.value.clone(),
+                    name: String::new(),
+                    doc: docs::entry(entry.address, described, entry.data_type, naming.file),
+                    data_type: entry.data_type,
+                    access: entry.access,
+                    mappable: entry.mappable,
+                    slot: entry.slot,
+                })
+            })
+            .collect();
+        let single = !about.code.has_members() && handles.len() == 1;
+        let (doc, body) = match handles.first() {
+            Some(handle) if single => (handle.doc.clone(), Body::Value(handle.clone())),
+            _ => {
+                let doc = docs::object(object.index, about, naming.file);
+                (doc, Body::Members(handles))
+            }
+        };
+        items.push(Item {
+            index: object.index,
+            label: about.name.value.clone(),
+            name: String::new(),
+            doc,
+            body,
+        });
+    }
+    name_items(&mut items, naming, report);
+    items
+}
+
+fn name_items(items: &mut [Item], naming: &Naming<'_>, report: &mut Report) {
+    let renames: BTreeMap<Target, &Ident> = naming
+        .statements
+        .iter()
+        .filter_map(|statement| match statement {
+            Statement::Rename { target, name } => Some((target.target, name)),
+            Statement::Edit { .. } => None,
+        })
+        .collect();
+    let kept: BTreeMap<u16, &Item> = naming
+        .family
+        .iter()
+        .map(|item| (item.index, item))
+        .collect();
+    for modules in [false, true] {
+        let wanted: Vec<Wanted> = items
+            .iter()
+            .filter(|item| item.is_module() == modules)
+            .map(|item| Wanted {
+                target: Target::object(item.index),
+                derived: match modules {
+                    true => names::module(&item.label, item.index),
+                    false => names::constant(&item.label, item.index, None),
+                },
+                kept: kept
+                    .get(&item.index)
+                    .filter(|kept| kept.label == item.label && kept.is_module() == modules)
+                    .map(|kept| kept.name.clone()),
+            })
+            .collect();
+        let taken = match modules {
+            true => naming.modules.clone(),
+            false => CONSTANTS.map(String::from).into(),
+        };
+        let named = assign(&wanted, &taken, &renames, modules, report);
+        for item in items.iter_mut() {
+            if let Some(name) = named.get(&Target::object(item.index)) {
+                item.name.clone_from(name);
+            }
+        }
+    }
+    for item in items {
+        let index = item.index;
+        match &mut item.body {
+            Body::Value(handle) => handle.name.clone_from(&item.name),
+            Body::Members(handles) => {
+                let kept = kept
+                    .get(&index)
+                    .map(|item| item.members())
+                    .unwrap_or_default();
+                let wanted: Vec<Wanted> = handles
+                    .iter()
+                    .map(|handle| Wanted {
+                        target: Target::member(index, handle.sub),
+                        derived: names::constant(&handle.label, index, Some(handle.sub)),
+                        kept: kept
+                            .iter()
+                            .find(|kept| kept.sub == handle.sub && kept.label == handle.label)
+                            .map(|kept| kept.name.clone()),
+                    })
+                    .collect();
+                let named = assign(&wanted, &BTreeSet::new(), &renames, false, report);
+                for handle in handles {
+                    if let Some(name) = named.get(&Target::member(index, handle.sub)) {
+                        handle.name.clone_from(name);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// One thing that needs a name.
+struct Wanted {
+    target: Target,
+    derived: String,
+    kept: Option<String>,
+}
+
+/// Names for everything of one scope: the renamed as the user says, the rest derived.
+fn assign(
+    wanted: &[Wanted],
+    taken: &BTreeSet<String>,
+    renames: &BTreeMap<Target, &Ident>,
+    modules: bool,
+    report: &mut Report,
+) -> BTreeMap<Target, String> {
+    let renamed = |w: &&Wanted| renames.contains_key(&w.target);
+    let kept = wanted.iter().filter(|w| !renamed(w)).filter_map(|w| {
+        let name = w.kept.clone()?;
+        Some((w.target, name))
+    });
+    let mut named: BTreeMap<Target, String> = kept.collect();
+    let fresh: Vec<(Target, String)> = wanted
+        .iter()
+        .filter(|w| !named.contains_key(&w.target))
+        .map(|w| (w.target, w.derived.clone()))
+        .collect();
+    let mut used = taken.clone();
+    used.extend(named.values().cloned());
+    let fresh = names::distinct(&fresh, &used, |target| match target.sub {
+        None if modules => format!("{:04x}", target.index),
+        None => format!("{:04X}", target.index),
+        Some(sub) => format!("{sub:02X}"),
+    });
+    named.extend(fresh);
+    let derived = named.clone();
+    for want in wanted {
+        if let Some(ident) = renames.get(&want.target) {
+            named.insert(want.target, ident.to_string());
+        }
+    }
+    for want in wanted {
+        let Some(ident) = renames.get(&want.target) else {
+            continue;
+        };
+        let name = ident.to_string();
+        let other = named
+            .iter()
+            .find(|(key, n)| **key != want.target && **n == name);
+        let fault = match (other, taken.contains(&name)) {
+            (Some((other, _)), _) => Some(format!(
+                "there are two handles `{name}`: of {other} and of {}\nhelp: rename one of them to something else",
+                want.target
+            )),
+            (None, true) => Some(format!(
+                "`{name}` is what the module itself has\nhelp: choose another name for {}",
+                want.target
+            )),
+            (None, false) => miswritten(&name, want.target, modules),
+        };
+        if let Some(fault) = fault {
+            report.at(ident.span(), fault);
+            if let Some(name) = derived.get(&want.target) {
+                named.insert(want.target, name.clone());
+            }
+        }
+    }
+    named
+}
+
+fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
+    let (right, what) = match modules {
+        true => (name.to_ascii_lowercase(), "a RECORD or ARRAY, a module"),
+        false if target.sub.is_some() => (name.to_ascii_uppercase(), "a member, a constant"),
+        false => (name.to_ascii_uppercase(), "a VAR, a constant"),
+    };
+    (right != name).then(|| {
+        format!(
+            "{target} is {what}: its name is written like one\nhelp: `rename {target} = {right};`"
+        )
+    })
+}
+
+/// Tells the renames of what is not there.
+pub(crate) fn check_renames(
+    statements: &[Statement],
+    description: &Description,
+    report: &mut Report,
+) -> Vec<od_model::Diagnostic> {
+    let mut findings = Vec::new();
+    let mut seen = BTreeSet::new();
+    for statement in statements {
+        let Statement::Rename {
+            target: At { target, span },
+            ..
+        } = statement
+        else {
+            continue;
+        };
+        let at = Spanned::new(*target, report.number(*span));
+        findings.extend(patch::missing(description, &at));
+        if !seen.insert(*target) {
+            report.at(*span, format!("{target} is renamed twice"));
+        }
+    }
+    findings
+}
+
+impl Item {
+    pub(crate) fn is_module(&self) -> bool {
+        matches!(self.body, Body::Members(_))
+    }
+
+    /// Is it the same but for the name?
+    pub(crate) fn alike(&self, other: &Self) -> bool {
+        self.doc == other.doc
+            && match (&self.body, &other.body) {
+                (Body::Value(a), Body::Value(b)) => a.alike(b),
+                (a, b) => a == b,
+            }
+    }
+
+    /// The handles of a module; none of a constant.
+    pub(crate) fn members(&self) -> &[Handle] {
+        match &self.body {
+            Body::Value(_) => &[],
+            Body::Members(handles) => handles,
+        }
+    }
+}
+
+impl Handle {
+    /// Is it the same but for the name?
+    pub(crate) fn alike(&self, other: &Self) -> bool {
+        let all = |h: &Self| (h.sub, h.data_type, h.access, h.mappable, h.slot);
+        all(self) == all(other) && self.doc == other.doc
+    }
+
+    /// The handle's Rust type, as generated code names it.
+    pub(crate) fn rust_type(&self) -> String {
+        let access = match self.access {
+            Access::Ro => "Ro",
+            Access::Wo => "Wo",
+            Access::Rw => "Rw",
+            Access::Rwr => "Rwr",
+            Access::Rww => "Rww",
+            Access::Const => "Const",
+        };
+        match (scalar(self.data_type), self.mappable) {
+            (None, _) => format!("Text<{access}>"),
+            (Some(scalar), false) => format!("Var<{scalar}, {access}>"),
+            (Some(scalar), true) => format!("Var<{scalar}, {access}, Pdo>"),
+        }
+    }
+}
+
+/// The Rust type that holds a value of this type; `None` for strings and domains.
+fn scalar(data_type: DataType) -> Option<&'static str> {
+    let bits = data_type.bits()?;
+    Some(match (data_type.kind(), bits) {
+        (Kind::Boolean, _) => "bool",
+        (Kind::Unsigned, ..=8) => "u8",
+        (Kind::Unsigned, ..=16) => "u16",
+        (Kind::Unsigned, ..=32) => "u32",
+        (Kind::Unsigned, _) => "u64",
+        (Kind::Signed, ..=8) => "i8",
+        (Kind::Signed, ..=16) => "i16",
+        (Kind::Signed, ..=32) => "i32",
+        (Kind::Signed, _) => "i64",
+        (Kind::Real, ..=32) => "f32",
+        (Kind::Real, _) => "f64",
+        (Kind::Text | Kind::Bytes | Kind::Record, _) => return None,
+    })
+}

@@ -1,0 +1,366 @@
+//! Tokens to AST: the grammar of `object_dictionary!`, and nothing that it means.
+//!
+//! Parsing goes on after a fault at the next statement, so that all faults of a
+//! call are told at once.
+
+use od_model::patch::{Action, Target};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use syn::parse::{Parse, ParseStream};
+use syn::{Attribute, LitInt, LitStr, Token, Visibility, braced, ext::IdentExt};
+
+use crate::fields::{self, Field};
+use crate::report::Report;
+use crate::words;
+
+/// One call of the macro.
+pub(crate) struct Input {
+    pub(crate) attrs: Vec<Attribute>,
+    pub(crate) visibility: Visibility,
+    pub(crate) name: Ident,
+    pub(crate) eds: Option<LitStr>,
+    pub(crate) profile: Option<Ident>,
+    /// `add`, `modify`, `remove` and `rename` outside of the variants, in their order.
+    pub(crate) statements: Vec<Statement>,
+    pub(crate) variants: Vec<Variant>,
+}
+
+/// `variant name { … }`.
+pub(crate) struct Variant {
+    pub(crate) attrs: Vec<Attribute>,
+    pub(crate) name: Ident,
+    pub(crate) statements: Vec<Statement>,
+}
+
+/// One statement about one object.
+pub(crate) enum Statement {
+    Edit {
+        action: Action,
+        target: At,
+        fields: Vec<Field>,
+    },
+    Rename {
+        target: At,
+        name: Ident,
+    },
+}
+
+/// `0x1018sub2`, with its token's place.
+#[derive(Clone, Copy)]
+pub(crate) struct At {
+    pub(crate) target: Target,
+    pub(crate) span: Span,
+}
+
+impl Input {
+    /// Reads a call; `None` where there is not even a module to make.
+    pub(crate) fn read(tokens: TokenStream, report: &mut Report) -> Option<Self> {
+        let mut input = None;
+        let parser = |stream: ParseStream| {
+            input = Some(Self::module(stream, report)?);
+            if !stream.is_empty() {
+                let help = "one call makes one module: put variants inside it, and other devices into their own call";
+                report.at(
+                    stream.span(),
+                    format!("unexpected tokens behind the module\nhelp: {help}"),
+                );
+                skip_all(stream);
+            }
+            Ok(())
+        };
+        if let Err(error) = syn::parse::Parser::parse2(parser, tokens) {
+            report.push(error);
+        }
+        input
+    }
+
+    fn module(stream: ParseStream, report: &mut Report) -> syn::Result<Self> {
+        if stream.is_empty() {
+            return Err(syn::Error::new(
+                Span::call_site(),
+                "expected a module\nhelp: `object_dictionary! { pub mod my_device { eds = \"my_device.eds\"; } }`",
+            ));
+        }
+        let attrs = stream.call(Attribute::parse_outer)?;
+        let visibility = stream.parse()?;
+        if !stream.peek(Token![mod]) {
+            return Err(stream.error(
+                "expected `mod`\nhelp: the macro makes a module: `pub mod my_device { eds = \"my_device.eds\"; }`",
+            ));
+        }
+        stream.parse::<Token![mod]>()?;
+        let mut input = Self {
+            attrs,
+            visibility,
+            name: stream.parse()?,
+            eds: None,
+            profile: None,
+            statements: Vec::new(),
+            variants: Vec::new(),
+        };
+        let body;
+        braced!(body in stream);
+        while !body.is_empty() {
+            let result = input.item(&body, report);
+            recover(&body, result, report);
+        }
+        Ok(input)
+    }
+
+    fn item(&mut self, body: ParseStream, report: &mut Report) -> syn::Result<()> {
+        let attrs = body.call(Attribute::parse_outer)?;
+        let word = Ident::parse_any(&body.fork()).ok();
+        let word = word.as_ref().map(Ident::to_string).unwrap_or_default();
+        if word != "variant" {
+            refuse(&attrs, report);
+        }
+        match word.as_str() {
+            "eds" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                let path: LitStr = body.parse().map_err(|e| {
+                    syn::Error::new(e.span(), "expected the path of an EDS file\nhelp: `eds = \"my_device.eds\";`, relative to this source file")
+                })?;
+                semicolon(body, path.span(), report)?;
+                match self.eds {
+                    None => self.eds = Some(path),
+                    Some(_) => report.at(key.span(), "`eds` is given twice\nhelp: a family has one EDS file; say what differs in a `variant`"),
+                }
+            }
+            "profile" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                let profile: Ident = body.parse().map_err(|e| {
+                    syn::Error::new(e.span(), "expected a profile\nhelp: `profile = cia406;`")
+                })?;
+                semicolon(body, profile.span(), report)?;
+                match self.profile {
+                    None => self.profile = Some(profile),
+                    Some(_) => report.at(key.span(), "`profile` is given twice"),
+                }
+            }
+            "variant" => {
+                Ident::parse_any(body)?;
+                let name: Ident = body.parse()?;
+                let inner;
+                braced!(inner in body);
+                let mut statements = Vec::new();
+                while !inner.is_empty() {
+                    refuse(&inner.call(Attribute::parse_outer)?, report);
+                    let result = statement(&inner, IN_VARIANT, report);
+                    statements.extend(recover(&inner, result, report));
+                }
+                if self.variants.iter().any(|variant| variant.name == name) {
+                    report.at(name.span(), format!("there are two variants `{name}`"));
+                    return Ok(());
+                }
+                self.variants.push(Variant {
+                    attrs,
+                    name,
+                    statements,
+                });
+            }
+            _ => self.statements.push(statement(body, IN_MODULE, report)?),
+        }
+        Ok(())
+    }
+}
+
+const STATEMENTS: [&str; 7] = [
+    "add", "modify", "remove", "rename", "variant", "eds", "profile",
+];
+const IN_MODULE: &str = "`eds`, `profile`, `add`, `modify`, `remove`, `rename` or `variant`";
+const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
+
+fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
+    let expected = || format!("expected {allowed}");
+    let word = Ident::parse_any(body).map_err(|e| syn::Error::new(e.span(), expected()))?;
+    let action = match word.to_string().as_str() {
+        "add" => Action::Add,
+        "modify" => Action::Modify,
+        "remove" => {
+            let target: At = body.parse()?;
+            semicolon(body, target.span, report)?;
+            return Ok(Statement::Edit {
+                action: Action::Remove,
+                target,
+                fields: Vec::new(),
+            });
+        }
+        "rename" => {
+            let target = body.parse()?;
+            body.parse::<Token![=]>()?;
+            let name: Ident = body.parse().map_err(|e| {
+                syn::Error::new(
+                    e.span(),
+                    "expected the handle's new name\nhelp: `rename 0x6004 = POSITION;`",
+                )
+            })?;
+            semicolon(body, name.span(), report)?;
+            return Ok(Statement::Rename { target, name });
+        }
+        "eds" | "profile" | "variant" => {
+            return Err(syn::Error::new(
+                word.span(),
+                format!(
+                    "`{word}` stands in the module, not in a variant\nhelp: a variant takes {allowed}"
+                ),
+            ));
+        }
+        other => {
+            let message = match words::near(other, STATEMENTS.into_iter()) {
+                Some(meant) => {
+                    format!("there is no statement `{other}`\nhelp: did you mean `{meant}`?")
+                }
+                None => format!("there is no statement `{other}`\nhelp: {}", expected()),
+            };
+            return Err(syn::Error::new(word.span(), message));
+        }
+    };
+    let target: At = body.parse()?;
+    if !body.peek(syn::token::Brace) {
+        let help = match action {
+            Action::Add => format!("`add {} {{ name = \"…\"; type = u16 }}`", target.target),
+            _ => format!("`modify {} {{ default = 0 }}`", target.target),
+        };
+        return Err(syn::Error::new(
+            target.span,
+            format!(
+                "expected the fields of {} in braces\nhelp: {help}",
+                target.target
+            ),
+        ));
+    }
+    let inner;
+    braced!(inner in body);
+    let fields = fields::read(&inner, report);
+    // A semicolon behind the brace is harmless and easily typed.
+    let _ = body.parse::<Option<Token![;]>>()?;
+    if action == Action::Modify && fields.is_empty() {
+        report.at(
+            target.span,
+            format!(
+                "`modify {}` changes nothing\nhelp: say what, for example `{{ default = 0 }}`",
+                target.target
+            ),
+        );
+    }
+    Ok(Statement::Edit {
+        action,
+        target,
+        fields,
+    })
+}
+
+impl Parse for At {
+    fn parse(stream: ParseStream) -> syn::Result<Self> {
+        let literal: LitInt = stream.parse().map_err(|e| {
+            syn::Error::new(
+                e.span(),
+                "expected an object\nhelp: an index in hex, `0x6004`, or a member, `0x1018sub2`",
+            )
+        })?;
+        let span = literal.span();
+        let text = literal.to_string().replace('_', "");
+        parse_target(&text)
+            .map(|target| Self { target, span })
+            .map_err(|message| syn::Error::new(span, message))
+    }
+}
+
+/// `0x1018sub2` as rustc lexes it: one integer literal, `sub2` its suffix.
+fn parse_target(text: &str) -> Result<Target, String> {
+    let lower = text.to_ascii_lowercase();
+    let Some(hex) = lower.strip_prefix("0x") else {
+        let help = match text.parse::<u16>() {
+            Ok(index) => format!("`0x{text}`; or `0x{index:04X}`, which is {text}"),
+            Err(_) => "for example `0x6004` or `0x1018sub2`".to_string(),
+        };
+        return Err(format!("an index is written in hex\nhelp: {help}"));
+    };
+    let (index, sub) = match hex.split_once("sub") {
+        Some((index, sub)) => (index, Some(sub)),
+        None => (hex, None),
+    };
+    let index = u16::from_str_radix(index, 16).map_err(|_| {
+        format!("`{text}` is not an index\nhelp: four hex digits, `0x0001` to `0xFFFF`")
+    })?;
+    let sub = match sub {
+        None => None,
+        Some(sub) => Some(u8::from_str_radix(sub, 16).map_err(|_| {
+            format!("`{text}` has no sub-index\nhelp: up to two hex digits behind `sub`: `0x{index:04X}sub0` to `0x{index:04X}subFF`")
+        })?),
+    };
+    Ok(Target { index, sub })
+}
+
+/// The end of a statement. Where only that is missing, the statement still counts.
+fn semicolon(body: ParseStream, last: Span, report: &mut Report) -> syn::Result<()> {
+    if body.parse::<Option<Token![;]>>()?.is_some() {
+        return Ok(());
+    }
+    if body.is_empty() || starts_statement(body) {
+        report.at(last, "expected `;` behind this");
+        return Ok(());
+    }
+    Err(syn::Error::new(body.span(), "expected `;`"))
+}
+
+fn refuse(attrs: &[Attribute], report: &mut Report) {
+    for attr in attrs {
+        report.tokens(
+            attr,
+            "only the module and its variants take attributes and doc comments",
+        );
+    }
+}
+
+/// Tells a fault and goes to where the next statement may begin.
+fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) -> Option<T> {
+    let error = match result {
+        Ok(value) => return Some(value),
+        Err(error) => error,
+    };
+    report.push(error);
+    while !body.is_empty() && !starts_statement(body) {
+        match body.parse::<TokenTree>() {
+            Ok(TokenTree::Punct(p)) if p.as_char() == ';' => break,
+            Ok(TokenTree::Group(g)) if g.delimiter() == proc_macro2::Delimiter::Brace => break,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn starts_statement(body: ParseStream) -> bool {
+    let word = Ident::parse_any(&body.fork()).map(|word| word.to_string());
+    word.is_ok_and(|word| STATEMENTS.contains(&word.as_str()))
+}
+
+fn skip_all(stream: ParseStream) {
+    while stream.parse::<TokenTree>().is_ok() {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_are_spelled_as_in_the_eds() {
+        assert_eq!(parse_target("0x6004"), Ok(Target::object(0x6004)));
+        assert_eq!(parse_target("0x1018sub2"), Ok(Target::member(0x1018, 2)));
+        assert_eq!(
+            parse_target("0x1a00Sub1F"),
+            Ok(Target::member(0x1A00, 0x1F))
+        );
+        for bad in [
+            "6004",
+            "0x1018sub",
+            "0x1018sub100",
+            "0x12345",
+            "0x1018u8",
+            "0x",
+        ] {
+            assert!(parse_target(bad).is_err(), "{bad}");
+        }
+    }
+}

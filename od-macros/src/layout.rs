@@ -1,0 +1,36 @@
+//! One storage layout for a whole family.
+//!
+//! A value has the same place in the store of every variant that has it with the
+//! same type. So a handle of the family is good for all of them, and a variant
+//! can hand it on instead of making its own.
+
+use std::collections::BTreeMap;
+
+use od_model::{Address, Slot, Tables};
+
+/// Gives every stored value of the family its place; strings get the room of the longest.
+pub(crate) fn lay_out(family: &mut [&mut Tables]) {
+    let mut places: BTreeMap<(Address, u16), Slot> = BTreeMap::new();
+    let stored = |tables: &Tables| {
+        let stored = tables.entries.iter().filter(|entry| entry.slot.len > 0);
+        stored
+            .map(|entry| ((entry.address, entry.data_type.code()), entry.slot.len))
+            .collect::<Vec<_>>()
+    };
+    for (key, len) in family.iter().flat_map(|tables| stored(tables)) {
+        let place = places.entry(key).or_default();
+        place.len = place.len.max(len);
+    }
+    let mut offset = 0;
+    for place in places.values_mut() {
+        place.offset = offset;
+        offset += u32::from(place.len);
+    }
+    for entry in family.iter_mut().flat_map(|tables| &mut tables.entries) {
+        if entry.slot.len > 0
+            && let Some(place) = places.get(&(entry.address, entry.data_type.code()))
+        {
+            entry.slot = *place;
+        }
+    }
+}
