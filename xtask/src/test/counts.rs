@@ -18,6 +18,8 @@ impl Counts {
             let line = line.trim();
             if let Some(rest) = line.strip_prefix("test result: ") {
                 sum.add(cargo(rest));
+            } else if let Some(rest) = line.strip_prefix("test ") {
+                sum.add(trybuild(rest));
             } else if let Some(rest) = node_line(line) {
                 sum.add(node(rest));
             } else if let Some(rest) = line.strip_prefix("Ran ") {
@@ -54,6 +56,32 @@ fn cargo(line: &str) -> Counts {
         }
     }
     counts
+}
+
+/// `ui/wrong_type.rs ... ok`: trybuild's files, which cargo counts as one test together.
+fn trybuild(line: &str) -> Counts {
+    let mut counts = Counts::default();
+    let plain = without_colours(line);
+    if let Some((file, result)) = plain.split_once(" ... ")
+        && (file.ends_with(".rs") || file.ends_with(".rs [should pass]"))
+    {
+        if result == "ok" {
+            counts.passed = 1;
+        } else {
+            counts.failed = 1;
+        }
+    }
+    counts
+}
+
+/// The text without `ESC [ ... m`.
+fn without_colours(text: &str) -> String {
+    let mut parts = text.split('\u{1b}');
+    let mut plain = String::from(parts.next().unwrap_or_default());
+    for part in parts {
+        plain.push_str(part.split_once('m').map_or("", |(_, rest)| rest));
+    }
+    plain
 }
 
 /// Node marks its closing lines with `#` (TAP) or `ℹ` (for people).
@@ -130,6 +158,21 @@ mod tests {
             15,
             2,
             1,
+        );
+    }
+
+    #[test]
+    fn trybuild() {
+        check(
+            "test ui/wrong_type.rs ... ok\n\
+             test \u{1b}[0m\u{1b}[1mui/b.rs\u{1b}[0m [should pass] ... \u{1b}[32mok\u{1b}[0m\n\
+             test ui/c.rs ... mismatch\n\
+             test module::name ... ok\n\
+             test src/lib.rs - Thing (line 3) ... ok\n\
+             test result: ok. 1 passed; 0 failed; 0 ignored\n",
+            3,
+            1,
+            0,
         );
     }
 

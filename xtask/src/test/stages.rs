@@ -94,6 +94,13 @@ pub(super) const STAGES: &[Stage] = &[
         run: page::wasm,
     },
     Stage {
+        name: "page",
+        about: "types, tests and size of the TypeScript page",
+        quick: false,
+        counts: false,
+        run: page::page,
+    },
+    Stage {
         name: "wasm-pack",
         about: "wasm-pack makes the npm package",
         quick: false,

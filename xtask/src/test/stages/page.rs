@@ -17,6 +17,21 @@ pub(super) fn wasm(context: &Context<'_>) -> Result<()> {
     package_tests(context, &package)
 }
 
+/// The page's own checks, on the bundle that `play` would serve.
+pub(super) fn page(context: &Context<'_>) -> Result<()> {
+    bundle::page(context.repo, context.console)?;
+    let web = context.repo.web();
+    for (script, what) in [
+        ("check", "type check"),
+        ("test", "page tests"),
+        ("size", "download size"),
+    ] {
+        let mut npm = node::npm(&web, &["run", "--silent", "--if-present", script]);
+        context.console.run(what, &mut npm)?;
+    }
+    Ok(())
+}
+
 /// The package as npm users get it, and the same tests on it.
 pub(super) fn wasm_pack(context: &Context<'_>) -> Result<()> {
     crate::wasm_pack::run(context.repo, context.console, &[])?;
