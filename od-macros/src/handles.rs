@@ -64,13 +64,14 @@ pub(crate) fn items(
     report: &mut Report,
 ) -> Vec<Item> {
     let mut items = Vec::new();
-    for object in &tables.objects {
+    for object in tables.objects() {
         let Some(about) = description.objects.get(&object.index) else {
             continue;
         };
+        let single = !about.code.has_members() && object.count == 1;
         let first = object.first as usize;
         let entries = tables
-            .entries
+            .entries()
             .iter()
             .skip(first)
             .take(object.count as usize);
@@ -81,7 +82,13 @@ pub(crate) fn items(
                     sub: entry.address.sub,
                     label: described.name.value.clone(),
                     name: String::new(),
-                    doc: docs::entry(entry.address, described, entry.data_type, naming.file),
+                    doc: docs::entry(
+                        entry.address,
+                        !single,
+                        described,
+                        entry.data_type,
+                        naming.file,
+                    ),
                     data_type: entry.data_type,
                     access: entry.access,
                     mappable: entry.mappable,
@@ -89,7 +96,6 @@ pub(crate) fn items(
                 })
             })
             .collect();
-        let single = !about.code.has_members() && handles.len() == 1;
         let (doc, body) = match handles.first() {
             Some(handle) if single => (handle.doc.clone(), Body::Value(handle.clone())),
             _ => {

@@ -12,7 +12,7 @@ use od_model::{Address, Slot, Tables};
 pub(crate) fn lay_out(family: &mut [&mut Tables]) {
     let mut places: BTreeMap<(Address, u16), Slot> = BTreeMap::new();
     let stored = |tables: &Tables| {
-        let stored = tables.entries.iter().filter(|entry| entry.slot.len > 0);
+        let stored = tables.entries().iter().filter(|entry| entry.slot.len > 0);
         stored
             .map(|entry| ((entry.address, entry.data_type.code()), entry.slot.len))
             .collect::<Vec<_>>()
@@ -26,11 +26,10 @@ pub(crate) fn lay_out(family: &mut [&mut Tables]) {
         place.offset = offset;
         offset += u32::from(place.len);
     }
-    for entry in family.iter_mut().flat_map(|tables| &mut tables.entries) {
-        if entry.slot.len > 0
-            && let Some(place) = places.get(&(entry.address, entry.data_type.code()))
-        {
-            entry.slot = *place;
-        }
+    for tables in family {
+        tables.place(|entry| {
+            let place = places.get(&(entry.address, entry.data_type.code()));
+            place.copied().unwrap_or(entry.slot)
+        });
     }
 }

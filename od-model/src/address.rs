@@ -20,6 +20,12 @@ impl Address {
     pub const fn new(index: u16, sub: u8) -> Self {
         Self { index, sub }
     }
+
+    /// Both in one number that sorts like the address: `index << 8 | sub`.
+    #[inline]
+    pub const fn key(self) -> u32 {
+        (self.index as u32) << 8 | self.sub as u32
+    }
 }
 
 impl fmt::Display for Address {

@@ -81,14 +81,49 @@ impl Entry {
     }
 }
 
+/// The addresses of sorted entries as numbers, for the search: `index << 8 | sub`.
+///
+/// Four bytes an entry is all that a search touches. For generated code; the keys of
+/// owned tables are made by [`Tables`](crate::Tables).
+#[must_use]
+pub const fn keys<const N: usize>(entries: &[Entry; N]) -> [u32; N] {
+    let mut keys = [0; N];
+    let mut i = 0;
+    while i < N {
+        keys[i] = entries[i].address.key();
+        i += 1;
+    }
+    keys
+}
+
+/// Where the keys of each high index byte begin, and where the last ends: a search looks
+/// at one page of the dictionary, so it does not get longer with the dictionary.
+#[must_use]
+pub const fn pages(keys: &[u32]) -> [u32; PAGES] {
+    let mut pages = [0; PAGES];
+    let mut at = 0;
+    let mut page = 0;
+    while page < PAGES {
+        while at < keys.len() && keys[at] >> 16 < page as u32 {
+            at += 1;
+        }
+        pages[page] = at as u32;
+        page += 1;
+    }
+    pages
+}
+
+/// Number of page bounds: one for each high index byte, and the end.
+pub const PAGES: usize = 257;
+
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
-/// Copied freely: it is five slices. The tables are sorted by address, each
-/// object's entries stand together, and `indices` repeats the objects' indices
-/// so that a search touches two bytes an object and no more.
+/// Copied freely: it is six slices. The tables are sorted by address, and each object's
+/// entries stand together.
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
-    indices: &'a [u16],
+    keys: &'a [u32],
+    pages: &'a [u32; PAGES],
     objects: &'a [Object],
     entries: &'a [Entry],
     text: &'a str,
@@ -97,26 +132,30 @@ pub struct Dictionary<'a> {
 }
 
 impl<'a> Dictionary<'a> {
-    /// A view over tables that the macro or [`Tables`](crate::Tables) made.
+    /// A view over tables that the macro made; owned tables lend theirs by
+    /// [`Tables::dictionary`](crate::Tables::dictionary). `keys` and `pages` come from
+    /// the functions of these names.
     ///
     /// # Panics
     /// Where the tables are not sorted, an object names entries that are not its
-    /// own, or `indices` does not repeat the objects' indices. In a `const` that
-    /// is a compile error; from EDS text these tables cannot come about.
+    /// own, or the keys are not the entries'. In a `const` that is a compile error.
     pub const fn new(
-        indices: &'a [u16],
+        keys: &'a [u32],
+        pages: &'a [u32; PAGES],
         objects: &'a [Object],
         entries: &'a [Entry],
         text: &'a str,
         blob: &'a [u8],
     ) -> Self {
-        assert!(indices.len() == objects.len(), "one index an object");
+        assert!(keys.len() == entries.len(), "one key an entry");
         let mut next = 0;
         let mut i = 0;
         while i < objects.len() {
             let object = &objects[i];
-            assert!(indices[i] == object.index, "indices repeat the objects");
-            assert!(i == 0 || indices[i - 1] < indices[i], "objects are sorted");
+            assert!(
+                i == 0 || objects[i - 1].index < object.index,
+                "objects are sorted"
+            );
             assert!(
                 object.first as usize == next,
                 "entries stand in the objects' order"
@@ -129,7 +168,11 @@ impl<'a> Dictionary<'a> {
                     "an object's entries are its own"
                 );
                 assert!(
-                    sub == 0 || entries[next + sub - 1].address.sub < address.sub,
+                    keys[next + sub] == address.key(),
+                    "a key is its entry's address"
+                );
+                assert!(
+                    sub == 0 || keys[next + sub - 1] < keys[next + sub],
                     "entries are sorted"
                 );
                 sub += 1;
@@ -138,17 +181,44 @@ impl<'a> Dictionary<'a> {
             i += 1;
         }
         assert!(next == entries.len(), "every entry belongs to an object");
-        let mut store_len = 0;
-        let mut i = 0;
-        while i < entries.len() {
-            let end = entries[i].slot.offset as usize + entries[i].slot.len as usize;
-            if end > store_len {
-                store_len = end;
-            }
-            i += 1;
+        let mut page = 0;
+        while page < PAGES - 1 {
+            let (from, to) = (pages[page] as usize, pages[page + 1] as usize);
+            assert!(from <= to && to <= keys.len(), "pages are in order");
+            assert!(
+                from == to || keys[from] >> 16 == page as u32 && keys[to - 1] >> 16 == page as u32,
+                "a page holds one high index byte"
+            );
+            page += 1;
         }
+        assert!(
+            pages[PAGES - 1] as usize == keys.len(),
+            "every entry is on a page"
+        );
+        Self::trusted(
+            keys,
+            pages,
+            objects,
+            entries,
+            text,
+            blob,
+            store_len(entries),
+        )
+    }
+
+    /// The same over tables that are sound by the way they were made.
+    pub(crate) const fn trusted(
+        keys: &'a [u32],
+        pages: &'a [u32; PAGES],
+        objects: &'a [Object],
+        entries: &'a [Entry],
+        text: &'a str,
+        blob: &'a [u8],
+        store_len: usize,
+    ) -> Self {
         Self {
-            indices,
+            keys,
+            pages,
             objects,
             entries,
             text,
@@ -175,10 +245,11 @@ impl<'a> Dictionary<'a> {
     /// The object at `index`.
     #[inline]
     pub fn object(&self, index: u16) -> Option<&'a Object> {
-        self.indices
-            .binary_search(&index)
-            .ok()
-            .and_then(|at| self.objects.get(at))
+        let at = self
+            .objects
+            .binary_search_by_key(&index, |object| object.index)
+            .ok()?;
+        self.objects.get(at)
     }
 
     /// The entries of an object, by ascending sub-index.
@@ -196,15 +267,29 @@ impl<'a> Dictionary<'a> {
     /// [`Missing`] says whether the object or only the sub-index is absent.
     #[inline]
     pub fn find(&self, address: Address) -> Result<&'a Entry, Missing> {
-        let object = self.object(address.index).ok_or(Missing::Object)?;
-        let members = self.members(object);
-        // Sub-indices without gaps are the rule: the guess is right.
-        match members.get(address.sub as usize) {
-            Some(entry) if entry.address.sub == address.sub => Ok(entry),
-            _ => members
-                .binary_search_by_key(&address.sub, |entry| entry.address.sub)
-                .map(|at| &members[at])
-                .map_err(|_| Missing::SubIndex),
+        match self.position(address) {
+            Some(entry) => Ok(entry),
+            None => Err(self.missing(address)),
+        }
+    }
+
+    #[inline]
+    fn position(&self, address: Address) -> Option<&'a Entry> {
+        let page = usize::from(address.index >> 8);
+        let (from, to) = (self.pages[page] as usize, self.pages[page + 1] as usize);
+        let at = self
+            .keys
+            .get(from..to)?
+            .binary_search(&address.key())
+            .ok()?;
+        self.entries.get(from + at)
+    }
+
+    #[cold]
+    fn missing(&self, address: Address) -> Missing {
+        match self.object(address.index) {
+            Some(_) => Missing::SubIndex,
+            None => Missing::Object,
         }
     }
 
@@ -246,7 +331,8 @@ impl PartialEq for Dictionary<'_> {
             (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
             (a, b) => a == b,
         };
-        self.indices == other.indices
+        self.keys == other.keys
+            && self.objects.len() == other.objects.len()
             && self.objects.iter().zip(other.objects).all(|(a, b)| {
                 a.code == b.code && a.count == b.count && self.text(a.name) == other.text(b.name)
             })
@@ -260,6 +346,21 @@ impl PartialEq for Dictionary<'_> {
                     && literal(a.high, b.high)
             })
     }
+}
+
+/// Bytes that a store of these values needs.
+pub(crate) const fn store_len(entries: &[Entry]) -> usize {
+    let mut len = 0;
+    let mut i = 0;
+    while i < entries.len() {
+        let slot = entries[i].slot;
+        let end = slot.offset as usize + slot.len as usize;
+        if end > len {
+            len = end;
+        }
+        i += 1;
+    }
+    len
 }
 
 #[cfg(test)]
@@ -291,16 +392,21 @@ mod tests {
         }
     }
 
+    static ENTRIES: [Entry; 5] = [
+        entry(0x1001, 0),
+        entry(0x1800, 0),
+        entry(0x1800, 1),
+        entry(0x1800, 2),
+        entry(0x1800, 5),
+    ];
+    static KEYS: [u32; 5] = keys(&ENTRIES);
+    static PAGES: [u32; super::PAGES] = pages(&KEYS);
+
     const TABLE: Dictionary<'static> = Dictionary::new(
-        &[0x1001, 0x1800],
+        &KEYS,
+        &PAGES,
         &[object(0x1001, 0, 1), object(0x1800, 1, 4)],
-        &[
-            entry(0x1001, 0),
-            entry(0x1800, 0),
-            entry(0x1800, 1),
-            entry(0x1800, 2),
-            entry(0x1800, 5),
-        ],
+        &ENTRIES,
         "x",
         &[],
     );
@@ -331,9 +437,9 @@ mod tests {
             name: Range::new(1, 1),
             ..TABLE.objects()[i]
         });
-        let shifted = Dictionary::new(&[0x1001, 0x1800], &objects, &entries, "yx", &[]);
+        let shifted = Dictionary::new(&KEYS, &PAGES, &objects, &entries, "yx", &[]);
         assert_eq!(TABLE, shifted);
-        let other = Dictionary::new(&[0x1001, 0x1800], &objects, &entries, "xy", &[]);
+        let other = Dictionary::new(&KEYS, &PAGES, &objects, &entries, "xy", &[]);
         assert_ne!(TABLE, other);
     }
 }

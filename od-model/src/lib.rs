@@ -23,7 +23,7 @@ mod types;
 mod value;
 
 pub use address::Address;
-pub use dictionary::{Dictionary, Entry, Missing, Object, Slot};
+pub use dictionary::{Dictionary, Entry, Missing, Object, PAGES, Slot, keys, pages};
 pub use types::{Access, DataType, Group, Kind, ObjectCode};
 pub use value::{Literal, Range};
 

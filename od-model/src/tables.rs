@@ -4,6 +4,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::dictionary::{PAGES, pages, store_len};
 use crate::{
     Access, Address, DataType, Description, Dictionary, Entry, EntryDescription, Literal, Object,
     Range, Slot, Value,
@@ -15,18 +16,30 @@ pub const STRING_CAPACITY: usize = 64;
 pub const DOMAIN_CAPACITY: usize = 1024;
 
 /// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Tables {
-    /// The objects' indices, ascending.
-    pub indices: Vec<u16>,
-    /// The objects, by index.
-    pub objects: Vec<Object>,
-    /// The values, by address.
-    pub entries: Vec<Entry>,
-    /// Names and VISIBLE_STRING defaults, each once.
-    pub text: String,
-    /// OCTET_STRING, UNICODE_STRING and DOMAIN defaults.
-    pub blob: Vec<u8>,
+    keys: Vec<u32>,
+    pages: [u32; PAGES],
+    objects: Vec<Object>,
+    entries: Vec<Entry>,
+    text: String,
+    blob: Vec<u8>,
+    store_len: usize,
+}
+
+impl Default for Tables {
+    /// The tables of an empty dictionary.
+    fn default() -> Self {
+        Self {
+            keys: Vec::new(),
+            pages: [0; PAGES],
+            objects: Vec::new(),
+            entries: Vec::new(),
+            text: String::new(),
+            blob: Vec::new(),
+            store_len: 0,
+        }
+    }
 }
 
 impl Tables {
@@ -51,7 +64,6 @@ impl Tables {
             if count > 0 {
                 let name = tables.intern(&object.name, &mut names);
                 let code = object.code.value;
-                tables.indices.push(index);
                 // At most 256 sub-indices: the count fits.
                 tables.objects.push(Object {
                     index,
@@ -62,18 +74,56 @@ impl Tables {
                 });
             }
         }
+        tables.keys = tables
+            .entries
+            .iter()
+            .map(|entry| entry.address.key())
+            .collect();
+        tables.pages = pages(&tables.keys);
+        tables.store_len = store_len(&tables.entries);
         tables
     }
 
-    /// The view that runs.
+    /// The view that runs; it costs nothing to make.
     pub fn dictionary(&self) -> Dictionary<'_> {
-        Dictionary::new(
-            &self.indices,
+        Dictionary::trusted(
+            &self.keys,
+            &self.pages,
             &self.objects,
             &self.entries,
             &self.text,
             &self.blob,
+            self.store_len,
         )
+    }
+
+    /// Gives stored values another place: for variants that share one store layout.
+    /// Values that are not stored keep none.
+    pub fn place(&mut self, mut place: impl FnMut(&Entry) -> Slot) {
+        for entry in self.entries.iter_mut().filter(|entry| entry.slot.len > 0) {
+            entry.slot = place(entry);
+        }
+        self.store_len = store_len(&self.entries);
+    }
+
+    /// The objects, by index.
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// The values, by address.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Names and VISIBLE_STRING defaults, each once.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN defaults.
+    pub fn blob(&self) -> &[u8] {
+        &self.blob
     }
 
     fn entry(
