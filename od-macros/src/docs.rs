@@ -4,14 +4,19 @@ use od_model::{
     Access, Address, DataType, EntryDescription, Group, Kind, ObjectDescription, Span, Value,
 };
 
-/// The page on one value.
+/// The page on one value; `member` of an object, or a VAR.
 pub(crate) fn entry(
     address: Address,
+    member: bool,
     entry: &EntryDescription,
     data_type: DataType,
     file: &str,
 ) -> String {
-    let mut text = format!("**{}** {}", address_of(address), escape(&entry.name));
+    let name = escape(&entry.name);
+    let mut text = match member {
+        true => format!("**{address}** {name}"),
+        false => format!("**{:04X}h** {name}", address.index),
+    };
     text.push_str(&format!(
         "\n\n{data_type}, `{}`: {}",
         *entry.access,
@@ -55,13 +60,6 @@ pub(crate) fn object(index: u16, object: &ObjectDescription, file: &str) -> Stri
     );
     place(&mut text, object.span, file);
     text
-}
-
-fn address_of(address: Address) -> String {
-    match address.sub {
-        0 => format!("{:04X}h", address.index),
-        _ => address.to_string(),
-    }
 }
 
 fn place(text: &mut String, span: Span, file: &str) {
@@ -115,4 +113,60 @@ pub(crate) fn escape(name: &str) -> String {
         text.push(c);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use od_model::Spanned;
+
+    use super::*;
+
+    #[test]
+    fn a_page_says_what_the_eds_says() {
+        let mut speed = EntryDescription::new("Speed [rpm]", DataType::Unsigned16);
+        speed.access = Spanned::from(Access::Rw);
+        speed.default = Some(Spanned::from(Value::Unsigned(300)));
+        speed.low = Some(Spanned::from(Value::Unsigned(1)));
+        speed.high = Some(Spanned::from(Value::Unsigned(0x3FF)));
+        speed.span.line = 214;
+        let page = entry(
+            Address::new(0x2300, 9),
+            true,
+            &speed,
+            DataType::Unsigned16,
+            "GXMMW.eds",
+        );
+        assert_eq!(
+            page,
+            "**2300h:09** Speed \\[rpm\\]\n\n\
+            UNSIGNED16, `rw`: the master reads and writes it\n\n\
+            Default 300 (0x012C), from 1 to 1023 (0x03FF). Not for PDOs. \
+            Saved with 1010h:04.\n\n\
+            `GXMMW.eds:214`"
+        );
+    }
+
+    #[test]
+    fn numbers_are_shown_as_they_are_looked_up() {
+        for (value, data_type, shown) in [
+            (Value::Unsigned(7), DataType::Unsigned32, "7"),
+            (Value::Unsigned(10), DataType::Unsigned8, "10 (0x0A)"),
+            (Value::Unsigned(1), DataType::Boolean, "true"),
+            (Value::Signed(-3), DataType::Integer8, "-3"),
+            (
+                Value::NodeId(0x180),
+                DataType::Unsigned32,
+                "node ID + 0x180",
+            ),
+            (Value::NodeId(0), DataType::Unsigned8, "the node ID"),
+            (
+                Value::Text("a\"b".into()),
+                DataType::VisibleString,
+                "`\"a\\\"b\"`",
+            ),
+            (Value::Bytes(vec![0, 0xFF]), DataType::OctetString, "00 FF"),
+        ] {
+            assert_eq!(show(&value, data_type), shown);
+        }
+    }
 }

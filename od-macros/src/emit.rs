@@ -64,7 +64,7 @@ fn wrap(attrs: &[syn::Attribute], name: &Ident, body: &TokenStream) -> TokenStre
 }
 
 fn about(source: &Source, family: &Family) -> String {
-    let objects = family.base.tables.objects.len();
+    let objects = family.base.tables.objects().len();
     let mut text = format!("\n\n{objects} objects");
     if let Some(shown) = &source.shown {
         let _ = write!(text, ", from `{shown}`");
@@ -158,20 +158,16 @@ fn constant(out: &mut String, index: u16, handle: &Handle) {
 
 /// `DICTIONARY` with its tables inside, so that they need no names outside.
 fn dictionary(out: &mut String, tables: &Tables) {
-    let objects = tables.objects.len();
-    let entries = tables.entries.len();
+    let objects = tables.objects().len();
+    let entries = tables.entries().len();
     let _ = write!(
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
 pub const DICTIONARY: ::od_model::Dictionary<'static> = {{
 use ::od_model::typed::emit::table::*;
-static INDICES: [u16; {objects}] = ["
+static OBJECTS: [Object; {objects}] = ["
     );
-    for index in &tables.indices {
-        let _ = write!(out, "{index:#06X},");
-    }
-    let _ = write!(out, "];\nstatic OBJECTS: [Object; {objects}] = [");
-    for o in &tables.objects {
+    for o in tables.objects() {
         let _ = writeln!(
             out,
             "o({:#06X},C::{:?},{},{},{},{}),",
@@ -179,7 +175,7 @@ static INDICES: [u16; {objects}] = ["
         );
     }
     let _ = write!(out, "];\nstatic ENTRIES: [Entry; {entries}] = [");
-    for e in &tables.entries {
+    for e in tables.entries() {
         let group = match e.group {
             Group::None => "N",
             Group::Communication => "C",
@@ -202,12 +198,14 @@ static INDICES: [u16; {objects}] = ["
         }
         let _ = writeln!(out, "{},{}),", e.slot.offset, e.slot.len);
     }
-    let blob = tables.blob.escape_ascii();
-    let text = &tables.text;
+    let blob = tables.blob().escape_ascii();
+    let text = tables.text();
     let _ = write!(
         out,
         "];
-::od_model::Dictionary::new(&INDICES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\")
+static KEYS: [u32; {entries}] = ::od_model::keys(&ENTRIES);
+static PAGES: [u32; ::od_model::PAGES] = ::od_model::pages(&KEYS);
+::od_model::Dictionary::new(&KEYS, &PAGES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\")
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();

@@ -128,3 +128,90 @@ fn expand(tokens: TokenStream) -> TokenStream {
     tokens.extend(made);
     tokens
 }
+
+#[cfg(test)]
+mod tests {
+    use quote::quote;
+
+    use super::*;
+
+    /// The whole of a small module, so that a change of what is emitted is seen.
+    #[test]
+    fn what_is_made() {
+        let made = expand(quote! {
+            pub mod device {
+                add 0x1000 { name = "Device type"; type = u32; default = 0x196 }
+                add 0x1001 { name = "Error register"; type = u8; mappable = true }
+                add 0x1018 { code = record; name = "Identity" }
+                add 0x1018sub1 { name = "Vendor-ID"; type = u32; access = const; default = 7 }
+                variant blind { remove 0x1001; }
+            }
+        });
+        let tight = |text: &str| text.replace([' ', '\n'], "");
+        let made = tight(&made.to_string());
+        let (_, base) = made.split_once("pubmoddevice").unwrap();
+        let (base, variant) = base.split_once("pubmodblind").unwrap();
+        for part in [
+            "pub const DICTIONARY: ::od_model::Dictionary<'static> =",
+            "static OBJECTS: [Object; 3] = [o(0x1000, C::Var, 0, 11, 0, 1),",
+            "e(0x1000, 0, T::Unsigned32, A::Ro, false, GN, 0, 11, U(406), N, N, 0, 4),",
+            "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
+            "pub mod identity {",
+            "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
+            "pub const STORE_LEN: usize = DICTIONARY.store_len();",
+        ] {
+            assert!(base.contains(&tight(part)), "{part}\n\n{base}");
+        }
+        let handed_on = tight("pub use super::{DEVICE_TYPE, identity};");
+        assert!(variant.contains(&handed_on), "{variant}");
+        assert!(!variant.contains("ERROR_REGISTER"));
+        assert!(!made.contains("compile_error"), "{made}");
+    }
+
+    #[test]
+    fn after_a_fault_the_rest_is_made() {
+        let made = expand(quote! {
+            mod device {
+                add 0x2000 { name = "Speed"; type = u16 }
+                add 0x2001 { name = "Torque"; type = uint16 }
+            }
+        });
+        let made = made.to_string();
+        assert_eq!(made.matches("compile_error").count(), 1, "{made}");
+        assert!(made.contains("SPEED") && made.contains("DICTIONARY"));
+    }
+
+    /// Whatever is written: faults, never a panic.
+    #[test]
+    fn nonsense_is_told() {
+        for text in [
+            "",
+            "mod",
+            "mod x",
+            "mod x;",
+            "mod x { add }",
+            "mod x { add 0x1 }",
+            "mod x { add 0x1 { = } }",
+            "mod x { add 0x1 { default = - } }",
+            "mod x { add 0x1 { default = $ } }",
+            "mod x { add 0x1 { default = $NODEID + } }",
+            "mod x { add 0x1 { default = 1 + } }",
+            "mod x { add 0x1 { default = 99999999999999999999999999999999999999999 } }",
+            "mod x { add 0x1 { name = b\"x\" } }",
+            "mod x { rename 0x1 }",
+            "mod x { rename 0x1 = self; }",
+            "mod x { eds }",
+            "mod x { eds = 5; }",
+            "mod x { variant }",
+            "mod x { variant v; }",
+            "mod x { variant v { variant w {} } }",
+            "mod x { #[doc = 1] }",
+            "mod x { ; }",
+            "mod x { 0x1018 }",
+            "mod x { profile = ; }",
+        ] {
+            let made = expand(text.parse().unwrap()).to_string();
+            assert!(made.contains("compile_error"), "{text}: {made}");
+        }
+    }
+}

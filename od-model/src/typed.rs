@@ -126,7 +126,7 @@ impl DeviceWritable for Rww {}
 pub trait Mappable: sealed::Sealed {}
 impl Mappable for Pdo {}
 
-/// Kept by no handle of a text: [`Text::map`] exists to say so.
+/// Nothing has it: [`Text::map`] exists to say why.
 #[doc(hidden)]
 #[diagnostic::on_unimplemented(
     message = "a string or a domain cannot be mapped into a PDO",
@@ -134,7 +134,6 @@ impl Mappable for Pdo {}
     note = "a PDO carries numbers of fixed length; a master reads a text by SDO"
 )]
 pub trait FixedLength {}
-impl FixedLength for Pdo {}
 
 /// Handle of one value: `T` is its Rust type, `A` its access type, `M` its PDO mapping flag.
 ///
