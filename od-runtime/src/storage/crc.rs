@@ -1,0 +1,61 @@
+//! CRC-32 as Ethernet and zip have it (reflected, polynomial 04C11DB7h).
+
+/// The remainders of the sixteen half-bytes.
+const TABLE: [u32; 16] = {
+    let mut table = [0; 16];
+    let mut i = 0;
+    while i < 16 {
+        let mut crc = i as u32;
+        let mut bit = 0;
+        while bit < 4 {
+            crc = if crc & 1 == 1 {
+                crc >> 1 ^ 0xEDB8_8320
+            } else {
+                crc >> 1
+            };
+            bit += 1;
+        }
+        table[i] = crc;
+        i += 1;
+    }
+    table
+};
+
+/// A checksum in the making.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crc32(u32);
+
+impl Crc32 {
+    /// The checksum of nothing.
+    pub(super) const fn new() -> Self {
+        Self(u32::MAX)
+    }
+
+    /// Takes more bytes in.
+    pub(super) fn update(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 ^= u32::from(*byte);
+            self.0 = self.0 >> 4 ^ TABLE[(self.0 & 15) as usize];
+            self.0 = self.0 >> 4 ^ TABLE[(self.0 & 15) as usize];
+        }
+    }
+
+    /// The checksum of all of them.
+    pub(super) const fn finish(self) -> u32 {
+        !self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_check_value_of_crc_32() {
+        let mut crc = Crc32::new();
+        crc.update(b"12345");
+        crc.update(b"6789");
+        assert_eq!(crc.finish(), 0xCBF4_3926);
+        assert_eq!(Crc32::new().finish(), 0);
+    }
+}

@@ -1,0 +1,193 @@
+//! The saved values: what 1010h writes, 1011h takes away, and power-on reads.
+//!
+//! The storage is two banks, and a save writes the older one. A bank:
+//!
+//! | bytes | content |
+//! |---|---|
+//! | 0–3 | magic, `0x69 'o' 'd' 'k'` |
+//! | 4–5 | version of this layout, 1 |
+//! | 6–7 | 0 |
+//! | 8–11 | sequence number, one more with each save |
+//! | 12–15 | length of the records |
+//! | 16–19 | CRC-32 of bytes 4–15 and the records |
+//! | 20… | records, by ascending address: index (2), sub-index (1), length (2), value |
+//!
+//! Numbers are little-endian. A save takes the old magic away, writes the records,
+//! then the header, and the magic last of all; so power can go between any two bytes
+//! and leaves the last complete set, never a mixture.
+//!
+//! Records go by address, so an image survives a firmware with another dictionary:
+//! what no longer fits is not loaded, but it stays in the image as long as there is room.
+
+use od_model::{Dictionary, Entry, Group, Kind, Literal};
+
+use super::{Storage, StorageError};
+use crate::Store;
+
+mod bank;
+mod merge;
+
+use bank::{Banks, Records};
+use merge::Fate;
+
+/// The longest value that is saved, in bytes.
+pub const MAX_VALUE: usize = 1024;
+
+const HEADER: usize = 20;
+const RECORD: usize = 5;
+
+/// What the storage held.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Loaded {
+    /// Nothing yet, or nothing of this device: the defaults stand.
+    Blank,
+    /// The last set that was saved.
+    Complete,
+    /// The last set that was saved; these many of its records fit no object of this
+    /// dictionary and were left out.
+    Partial {
+        /// Records left out.
+        skipped: u16,
+    },
+    /// The last set is damaged, and the one before it was taken.
+    Older,
+    /// What is there cannot be read, or another version wrote it: the defaults stand.
+    Damaged,
+}
+
+/// Bytes of storage that `dictionary` needs to save every value at its longest, twice.
+pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
+    let entries = dictionary.entries();
+    let mut bytes = HEADER;
+    let mut i = 0;
+    while i < entries.len() {
+        if is_saved(&entries[i]) {
+            bytes += RECORD + entries[i].slot.len as usize;
+        }
+        i += 1;
+    }
+    2 * bytes
+}
+
+/// Is the value one that is saved at all?
+const fn is_saved(entry: &Entry) -> bool {
+    !matches!(entry.group, Group::None) && entry.slot.len > 0
+}
+
+/// Is it the device's own record of its life (hours, counters of errors)?
+///
+/// That is what no master can write among the manufacturer's objects. Every save
+/// writes it along, and no restore takes it back.
+pub const fn is_life_record(entry: &Entry) -> bool {
+    matches!(entry.group, Group::Manufacturer) && !entry.access.writable()
+}
+
+/// Does writing to sub-index `sub` of 1011h take this value back to its default?
+pub const fn restores(entry: &Entry, sub: u8) -> bool {
+    entry.group.covered_by(sub) && !is_life_record(entry)
+}
+
+/// Puts saved values over those in the store, for the entries that `which` names.
+///
+/// The store holds the defaults before. A value that the object could not have by now
+/// (length, limits) is skipped like one whose object is missing.
+///
+/// # Errors
+/// [`StorageError`] where the storage cannot be read; some values may be loaded then.
+pub fn load(
+    storage: &mut dyn Storage,
+    store: &mut Store<'_>,
+    which: &dyn Fn(&Entry) -> bool,
+) -> Result<Loaded, StorageError> {
+    let banks = Banks::survey(storage)?;
+    let Some(newest) = banks.newest else {
+        return Ok(if banks.damaged {
+            Loaded::Damaged
+        } else {
+            Loaded::Blank
+        });
+    };
+    let mut skipped = 0u16;
+    let mut value = [0; MAX_VALUE];
+    let mut records = Records::new(newest);
+    while let Some(record) = records.next(storage)? {
+        let entry = store.dictionary().find(record.address).ok();
+        match entry.filter(|entry| is_saved(entry)) {
+            Some(entry) if !which(entry) => {}
+            Some(entry) if record.len <= MAX_VALUE => {
+                let value = &mut value[..record.len];
+                storage.read(record.at, value)?;
+                if !is_in_limits(store, entry, value) || store.put(entry, value).is_err() {
+                    skipped = skipped.saturating_add(1);
+                }
+            }
+            _ => skipped = skipped.saturating_add(1),
+        }
+    }
+    Ok(match skipped {
+        _ if banks.lost_newer => Loaded::Older,
+        0 => Loaded::Complete,
+        skipped => Loaded::Partial { skipped },
+    })
+}
+
+/// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
+/// values stay as they are.
+///
+/// A `$NODEID` default that still stands is not saved: it follows the node ID.
+/// Sub-index 0, which no master can write, saves the life record alone
+/// ([`is_life_record`]).
+///
+/// # Errors
+/// [`StorageError::Full`] where there is not enough room, before anything is written;
+/// others where the storage fails. The last complete set is still there then.
+pub fn save(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(), StorageError> {
+    let banks = Banks::survey(storage)?;
+    merge::write(storage, store, &banks, &|_, entry| match entry {
+        Some(entry) if entry.group.covered_by(sub) || is_life_record(entry) => {
+            let follows = matches!(entry.default, Literal::NodeId(_)) && store.is_default(entry);
+            if follows { Fate::Drop } else { Fate::Store }
+        }
+        _ => Fate::Keep,
+    })
+}
+
+/// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
+/// power-on finds the defaults; the other groups' saved values stay.
+///
+/// A record whose object is gone belongs to the group of its index.
+///
+/// # Errors
+/// [`StorageError`] where the storage fails. The last complete set is still there then.
+pub fn erase(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(), StorageError> {
+    let banks = Banks::survey(storage)?;
+    if banks.newest.is_none() && !banks.damaged {
+        return Ok(());
+    }
+    merge::write(storage, store, &banks, &|address, entry| {
+        let goes = match entry {
+            Some(entry) => restores(entry, sub),
+            None => Group::of_index(address.index).covered_by(sub),
+        };
+        if goes { Fate::Drop } else { Fate::Keep }
+    })
+}
+
+/// Does a value of the right length lie in the entry's limits?
+fn is_in_limits(store: &Store<'_>, entry: &Entry, value: &[u8]) -> bool {
+    use od_model::typed::Scalar;
+    let number = match entry.data_type.kind() {
+        Kind::Unsigned | Kind::Boolean => i128::from(u64::from_wire(value)),
+        Kind::Signed => i128::from(i64::from_wire(value)),
+        _ => return true,
+    };
+    let node_id = store.node_id().raw();
+    entry.low.integer(node_id).is_none_or(|low| number >= low)
+        && entry
+            .high
+            .integer(node_id)
+            .is_none_or(|high| number <= high)
+}
+
+#[cfg(test)]
+mod tests;

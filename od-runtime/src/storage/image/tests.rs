@@ -1,0 +1,444 @@
+//! What a save leaves behind, whatever happens.
+
+use std::format;
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+use od_model::patch::{self, Edit, Raw, Target};
+use od_model::{Access, DataType, Description, Tables};
+
+use super::*;
+use crate::NodeId;
+use crate::storage::Memory;
+
+/// Rows: index, type, access, default.
+fn tables(rows: &[(u16, DataType, Access, Raw)]) -> Tables {
+    let mut description = Description::default();
+    for (index, data_type, access, default) in rows {
+        let mut edit = Edit::add(Target::object(*index))
+            .name(&format!("{index:04X}"))
+            .data_type(*data_type)
+            .access(*access);
+        edit = edit.default(default.clone());
+        if *index == 0x2201 {
+            edit = edit.save(od_model::Group::Manufacturer);
+        }
+        let findings = patch::apply(&mut description, &[edit]);
+        assert!(findings.is_empty(), "{findings:?}");
+    }
+    Tables::new(&description)
+}
+
+fn device() -> Tables {
+    use Access::{Ro, Rw};
+    use DataType::{Integer16, Unsigned8, Unsigned32, VisibleString};
+    tables(&[
+        (0x1000, Unsigned32, Ro, Raw::Integer(0x0002_0196)),
+        (0x1014, Unsigned32, Rw, Raw::NodeId(0x80)),
+        (0x1017, Unsigned32, Rw, Raw::Integer(0)),
+        (0x2101, Unsigned8, Rw, Raw::Integer(1)),
+        (0x2201, Unsigned32, Ro, Raw::Integer(0)),
+        (0x2300, VisibleString, Rw, Raw::Text("".into())),
+        (0x6003, Unsigned32, Rw, Raw::Integer(0)),
+        (0x6010, Integer16, Rw, Raw::Integer(-1)),
+    ])
+}
+
+/// A store with defaults, overlaid with what is saved.
+struct Bench {
+    tables: Tables,
+    values: Vec<u8>,
+    node_id: u8,
+}
+
+impl Bench {
+    fn new(tables: Tables) -> Self {
+        let values = vec![0; tables.dictionary().store_len()];
+        let mut bench = Self {
+            tables,
+            values,
+            node_id: 1,
+        };
+        bench.store().reset(|_| true);
+        bench
+    }
+
+    fn store(&mut self) -> Store<'_> {
+        let node_id = NodeId::new(self.node_id).unwrap();
+        Store::new(self.tables.dictionary(), &mut self.values, node_id).unwrap()
+    }
+
+    fn start(&mut self, storage: &mut dyn Storage) -> Loaded {
+        let mut store = self.store();
+        store.reset(|_| true);
+        load(storage, &mut store, &|_| true).unwrap()
+    }
+
+    /// Every value as text.
+    fn values(&mut self) -> Vec<String> {
+        let store = self.store();
+        let show = |entry: &Entry| {
+            let mut number = [0; 8];
+            format!("{} {:02X?}", entry.address, store.bytes(entry, &mut number))
+        };
+        store.dictionary().entries().iter().map(show).collect()
+    }
+
+    /// Values that tell one set from another.
+    fn fill(&mut self, with: u8) {
+        let mut store = self.store();
+        for index in [0x1017, 0x2101, 0x2201, 0x6003, 0x6010] {
+            store.set_unsigned(od_model::Address::new(index, 0), u64::from(with));
+        }
+        let text = *store.dictionary().entry(0x2300, 0).unwrap();
+        store
+            .put(&text, &vec![with; usize::from(with) % 30])
+            .unwrap();
+    }
+}
+
+fn storage() -> Memory<Vec<u8>> {
+    let bytes = capacity_needed(&device().dictionary());
+    Memory::new(vec![0xFF; bytes])
+}
+
+#[test]
+fn saved_values_come_back() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    let defaults = bench.values();
+    assert_eq!(bench.start(&mut memory), Loaded::Blank);
+    assert_eq!(bench.values(), defaults);
+    for with in 1..40 {
+        bench.fill(with);
+        let saved = bench.values();
+        save(&mut memory, &bench.store(), 1).unwrap();
+        assert_eq!(bench.start(&mut memory), Loaded::Complete);
+        assert_eq!(bench.values(), saved);
+    }
+    erase(&mut memory, &bench.store(), 1).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Complete);
+    bench
+        .store()
+        .set_unsigned(od_model::Address::new(0x2201, 0), 0);
+    assert_eq!(bench.values(), defaults, "all but the life record");
+}
+
+#[test]
+fn power_can_go_at_any_byte() {
+    for saves in 0..4u8 {
+        for cut in 0.. {
+            let (mut bench, mut memory) = (Bench::new(device()), storage());
+            for with in 0..saves {
+                bench.fill(7 + with);
+                save(&mut memory, &bench.store(), 1).unwrap();
+            }
+            bench.start(&mut memory);
+            let before = bench.values();
+            bench.fill(200);
+            let after = bench.values();
+            memory.cut_after(cut);
+            let result = save(&mut memory, &bench.store(), 1);
+            memory.restore_power();
+            let loaded = bench.start(&mut memory);
+            if result.is_ok() {
+                assert!(cut > 50, "the save wrote something");
+                assert_eq!((loaded, bench.values()), (Loaded::Complete, after));
+                break;
+            }
+            assert_eq!(result, Err(StorageError::PowerCut));
+            let whole = if saves == 0 {
+                Loaded::Blank
+            } else {
+                Loaded::Complete
+            };
+            assert_eq!((loaded, bench.values()), (whole, before), "cut at {cut}");
+            // And the next save works.
+            bench.fill(99);
+            let after = bench.values();
+            save(&mut memory, &bench.store(), 1).unwrap();
+            assert_eq!(bench.start(&mut memory), Loaded::Complete);
+            assert_eq!(bench.values(), after);
+        }
+    }
+}
+
+#[test]
+fn power_can_go_while_a_group_is_erased() {
+    for cut in 0.. {
+        let (mut bench, mut memory) = (Bench::new(device()), storage());
+        bench.fill(5);
+        save(&mut memory, &bench.store(), 1).unwrap();
+        let before = bench.values();
+        memory.cut_after(cut);
+        let result = erase(&mut memory, &bench.store(), 3);
+        memory.restore_power();
+        assert_eq!(bench.start(&mut memory), Loaded::Complete);
+        if result.is_ok() {
+            assert_eq!(bench.store().unsigned(0x6003, 0), 0);
+            assert_eq!(bench.store().unsigned(0x1017, 0), 5);
+            break;
+        }
+        assert_eq!(bench.values(), before, "cut at {cut}");
+    }
+}
+
+#[test]
+fn a_flipped_bit_is_never_a_value() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    let defaults = bench.values();
+    bench.fill(3);
+    let first = bench.values();
+    save(&mut memory, &bench.store(), 1).unwrap();
+    let one = memory.clone();
+    bench.fill(4);
+    let second = bench.values();
+    save(&mut memory, &bench.store(), 1).unwrap();
+    let half = memory.capacity() / 2;
+    let used = HEADER + 5 * RECORD + 20;
+    for bit in 0..half * 8 {
+        let (at, mask) = (bit / 8, 1 << (bit % 8));
+        let mut newest = memory.clone();
+        newest.bytes_mut()[half + at] ^= mask;
+        let loaded = bench.start(&mut newest);
+        if bench.values() == second {
+            assert_eq!(loaded, Loaded::Complete, "a byte behind the records");
+            assert!(at > used, "byte {at}");
+        } else {
+            assert_eq!(bench.values(), first, "byte {at}");
+            assert!(matches!(loaded, Loaded::Older | Loaded::Complete));
+            assert!(
+                (8..12).contains(&at) || loaded == Loaded::Older,
+                "byte {at}"
+            );
+        }
+        let mut older = memory.clone();
+        older.bytes_mut()[at] ^= mask;
+        bench.start(&mut older);
+        assert_eq!(bench.values(), second, "byte {at}");
+        let mut only = one.clone();
+        only.bytes_mut()[at] ^= mask;
+        match bench.start(&mut only) {
+            Loaded::Complete => assert_eq!(bench.values(), first),
+            loaded => assert_eq!(
+                (loaded, bench.values()),
+                (Loaded::Damaged, defaults.clone())
+            ),
+        }
+    }
+}
+
+#[test]
+fn garbage_is_damaged_and_can_be_saved_over() {
+    let mut random = 0x1234_5678_9ABC_DEF0u64;
+    let mut byte = move || {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        random as u8
+    };
+    let mut bench = Bench::new(device());
+    let defaults = bench.values();
+    for round in 0..3000usize {
+        let mut memory = storage();
+        let len = memory.capacity() - round % 60;
+        memory = Memory::new((0..len).map(|_| byte()).collect());
+        if round % 2 == 0 {
+            // As far as the length and the checksum, everything is right.
+            let size = len / 2;
+            let bytes = memory.bytes_mut();
+            bytes[..4].copy_from_slice(&bank::MAGIC);
+            bytes[4..8].copy_from_slice(&[1, 0, 0, 0]);
+            let payload = (round % (size - HEADER)) as u32;
+            bytes[12..16].copy_from_slice(&payload.to_le_bytes());
+            let mut crc = super::super::crc::Crc32::new();
+            crc.update(&bytes[4..16]);
+            crc.update(&bytes[HEADER..HEADER + payload as usize]);
+            bytes[16..20].copy_from_slice(&crc.finish().to_le_bytes());
+        }
+        let loaded = bench.start(&mut memory);
+        if loaded == Loaded::Damaged {
+            assert_eq!(bench.values(), defaults);
+        } else {
+            assert!(
+                round % 2 == 0 && round % (len / 2 - HEADER) < 2 * RECORD + 40,
+                "{round}: {loaded:?}"
+            );
+        }
+        if round % 60 == 0 {
+            bench.fill(9);
+            let saved = bench.values();
+            save(&mut memory, &bench.store(), 1).unwrap();
+            bench.start(&mut memory);
+            assert_eq!(bench.values(), saved);
+        }
+    }
+}
+
+#[test]
+fn a_group_is_saved_without_the_others() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(5);
+    save(&mut memory, &bench.store(), 2).unwrap();
+    bench.fill(6);
+    save(&mut memory, &bench.store(), 3).unwrap();
+    bench.fill(7);
+    bench.start(&mut memory);
+    let mut store = bench.store();
+    assert_eq!(store.unsigned(0x1017, 0), 5);
+    assert_eq!(store.unsigned(0x6003, 0), 6);
+    assert_eq!(store.unsigned(0x2101, 0), 1, "never saved");
+    assert_eq!(
+        store.unsigned(0x2201, 0),
+        6,
+        "the life record goes with every save"
+    );
+    store.set_unsigned(od_model::Address::new(0x2201, 0), 8);
+    save(&mut memory, &store, 0).unwrap();
+    bench.start(&mut memory);
+    assert_eq!(bench.store().unsigned(0x2201, 0), 8, "and alone");
+    assert_eq!(bench.store().unsigned(0x6003, 0), 6);
+}
+
+#[test]
+fn a_node_id_default_follows_the_node_id() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    save(&mut memory, &bench.store(), 1).unwrap();
+    bench.node_id = 9;
+    bench.start(&mut memory);
+    assert_eq!(bench.store().unsigned(0x1014, 0), 0x89);
+    bench
+        .store()
+        .set_unsigned(od_model::Address::new(0x1014, 0), 0x81);
+    save(&mut memory, &bench.store(), 1).unwrap();
+    bench.node_id = 2;
+    bench.start(&mut memory);
+    assert_eq!(
+        bench.store().unsigned(0x1014, 0),
+        0x81,
+        "a value of the user's is absolute"
+    );
+}
+
+#[test]
+fn an_image_survives_another_dictionary() {
+    use DataType::{Unsigned16, Unsigned32};
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(5);
+    let saved = bench.values();
+    save(&mut memory, &bench.store(), 1).unwrap();
+    // 1017h is shorter, 2101h and 2300h are gone, 6003h stayed, 7000h is new.
+    let mut other = Bench::new(tables(&[
+        (0x1017, Unsigned16, Access::Rw, Raw::Integer(0)),
+        (0x6003, Unsigned32, Access::Rw, Raw::Integer(0)),
+        (0x7000, Unsigned32, Access::Rw, Raw::Integer(1)),
+    ]));
+    assert_eq!(other.start(&mut memory), Loaded::Partial { skipped: 5 });
+    assert_eq!(other.store().unsigned(0x1017, 0), 0);
+    assert_eq!(other.store().unsigned(0x6003, 0), 5);
+    save(&mut memory, &other.store(), 3).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Partial { skipped: 1 });
+    assert_eq!(bench.values(), saved, "what it did not know, it kept");
+
+    // Without room for both, what the device knows is what counts.
+    let mut small = Memory::new(memory.into_inner());
+    let mut large = Bench::new(tables(&[
+        (0x1017, Unsigned32, Access::Rw, Raw::Integer(3)),
+        (
+            0x5000,
+            DataType::VisibleString,
+            Access::Rw,
+            Raw::Text("0123456789".repeat(7)),
+        ),
+    ]));
+    save(&mut small, &large.store(), 1).unwrap();
+    let before = large.values();
+    assert_eq!(
+        large.start(&mut small),
+        Loaded::Complete,
+        "the others are gone"
+    );
+    assert_eq!(large.values(), before);
+}
+
+#[test]
+fn limits_hold_for_saved_values() {
+    let limited = |high| {
+        let mut description = Description::default();
+        let edit = Edit::add(Target::object(0x6001))
+            .name("Resolution")
+            .data_type(DataType::Unsigned32)
+            .access(Access::Rw)
+            .default(Raw::Integer(1))
+            .low(Raw::Integer(1))
+            .high(Raw::Integer(high));
+        assert!(patch::apply(&mut description, &[edit]).is_empty());
+        Bench::new(Tables::new(&description))
+    };
+    let (mut bench, mut memory) = (limited(0x2000), storage());
+    bench
+        .store()
+        .set_unsigned(od_model::Address::new(0x6001, 0), 0x2000);
+    save(&mut memory, &bench.store(), 1).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Complete);
+    let mut bench = limited(0x1000);
+    assert_eq!(bench.start(&mut memory), Loaded::Partial { skipped: 1 });
+    assert_eq!(bench.store().unsigned(0x6001, 0), 1);
+}
+
+#[test]
+fn sequence_numbers_wrap() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(1);
+    save(&mut memory, &bench.store(), 1).unwrap();
+    let bytes = memory.bytes_mut();
+    bytes[8..12].copy_from_slice(&(u32::MAX - 1).to_le_bytes());
+    let len = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+    let mut crc = super::super::crc::Crc32::new();
+    crc.update(&bytes[4..16]);
+    crc.update(&bytes[HEADER..HEADER + len]);
+    bytes[16..20].copy_from_slice(&crc.finish().to_le_bytes());
+    for with in 2..8 {
+        bench.fill(with);
+        save(&mut memory, &bench.store(), 1).unwrap();
+        assert_eq!(bench.start(&mut memory), Loaded::Complete);
+        assert_eq!(bench.store().unsigned(0x6003, 0), u64::from(with));
+    }
+}
+
+#[test]
+fn another_version_is_not_read() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(1);
+    save(&mut memory, &bench.store(), 1).unwrap();
+    memory.bytes_mut()[4] = 2;
+    assert_eq!(bench.start(&mut memory), Loaded::Damaged);
+    assert_eq!(bench.store().unsigned(0x6003, 0), 0);
+    // A save leaves it where it is, as long as there is another bank.
+    save(&mut memory, &bench.store(), 1).unwrap();
+    assert_eq!(memory.bytes()[..5], *b"\x69odk\x02");
+}
+
+#[test]
+fn too_little_room_is_an_error_before_anything_is_written() {
+    let mut bench = Bench::new(device());
+    assert_eq!(bench.start(&mut crate::storage::NoStorage), Loaded::Blank);
+    assert_eq!(
+        save(&mut crate::storage::NoStorage, &bench.store(), 1),
+        Err(StorageError::Full)
+    );
+    assert_eq!(
+        erase(&mut crate::storage::NoStorage, &bench.store(), 1),
+        Ok(())
+    );
+    for len in 0..120 {
+        let mut memory = Memory::new(vec![0xFF; len]);
+        if save(&mut memory, &bench.store(), 1) == Err(StorageError::Full) {
+            assert!(memory.bytes().iter().all(|byte| *byte == 0xFF));
+        }
+        assert!(matches!(
+            bench.start(&mut memory),
+            Loaded::Blank | Loaded::Complete
+        ));
+    }
+}

@@ -1,0 +1,113 @@
+//! Storage in memory, with a power supply that can be cut.
+
+use super::{Storage, StorageError};
+
+/// Storage that lives as long as its bytes: an array, a slice, a `Vec`.
+///
+/// Power can be cut after so many written bytes, which is how tests and the
+/// simulator try what a save leaves behind:
+///
+/// ```
+/// use od_runtime::storage::{Memory, Storage, StorageError};
+///
+/// let mut memory = Memory::new([0xFF; 64]);
+/// memory.cut_after(3);
+/// assert_eq!(memory.write(0, b"12345"), Err(StorageError::PowerCut));
+/// assert!(memory.is_cut());
+/// memory.restore_power();
+/// assert_eq!(memory.bytes()[..5], *b"123\xFF\xFF");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Memory<B> {
+    bytes: B,
+    /// Bytes that can still be written before power goes.
+    left: Option<usize>,
+    cut: bool,
+}
+
+impl<B: AsRef<[u8]> + AsMut<[u8]>> Memory<B> {
+    /// Storage that holds these bytes; a new EEPROM is all FFh or all 0.
+    pub const fn new(bytes: B) -> Self {
+        Self {
+            bytes,
+            left: None,
+            cut: false,
+        }
+    }
+
+    /// Power goes when `bytes` more bytes are written and one more is to be.
+    pub fn cut_after(&mut self, bytes: usize) {
+        self.left = Some(bytes);
+    }
+
+    /// Did power go? Nothing can be read or written then.
+    pub fn is_cut(&self) -> bool {
+        self.cut
+    }
+
+    /// Power is back, for good.
+    pub fn restore_power(&mut self) {
+        self.left = None;
+        self.cut = false;
+    }
+
+    /// What it holds.
+    pub fn bytes(&self) -> &[u8] {
+        self.bytes.as_ref()
+    }
+
+    /// What it holds, to be damaged.
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        self.bytes.as_mut()
+    }
+
+    /// The bytes themselves.
+    pub fn into_inner(self) -> B {
+        self.bytes
+    }
+}
+
+impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
+    fn capacity(&self) -> usize {
+        self.bytes.as_ref().len()
+    }
+
+    fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
+        if self.cut {
+            return Err(StorageError::PowerCut);
+        }
+        let from = self
+            .bytes
+            .as_ref()
+            .get(offset..offset.saturating_add(to.len()))
+            .ok_or(StorageError::OutOfRange)?;
+        to.copy_from_slice(from);
+        Ok(())
+    }
+
+    fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
+        if self.cut {
+            return Err(StorageError::PowerCut);
+        }
+        let to = self
+            .bytes
+            .as_mut()
+            .get_mut(offset..offset.saturating_add(bytes.len()))
+            .ok_or(StorageError::OutOfRange)?;
+        let len = match &mut self.left {
+            Some(left) => {
+                let len = bytes.len().min(*left);
+                *left -= len;
+                self.cut = len < bytes.len();
+                len
+            }
+            None => bytes.len(),
+        };
+        to[..len].copy_from_slice(&bytes[..len]);
+        if self.cut {
+            Err(StorageError::PowerCut)
+        } else {
+            Ok(())
+        }
+    }
+}
