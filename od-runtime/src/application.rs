@@ -2,6 +2,7 @@
 
 use od_model::Address;
 
+use crate::fifo::Fifo;
 use crate::{AbortCode, Instant, NodeId, Store, emcy};
 
 /// What a reset takes back (CiA 301, chapter 7.3.2).
@@ -13,6 +14,8 @@ pub enum Reset {
     Node,
     /// NMT reset communication: 1000h–1FFFh is taken from storage again.
     Communication,
+    /// 1011h on a device that restores at once: values became their defaults in RAM.
+    Defaults,
 }
 
 /// What an application may use while it is called.
@@ -26,7 +29,7 @@ pub struct Context<'c, 'a> {
 }
 
 /// Wishes of an application to its node, carried out when the call is over.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Signals {
     /// Errors that came or went, in order.
     pub(crate) errors: emcy::Changes,
@@ -36,7 +39,28 @@ pub struct Signals {
     pub(crate) tick: bool,
 }
 
+impl Default for Signals {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Signals {
+    /// No wishes.
+    pub const fn new() -> Self {
+        Self {
+            errors: Fifo::new(emcy::NO_CHANGE),
+            reconfigure: false,
+            tick: false,
+        }
+    }
+
+    /// Is there nothing to carry out?
+    #[inline]
+    pub(crate) const fn is_idle(&self) -> bool {
+        self.errors.is_empty() && !self.reconfigure && !self.tick
+    }
+
     /// An error came: an EMCY is sent, 1001h and 1003h follow.
     ///
     /// An error that is there already is not reported again.

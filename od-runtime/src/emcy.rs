@@ -37,8 +37,14 @@ pub enum Change {
 /// Changes on their way from the application to the node.
 pub(crate) type Changes = Fifo<Change, QUEUE>;
 
+/// Stands where no change waits.
+pub(crate) const NO_CHANGE: Change = Change::Cleared {
+    code: 0,
+    info: [0; 5],
+};
+
 /// The emergency producer.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Producer {
     active: Fifo<Error, ACTIVE>,
     waiting: Fifo<wire::emcy::Repr, QUEUE>,
@@ -46,9 +52,25 @@ pub(crate) struct Producer {
 }
 
 impl Producer {
+    pub(crate) const fn new() -> Self {
+        Self {
+            active: Fifo::new(Error {
+                code: 0,
+                register: 0,
+                info: [0; 5],
+            }),
+            waiting: Fifo::new(wire::emcy::Repr {
+                code: 0,
+                register: 0,
+                info: [0; 5],
+            }),
+            blocked_until: Instant::ZERO,
+        }
+    }
+
     /// Forgets everything: the device starts without errors.
     pub(crate) fn reset(&mut self) {
-        *self = Self::default();
+        *self = Self::new();
     }
 
     /// Takes a change over into 1001h and 1003h. Answers whether an error came
@@ -86,13 +108,6 @@ impl Producer {
             });
         }
         raised
-    }
-
-    /// Is there an error that sets one of these bits of 1001h?
-    pub(crate) fn any_active(&self, register: u8) -> bool {
-        self.active
-            .iter()
-            .any(|error| error.register & register != 0)
     }
 
     /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.

@@ -4,21 +4,16 @@
 /// happened first explains the rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fifo<T, const N: usize> {
-    items: [Option<T>; N],
+    items: [T; N],
     head: usize,
     len: usize,
 }
 
-impl<T: Copy, const N: usize> Default for Fifo<T, N> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl<T: Copy, const N: usize> Fifo<T, N> {
-    pub(crate) const fn new() -> Self {
+    /// An empty queue; `fill` stands where nothing is.
+    pub(crate) const fn new(fill: T) -> Self {
         Self {
-            items: [None; N],
+            items: [fill; N],
             head: 0,
             len: 0,
         }
@@ -32,16 +27,18 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
     /// Answers whether there was room.
     #[inline]
     pub(crate) fn push(&mut self, item: T) -> bool {
-        if self.len >= N {
-            return false;
-        }
         let mut at = self.head + self.len;
         if at >= N {
             at -= N;
         }
-        self.items[at] = Some(item);
-        self.len += 1;
-        true
+        match self.items.get_mut(at) {
+            Some(place) if self.len < N => {
+                *place = item;
+                self.len += 1;
+                true
+            }
+            _ => false,
+        }
     }
 
     #[inline]
@@ -49,35 +46,34 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
         if self.len == 0 {
             return None;
         }
-        let item = self.items[self.head].take();
+        let item = *self.items.get(self.head)?;
         self.head += 1;
         if self.head >= N {
             self.head = 0;
         }
         self.len -= 1;
-        item
+        Some(item)
     }
 
     pub(crate) fn clear(&mut self) {
-        *self = Self::new();
+        self.head = 0;
+        self.len = 0;
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = T> + '_ {
-        (0..self.len).filter_map(|i| self.items[(self.head + i) % N])
+        (0..self.len).map(|i| self.items[(self.head + i) % N])
     }
 
     /// Takes the first item out that `which` names; answers whether there was one.
     pub(crate) fn remove(&mut self, mut which: impl FnMut(&T) -> bool) -> bool {
-        let mut kept = Self::new();
         let mut removed = false;
-        while let Some(item) = self.pop() {
-            if !removed && which(&item) {
-                removed = true;
-            } else {
-                kept.push(item);
+        for _ in 0..self.len {
+            match self.pop() {
+                Some(item) if !removed && which(&item) => removed = true,
+                Some(item) => _ = self.push(item),
+                None => break,
             }
         }
-        *self = kept;
         removed
     }
 }
@@ -88,7 +84,7 @@ mod tests {
 
     #[test]
     fn keeps_order_and_refuses_when_full() {
-        let mut fifo: Fifo<u8, 3> = Fifo::new();
+        let mut fifo: Fifo<u8, 3> = Fifo::new(0);
         for round in 0..5 {
             assert!(fifo.push(round) && fifo.push(round + 1) && fifo.push(round + 2));
             assert!(!fifo.push(99));

@@ -5,7 +5,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "std")]
+#[cfg(any(feature = "std", test))]
 extern crate std;
 
 mod abort;
@@ -13,8 +13,14 @@ mod application;
 mod emcy;
 mod fifo;
 mod frame;
+mod heartbeat;
 mod ids;
+mod node;
+mod objects;
+mod pdo;
 mod profile;
+mod sdo;
+pub mod storage;
 mod store;
 mod time;
 pub mod wire;
@@ -24,6 +30,9 @@ pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use emcy::{Change as ErrorChange, Error};
 pub use frame::{CanId, Frame};
 pub use ids::{CobId, NodeId};
+pub use node::{Event, Node};
+pub use objects::Device;
 pub use profile::{LengthRule, PdoProfile, Profile, Restore, SdoProfile, StoreProfile};
+pub use sdo::crc16;
 pub use store::{Store, StoreTooSmall, TextTooLong};
 pub use time::{Duration, Instant};

@@ -177,7 +177,7 @@ impl<'a> Store<'a> {
     #[inline]
     pub fn number(&self, entry: &Entry) -> u64 {
         let mut number = [0; 8];
-        u64::from_wire(self.bytes(entry, &mut number))
+        little_endian(self.bytes(entry, &mut number))
     }
 
     /// Puts a number at an address, cut to the entry's length; `false` where there is no such object.
@@ -189,6 +189,22 @@ impl<'a> Store<'a> {
             Some(size) => put(self.values, entry, &value.to_le_bytes()[..size.min(8)]).is_ok(),
             None => false,
         }
+    }
+}
+
+/// The number that up to eight bytes are. The usual lengths are one load each.
+#[inline]
+pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
+    match *bytes {
+        [a] => a.into(),
+        [a, b] => u16::from_le_bytes([a, b]).into(),
+        [a, b, c, d] => u32::from_le_bytes([a, b, c, d]).into(),
+        [a, b, c, d, e, f, g, h] => u64::from_le_bytes([a, b, c, d, e, f, g, h]),
+        _ => bytes
+            .iter()
+            .take(8)
+            .rev()
+            .fold(0, |number, byte| number << 8 | u64::from(*byte)),
     }
 }
 

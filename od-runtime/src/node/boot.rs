@@ -1,0 +1,142 @@
+//! Power-on, the two NMT resets, and how the services get their configuration.
+
+use super::{Core, Event};
+use crate::objects::{Device, Objects, Outbox};
+use crate::storage::image::{self, Loaded};
+use crate::wire::nmt::State;
+use crate::{CobId, Frame, Instant, Reset, StoreTooSmall, pdo};
+
+impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
+    /// See [`Node::power_on`](super::Node::power_on).
+    pub(super) fn power_on(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) -> Result<(), StoreTooSmall> {
+        let needed = device.dictionary.store_len();
+        if device.values.len() < needed {
+            return Err(StoreTooSmall { needed });
+        }
+        self.now = now;
+        self.powered = true;
+        self.out.clear();
+        self.reset(device, outbox, now, Reset::PowerOn);
+        Ok(())
+    }
+
+    /// Power goes: silence until [`power_on`](Self::power_on).
+    pub(super) fn power_off(&mut self) {
+        self.powered = false;
+        self.out.clear();
+        self.emcy.reset();
+        self.sdo.reset();
+        self.stop_pdos();
+        self.state = State::Initialising;
+        self.boot_at = None;
+    }
+
+    pub(super) fn reset(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+        reset: Reset,
+    ) {
+        let delay = match reset {
+            Reset::Node => device.profile.reset_node_us,
+            Reset::Communication => device.profile.reset_communication_us,
+            Reset::PowerOn | Reset::Defaults => 0,
+        };
+        self.sdo.reset();
+        self.stop_pdos();
+        self.heartbeat.stop();
+        self.tick_at = None;
+        self.state = State::Initialising;
+        if reset != Reset::Communication {
+            self.emcy.reset();
+        }
+        self.load(device, outbox, now, reset);
+        self.events.push(Event::Reset(reset, self.node_id));
+        self.boot_at = Some(now.plus_micros(delay.into()));
+        if delay == 0 {
+            self.boot_up(device, outbox, now);
+        }
+    }
+
+    /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
+    /// on the node ID, so a new one means a second pass.
+    fn load(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant, reset: Reset) {
+        let all = reset != Reset::Communication;
+        for pass in 0..2 {
+            let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+                return;
+            };
+            // Reset communication takes 1000h–1FFFh back and leaves the errors that last.
+            let which = |entry: &od_model::Entry| {
+                let index = entry.address.index;
+                all || (0x1000..0x2000).contains(&index) && !matches!(index, 0x1001 | 0x1003)
+            };
+            objects.store.reset(which);
+            let loaded = image::load(objects.storage, &mut objects.store, &which);
+            if pass == 0
+                && !matches!(
+                    loaded,
+                    Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. })
+                )
+            {
+                self.events.push(Event::StorageDamaged);
+            }
+            match objects.application.node_id(&objects.store) {
+                Some(node_id) if node_id != self.node_id && pass == 0 => self.node_id = node_id,
+                _ => {
+                    objects.application(|application, context| application.reset(context, reset));
+                    return;
+                }
+            }
+        }
+    }
+
+    /// The end of initialisation: services take their configuration, the boot-up message
+    /// goes out, Pre-operational begins.
+    pub(super) fn boot_up(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) {
+        self.boot_at = None;
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        self.configure(&mut objects);
+        self.out.push(Frame::new(self.node_id.plus(0x700), &[0]));
+        self.state = State::PreOperational;
+        self.events.push(Event::State(self.state));
+        self.heartbeat.configure(&objects.store, now);
+        self.tick_at = objects.application(|application, context| application.tick(context));
+        self.finish(&mut objects);
+    }
+
+    /// Every service reads its objects again.
+    pub(super) fn configure(&mut self, objects: &mut Objects<'_>) {
+        let sync = objects.store.try_unsigned(0x1005, 0).unwrap_or(0x80);
+        self.sync_id = CobId::new(sync as u32).can_id();
+        self.tpdo_count = count(objects, 0x1800, PDO);
+        self.rpdo_count = count(objects, 0x1400, PDO);
+        for (number, tpdo) in self.tpdo.iter_mut().take(self.tpdo_count).enumerate() {
+            if tpdo.configure(objects, number as u16) && self.state == State::Operational {
+                tpdo.start(objects);
+            }
+        }
+        for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
+            *rpdo = pdo::Rpdo::load(objects, number as u16);
+        }
+    }
+}
+
+/// How many PDOs the dictionary has parameters for, from `first` on; those past the
+/// node's room are not served.
+fn count(objects: &Objects<'_>, first: u16, room: usize) -> usize {
+    let dictionary = objects.store.dictionary();
+    let last = (first..first + pdo::MAX)
+        .rev()
+        .find(|index| dictionary.object(*index).is_some());
+    last.map_or(0, |last| usize::from(last - first) + 1)
+        .min(room)
+}

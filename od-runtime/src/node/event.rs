@@ -1,0 +1,27 @@
+//! What a host may want to show or log.
+
+use od_model::Address;
+
+use crate::wire::nmt::State;
+use crate::{Error, NodeId, Reset};
+
+/// Something happened in the node.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Event {
+    /// The NMT state changed.
+    State(State),
+    /// The device was reset, and starts with this node ID.
+    Reset(Reset, NodeId),
+    /// A master wrote an object.
+    Written(Address),
+    /// 1010h: the groups of this sub-index were saved.
+    Saved(u8),
+    /// 1011h: the groups of this sub-index were restored, at once or at the next reset.
+    Restored(u8),
+    /// What storage held was damaged or written by another version; defaults were taken.
+    StorageDamaged,
+    /// An error came.
+    Error(Error),
+    /// The error with this code went.
+    ErrorCleared(u16),
+}

@@ -1,0 +1,255 @@
+//! What comes in: frames and the passing of time.
+
+use super::{Core, Event};
+use crate::objects::{Device, Effect, Objects, Outbox};
+use crate::pdo::Received;
+use crate::wire::nmt::{self, Command, State};
+use crate::{Error, ErrorChange, Frame, Instant, Reset, emcy};
+
+/// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
+const PDO_LENGTH: u16 = 0x8210;
+
+impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
+    #[inline]
+    pub(super) fn handle_frame(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+        frame: &Frame,
+    ) {
+        let now = self.advance(now);
+        if !self.powered || self.state == State::Initialising {
+            return;
+        }
+        let id = frame.id();
+        if id.raw() == 0 {
+            if !frame.is_remote() && !id.is_extended() {
+                self.handle_nmt(device, outbox, now, frame);
+            }
+            return;
+        }
+        if self.state == State::Stopped {
+            return;
+        }
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        if frame.is_remote() {
+            self.handle_remote(&mut objects, frame);
+        } else if id == self.node_id.plus(0x600) {
+            if let Some(answer) = self.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
+                self.out.push(Frame::full(self.node_id.plus(0x580), answer));
+            }
+        } else if self.state == State::Operational {
+            if id == self.sync_id {
+                self.handle_sync(&mut objects, frame);
+            } else {
+                self.handle_rpdo(&mut objects, frame);
+            }
+        } else {
+            return;
+        }
+        self.finish(&mut objects);
+    }
+
+    #[inline]
+    pub(super) fn handle_timeout(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) {
+        let now = self.advance(now);
+        if !self.powered {
+            return;
+        }
+        if self.boot_at.is_some_and(|at| at <= now) {
+            self.boot_up(device, outbox, now);
+        }
+        if self.heartbeat.handle_timeout(now) {
+            self.out
+                .push(Frame::new(self.node_id.plus(0x700), &[self.state as u8]));
+        }
+        if let Some(abort) = self.sdo.handle_timeout(now) {
+            self.out.push(Frame::full(self.node_id.plus(0x580), abort));
+        }
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        if self.tick_at.is_some_and(|at| at <= now) {
+            self.tick_at = objects.application(|application, context| application.tick(context));
+        }
+        if self.state == State::Operational {
+            for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
+                pdo.handle_timeout(&mut objects);
+                self.pdo_pending |= pdo.is_pending();
+            }
+        }
+        self.finish(&mut objects);
+    }
+
+    pub(super) fn handle_change(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) {
+        let now = self.advance(now);
+        if !self.powered || self.state == State::Initialising {
+            return;
+        }
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        self.tick_at = objects.application(|application, context| application.tick(context));
+        self.finish(&mut objects);
+    }
+
+    /// Time does not run backwards here, whatever the host's clock says.
+    #[inline]
+    fn advance(&mut self, now: Instant) -> Instant {
+        self.now = self.now.max(now);
+        self.now
+    }
+
+    fn handle_nmt(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+        frame: &Frame,
+    ) {
+        let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {
+            return;
+        };
+        if node != 0 && node != self.node_id.raw() {
+            return;
+        }
+        let state = match command {
+            Command::Start => State::Operational,
+            Command::Stop => State::Stopped,
+            Command::EnterPreOperational => State::PreOperational,
+            Command::ResetNode => return self.reset(device, outbox, now, Reset::Node),
+            Command::ResetCommunication => {
+                return self.reset(device, outbox, now, Reset::Communication);
+            }
+        };
+        if let Some(mut objects) = device.objects(self.node_id, now, outbox) {
+            self.enter(&mut objects, state);
+        }
+    }
+
+    fn handle_remote(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+        if self.state != State::Operational {
+            return;
+        }
+        let pdos = self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default();
+        for pdo in pdos.iter_mut().filter(|pdo| pdo.answers(frame.id())) {
+            if let Some(answer) = pdo.request(objects) {
+                self.out.push(answer);
+            }
+            self.pdo_pending |= pdo.is_pending();
+        }
+    }
+
+    /// SYNC: with a counter of one byte or without.
+    fn handle_sync(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+        let counter = match frame.data() {
+            [] => None,
+            [counter] => Some(*counter),
+            _ => return,
+        };
+        for pdo in self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default() {
+            pdo.sync(objects);
+        }
+        for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
+            pdo.sync(objects, counter);
+            self.pdo_pending |= pdo.is_pending();
+        }
+    }
+
+    fn handle_rpdo(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+        let pdos = self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default();
+        for pdo in pdos.iter_mut().filter(|pdo| pdo.takes(frame.id())) {
+            match pdo.receive(objects, frame) {
+                Received::Taken => objects.outbox.signals.clear(PDO_LENGTH, [0; 5]),
+                Received::TooShort => {
+                    objects.outbox.signals.raise(Error {
+                        code: PDO_LENGTH,
+                        register: 0x11,
+                        info: [0; 5],
+                    });
+                }
+            }
+        }
+    }
+
+    /// What follows from a call: services take changed objects over, errors go out,
+    /// changed values make event-driven PDOs.
+    #[inline]
+    pub(super) fn finish(&mut self, objects: &mut Objects<'_>) {
+        if !objects.outbox.is_empty() {
+            self.empty_outbox(objects);
+        }
+        if self.state == State::Operational && objects.profile.pdo.event_on_change {
+            for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
+                pdo.notice_change(objects);
+                self.pdo_pending |= pdo.is_pending();
+            }
+        }
+    }
+
+    #[cold]
+    fn empty_outbox(&mut self, objects: &mut Objects<'_>) {
+        self.apply_effects(objects);
+        if core::mem::take(&mut objects.outbox.signals.tick) {
+            self.tick_at = objects.application(|application, context| application.tick(context));
+        }
+        while let Some(change) = objects.outbox.signals.errors.pop() {
+            let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
+            let raised = self.emcy.change(&mut objects.store, change, send);
+            match change {
+                ErrorChange::Raised(error) if raised => self.events.push(Event::Error(error)),
+                ErrorChange::Cleared { code, .. } => self.events.push(Event::ErrorCleared(code)),
+                ErrorChange::Raised(_) => false,
+            };
+        }
+    }
+
+    fn apply_effects(&mut self, objects: &mut Objects<'_>) {
+        let overflow = core::mem::take(&mut objects.outbox.overflow);
+        let mut communication =
+            core::mem::take(&mut objects.outbox.signals.reconfigure) || overflow;
+        let mut heartbeat = overflow;
+        while let Some(effect) = objects.outbox.effects.pop() {
+            self.events.push(match effect {
+                Effect::Written(address) => {
+                    heartbeat |= address.index == 0x1017;
+                    communication |= is_configuration(objects, address.index);
+                    Event::Written(address)
+                }
+                Effect::Saved(sub) => Event::Saved(sub),
+                Effect::Restored(sub) => {
+                    let at_once = objects.profile.store.restore == crate::Restore::AtOnce;
+                    communication |= at_once;
+                    heartbeat |= at_once;
+                    Event::Restored(sub)
+                }
+            });
+        }
+        if heartbeat {
+            self.heartbeat.configure(&objects.store, objects.now);
+        }
+        if communication {
+            self.configure(objects);
+        }
+    }
+}
+
+/// Is it an object that SYNC or a PDO takes its configuration from?
+fn is_configuration(objects: &Objects<'_>, index: u16) -> bool {
+    let repeat = objects.profile.pdo.repeat_counter;
+    matches!(index, 0x1005 | 0x1400..=0x1BFF)
+        || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))
+}

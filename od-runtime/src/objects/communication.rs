@@ -1,0 +1,162 @@
+//! What CiA 301 says of writing the communication objects.
+
+use od_model::{Address, Entry};
+
+use super::Objects;
+use crate::wire::pdo::MapRepr;
+use crate::{AbortCode, CobId};
+
+/// The signature that a write to 1010h or 1011h has to carry, as it stands on the wire.
+pub(super) fn command(address: Address) -> Option<[u8; 4]> {
+    match address {
+        Address {
+            index: 0x1010,
+            sub: 1..,
+        } => Some(*b"save"),
+        Address {
+            index: 0x1011,
+            sub: 1..,
+        } => Some(*b"load"),
+        _ => None,
+    }
+}
+
+/// Number of the PDO and whether it is one that the device transmits.
+const fn pdo(index: u16) -> Option<(u16, bool)> {
+    match index {
+        0x1400..=0x15FF => Some((index - 0x1400, false)),
+        0x1600..=0x17FF => Some((index - 0x1600, false)),
+        0x1800..=0x19FF => Some((index - 0x1800, true)),
+        0x1A00..=0x1BFF => Some((index - 0x1A00, true)),
+        _ => None,
+    }
+}
+
+impl Objects<'_> {
+    /// Rules of the standard for an object below 2000h.
+    pub(super) fn check_communication(&self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
+        let Address { index, sub } = entry.address;
+        let mut wide = [0; 8];
+        for (to, from) in wide.iter_mut().zip(bytes) {
+            *to = *from;
+        }
+        let value = u64::from_le_bytes(wide);
+        match (index, sub) {
+            // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
+            (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
+            // The device produces no SYNC, so bit 30 cannot be set (chapter 7.5.2.5).
+            (0x1005, 0) => self.cob_id(entry, CobId::new(value as u32), false, |cob| {
+                !cob.produces_sync()
+            }),
+            (0x1014, 0) => self.cob_id(entry, CobId::new(value as u32), true, |_| true),
+            (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => {
+                self.cob_id(entry, CobId::new(value as u32), true, |_| true)
+            }
+            (0x1400..=0x15FF, 2) if matches!(value, 241..=253) => Err(AbortCode::ValueRange),
+            (0x1800..=0x19FF, 2) => {
+                let types = self.profile.pdo.tpdo_types;
+                if types
+                    .iter()
+                    .any(|(low, high)| (*low..=*high).contains(&(value as u8)))
+                {
+                    Ok(())
+                } else {
+                    Err(AbortCode::ValueRange)
+                }
+            }
+            // The inhibit time stands while the PDO exists (chapter 7.5.2.37).
+            (0x1800..=0x19FF, 3) if self.is_valid(index) && !self.profile.pdo.direct_cob_id => {
+                Err(AbortCode::ValueRange)
+            }
+            (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => self.mapping_count(index, value),
+            (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
+                if self.store.unsigned(index, 0) != 0 {
+                    return Err(AbortCode::SubZeroFirst);
+                }
+                check_mapped(self, index, value as u32).map(|_| ())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
+    /// changes only while bit 31 is set (unless the family allows more).
+    fn cob_id(
+        &self,
+        entry: &Entry,
+        new: CobId,
+        has_valid_bit: bool,
+        allowed: impl Fn(CobId) -> bool,
+    ) -> Result<(), AbortCode> {
+        let old = CobId::new(self.store.number(entry) as u32);
+        let valid = new.is_valid() || !has_valid_bit;
+        if !new.is_consistent() || !allowed(new) || (valid && new.is_restricted()) {
+            return Err(AbortCode::ValueRange);
+        }
+        let same = (new.raw() ^ old.raw()) & 0x3FFF_FFFF == 0;
+        if has_valid_bit && !self.profile.pdo.direct_cob_id && old.is_valid() && valid && !same {
+            return Err(AbortCode::ValueRange);
+        }
+        Ok(())
+    }
+
+    /// Does the PDO of a communication or mapping object exist (bit 31 of its COB-ID clear)?
+    fn is_valid(&self, index: u16) -> bool {
+        let Some((number, transmits)) = pdo(index) else {
+            return false;
+        };
+        let parameter = number + if transmits { 0x1800 } else { 0x1400 };
+        let cob_id = self.store.try_unsigned(parameter, 1);
+        cob_id.is_some_and(|raw| CobId::new(raw as u32).is_valid())
+    }
+
+    /// Sub-index 0 of a mapping: 0 switches it off, a count needs that many entries that
+    /// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
+    fn mapping_count(&self, index: u16, count: u64) -> Result<(), AbortCode> {
+        let mut bits = 0;
+        for sub in 1..=count.min(0xFF) as u8 {
+            let raw = self
+                .store
+                .try_unsigned(index, sub)
+                .ok_or(AbortCode::PdoTooLong)?;
+            bits += u32::from(check_mapped(self, index, raw as u32)?.bits);
+            if bits > 64 {
+                return Err(AbortCode::PdoTooLong);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One entry of the mapping object at `index`: what it names exists, can be mapped in this
+/// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
+pub(crate) fn check_mapped(
+    objects: &Objects<'_>,
+    index: u16,
+    raw: u32,
+) -> Result<MapRepr, AbortCode> {
+    let mapped = MapRepr::parse(raw);
+    let transmits = index >= 0x1A00;
+    if let Address {
+        index: dummy @ 0x0001..=0x0007,
+        sub: 0,
+    } = mapped.address
+    {
+        let bits = od_model::DataType::from_code(dummy).and_then(od_model::DataType::bits);
+        return match transmits {
+            false if bits == Some(mapped.bits) => Ok(mapped),
+            _ => Err(AbortCode::NotMappable),
+        };
+    }
+    let entry = objects.entry(mapped.address)?;
+    let direction = if transmits {
+        entry.maps_to_tpdo()
+    } else {
+        entry.maps_to_rpdo()
+    };
+    if direction && entry.data_type.bits() == Some(mapped.bits) {
+        Ok(mapped)
+    } else {
+        Err(AbortCode::NotMappable)
+    }
+}

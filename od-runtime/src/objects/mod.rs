@@ -1,0 +1,247 @@
+//! The one way to read and write an object: SDO server and RPDOs come through here.
+
+mod communication;
+mod limits;
+
+use od_model::{Address, Dictionary, Entry, Missing};
+
+use crate::fifo::Fifo;
+use crate::storage::Storage;
+use crate::{AbortCode, Application, Context, Instant, NodeId, Profile, Reset, Signals, Store};
+
+pub(crate) use communication::check_mapped;
+
+/// What the node needs of its device for the length of one call.
+///
+/// The caller owns all of it; the node keeps nothing between calls but its own state.
+pub struct Device<'d> {
+    /// The object dictionary.
+    pub dictionary: Dictionary<'d>,
+    /// Room for the values, [`Dictionary::store_len`] bytes or more; kept between calls.
+    pub values: &'d mut [u8],
+    /// The device's own behaviour.
+    pub application: &'d mut dyn Application,
+    /// What survives power-off.
+    pub storage: &'d mut dyn Storage,
+    /// What the family does differently.
+    pub profile: &'d Profile,
+}
+
+/// What writing an object means for the services.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Effect {
+    /// The object at this address has a new value.
+    Written(Address),
+    /// 1010h: these groups were saved (sub-index).
+    Saved(u8),
+    /// 1011h: these groups were restored (sub-index), at once or at the next reset.
+    Restored(u8),
+}
+
+/// The device for the length of one call, with what the services add.
+pub(crate) struct Objects<'c> {
+    pub(crate) store: Store<'c>,
+    pub(crate) application: &'c mut dyn Application,
+    pub(crate) storage: &'c mut dyn Storage,
+    pub(crate) profile: &'c Profile,
+    pub(crate) now: Instant,
+    pub(crate) outbox: &'c mut Outbox,
+}
+
+/// What a call leaves to be done when it is over.
+#[derive(Debug)]
+pub(crate) struct Outbox {
+    /// The application's wishes.
+    pub(crate) signals: Signals,
+    /// What was written: one object by an SDO, up to 64 by an RPDO.
+    pub(crate) effects: Fifo<Effect, 8>,
+    /// More was written than `effects` could hold.
+    pub(crate) overflow: bool,
+}
+
+impl Outbox {
+    pub(crate) const fn new() -> Self {
+        Self {
+            signals: Signals::new(),
+            effects: Fifo::new(Effect::Saved(0)),
+            overflow: false,
+        }
+    }
+
+    #[inline]
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.effects.is_empty() && self.signals.is_idle()
+    }
+}
+
+impl Device<'_> {
+    /// `None` where `values` is too short for the dictionary.
+    #[inline]
+    pub(crate) fn objects<'c>(
+        &'c mut self,
+        node_id: NodeId,
+        now: Instant,
+        outbox: &'c mut Outbox,
+    ) -> Option<Objects<'c>> {
+        Some(Objects {
+            store: Store::new(self.dictionary, self.values, node_id).ok()?,
+            application: self.application,
+            storage: self.storage,
+            profile: self.profile,
+            now,
+            outbox,
+        })
+    }
+}
+
+impl<'c> Objects<'c> {
+    /// Calls the application with its context.
+    #[inline]
+    pub(crate) fn application<R>(
+        &mut self,
+        call: impl FnOnce(&mut dyn Application, &mut Context<'_, 'c>) -> R,
+    ) -> R {
+        let mut context = Context {
+            store: &mut self.store,
+            now: self.now,
+            signals: &mut self.outbox.signals,
+        };
+        call(self.application, &mut context)
+    }
+
+    /// The entry at an address.
+    #[inline]
+    pub(crate) fn entry(&self, address: Address) -> Result<&'c Entry, AbortCode> {
+        self.store
+            .dictionary()
+            .find(address)
+            .map_err(|missing| match missing {
+                Missing::Object => AbortCode::NoObject,
+                Missing::SubIndex => AbortCode::NoSubIndex,
+            })
+    }
+
+    /// The bytes of a readable object, brought up to date. `number` is room for a
+    /// value that stands nowhere in the store.
+    #[inline]
+    pub(crate) fn read<'b>(
+        &'b mut self,
+        address: Address,
+        number: &'b mut [u8; 8],
+    ) -> Result<&'b [u8], AbortCode> {
+        let entry = self.entry(address)?;
+        if !entry.access.readable() {
+            return Err(AbortCode::WriteOnly);
+        }
+        if address.index == 0x1003 {
+            self.unused_error(address)?;
+        }
+        self.refresh(address)?;
+        Ok(self.store.bytes(entry, number))
+    }
+
+    /// Has the application bring a live value up to date.
+    #[inline]
+    pub(crate) fn refresh(&mut self, address: Address) -> Result<(), AbortCode> {
+        // The communication area is the services' own; nothing in it is live.
+        if address.index < 0x2000 {
+            return Ok(());
+        }
+        self.application(|application, context| application.refresh(context, address))
+    }
+
+    /// May an entry be written at all, and does data of this length fit?
+    pub(crate) fn writable(
+        &self,
+        address: Address,
+        len: Option<usize>,
+    ) -> Result<&'c Entry, AbortCode> {
+        let entry = self.entry(address)?;
+        if !entry.access.writable() {
+            return Err(AbortCode::ReadOnly);
+        }
+        if let Some(len) = len {
+            self.fit(entry, len)?;
+        }
+        Ok(entry)
+    }
+
+    /// How many of `len` bytes the entry takes.
+    fn fit(&self, entry: &Entry, len: usize) -> Result<usize, AbortCode> {
+        let rule = &self.profile.sdo.length;
+        let (low, high) = match entry.data_type.size() {
+            Some(size) => (size, size),
+            None => (0, usize::from(entry.slot.len.saturating_sub(2))),
+        };
+        if len < low {
+            return Err(rule.too_short);
+        }
+        match rule.too_long {
+            Some(code) if len > high => Err(code),
+            _ => Ok(len.min(high)),
+        }
+    }
+
+    /// Writes an object with everything that belongs to it: access, length, limits, the
+    /// services' and the application's rules, then the value, then what follows from it.
+    pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
+        let entry = self.writable(address, None)?;
+        let len = self.fit(entry, bytes.len())?;
+        let bytes = &bytes[..len];
+        if let Some(signature) = communication::command(address) {
+            return self.command(entry, signature, bytes);
+        }
+        limits::check(&self.store, self.profile, entry, bytes)?;
+        if address.index < 0x2000 {
+            self.check_communication(entry, bytes)?;
+        }
+        self.application(|application, context| application.validate(context, address, bytes))?;
+        self.store.put(entry, bytes)?;
+        if address == Address::new(0x1003, 0) {
+            crate::emcy::clear_log(&mut self.store);
+        }
+        self.application(|application, context| application.written(context, address));
+        self.effect(Effect::Written(address));
+        Ok(())
+    }
+
+    /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
+    fn command(
+        &mut self,
+        entry: &Entry,
+        signature: [u8; 4],
+        bytes: &[u8],
+    ) -> Result<(), AbortCode> {
+        if bytes != signature {
+            return Err(AbortCode::NotStored);
+        }
+        let sub = entry.address.sub;
+        if entry.address.index == 0x1010 {
+            crate::storage::image::save(self.storage, &self.store, sub)
+                .map_err(|_| self.profile.store.failed)?;
+            self.effect(Effect::Saved(sub));
+            return Ok(());
+        }
+        crate::storage::image::erase(self.storage, &self.store, sub)
+            .map_err(|_| self.profile.store.failed)?;
+        if self.profile.store.restore == crate::Restore::AtOnce {
+            self.store
+                .reset(|entry| crate::storage::image::restores(entry, sub));
+            self.application(|application, context| application.reset(context, Reset::Defaults));
+        }
+        self.effect(Effect::Restored(sub));
+        Ok(())
+    }
+
+    fn effect(&mut self, effect: Effect) {
+        self.outbox.overflow |= !self.outbox.effects.push(effect);
+    }
+
+    /// Reading an entry of 1003h that holds no error.
+    fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
+        match self.profile.sdo.unused_error {
+            Some(code) if u64::from(address.sub) > self.store.unsigned(0x1003, 0) => Err(code),
+            _ => Ok(()),
+        }
+    }
+}

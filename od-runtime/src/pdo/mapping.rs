@@ -1,0 +1,150 @@
+//! What a PDO is made of, taken from its mapping object once and kept.
+
+use od_model::Entry;
+
+use crate::objects::{Objects, check_mapped};
+
+/// Entries that are kept; a mapping of more (of BOOLEANs, say) is read from its object each time.
+const KEPT: usize = 8;
+
+/// One mapped value: where its entry stands in the dictionary, and its length.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Mapped {
+    /// Position in the dictionary's entries; [`DUMMY`] for bits that nobody reads.
+    entry: u32,
+    bits: u8,
+}
+
+const DUMMY: u32 = u32::MAX;
+
+const NOTHING: Mapped = Mapped {
+    entry: DUMMY,
+    bits: 0,
+};
+
+/// The mapping of one PDO.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Mapping {
+    object: u16,
+    count: u8,
+    /// Length of the frame in bytes.
+    len: u8,
+    kept: [Mapped; KEPT],
+}
+
+impl Mapping {
+    /// Nothing is mapped.
+    pub(super) const NONE: Self = Self {
+        object: 0,
+        count: 0,
+        len: 0,
+        kept: [NOTHING; KEPT],
+    };
+
+    /// Reads the mapping object at `object`. One that does not hold (an EDS that maps what
+    /// is not there) is an empty one: the PDO is off.
+    pub(super) fn load(objects: &Objects<'_>, object: u16) -> Self {
+        let count = objects.store.unsigned(object, 0).min(64) as u8;
+        let mut mapping = Self {
+            object,
+            count,
+            ..Self::NONE
+        };
+        let mut bits = 0u32;
+        for sub in 1..=count {
+            let Some(mapped) = mapping.mapped(objects, sub) else {
+                return Self::NONE;
+            };
+            bits += u32::from(mapped.bits);
+            if let Some(kept) = mapping.kept.get_mut(usize::from(sub) - 1) {
+                *kept = mapped;
+            }
+        }
+        if bits > 64 {
+            return Self::NONE;
+        }
+        mapping.len = bits.div_ceil(8) as u8;
+        mapping
+    }
+
+    /// Length of the frame in bytes; 0 where nothing is mapped.
+    #[inline]
+    pub(super) fn len(&self) -> u8 {
+        self.len
+    }
+
+    fn mapped(&self, objects: &Objects<'_>, sub: u8) -> Option<Mapped> {
+        let raw = objects.store.try_unsigned(self.object, sub)? as u32;
+        let repr = check_mapped(objects, self.object, raw).ok()?;
+        let entries = objects.store.dictionary().entries();
+        let entry = match entries.binary_search_by_key(&repr.address, |entry| entry.address) {
+            Ok(at) => at as u32,
+            Err(_) => DUMMY,
+        };
+        Some(Mapped {
+            entry,
+            bits: repr.bits,
+        })
+    }
+
+    /// Every mapped value in the order of the frame, with its first bit.
+    #[inline]
+    fn each<'c>(
+        &self,
+        objects: &mut Objects<'c>,
+        mut each: impl FnMut(&mut Objects<'c>, Option<&'c Entry>, usize, usize),
+    ) {
+        let mut first = 0;
+        for at in 0..usize::from(self.count) {
+            let mapped = match self.kept.get(at) {
+                Some(kept) => *kept,
+                // The object has not changed since `load`, so the entry is still there.
+                None => self.mapped(objects, at as u8 + 1).unwrap_or(NOTHING),
+            };
+            let entry = objects
+                .store
+                .dictionary()
+                .entries()
+                .get(mapped.entry as usize);
+            let bits = usize::from(mapped.bits);
+            each(objects, entry, first, bits);
+            first += bits;
+        }
+    }
+
+    /// The frame's bytes as the values stand now, live ones brought up to date.
+    #[inline]
+    pub(super) fn sample(&self, objects: &mut Objects<'_>) -> [u8; 8] {
+        let mut data = 0u64;
+        self.each(objects, |objects, entry, first, bits| {
+            let Some(entry) = entry else { return };
+            // A PDO has no way to say that a value could not be had; it takes the last one.
+            let _ = objects.refresh(entry.address);
+            let value = objects.store.number(entry);
+            let mask = if bits >= 64 {
+                u64::MAX
+            } else {
+                (1 << bits) - 1
+            };
+            data |= (value & mask) << first.min(63);
+        });
+        data.to_le_bytes()
+    }
+
+    /// Writes the frame's bytes into the objects, each by the rules of its own; one that
+    /// refuses its value keeps the old one.
+    pub(super) fn apply(&self, objects: &mut Objects<'_>, data: [u8; 8]) {
+        let data = u64::from_le_bytes(data);
+        self.each(objects, |objects, entry, first, bits| {
+            let Some(entry) = entry else { return };
+            let mask = if bits >= 64 {
+                u64::MAX
+            } else {
+                (1 << bits) - 1
+            };
+            let value = data >> first.min(63) & mask;
+            let size = bits.div_ceil(8).min(8);
+            let _ = objects.write(entry.address, &value.to_le_bytes()[..size]);
+        });
+    }
+}

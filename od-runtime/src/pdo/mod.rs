@@ -1,0 +1,11 @@
+//! Process data (CiA 301, chapter 7.2.2): TPDOs, RPDOs and their mapping.
+
+mod mapping;
+mod rpdo;
+mod tpdo;
+
+pub(crate) use rpdo::{Received, Rpdo};
+pub(crate) use tpdo::Tpdo;
+
+/// Most PDOs of one direction that the standard knows.
+pub(crate) const MAX: u16 = 512;

@@ -1,0 +1,81 @@
+//! One RPDO: when it is taken, and into what.
+
+use super::mapping::Mapping;
+use crate::objects::Objects;
+use crate::{CanId, CobId, Frame};
+
+/// An RPDO with what its objects say, and a frame that waits for SYNC.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rpdo {
+    valid: bool,
+    cob_id: CobId,
+    synchronous: bool,
+    mapping: Mapping,
+    waiting: Option<[u8; 8]>,
+}
+
+/// What came of a frame.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Received {
+    /// It was taken, or waits for SYNC.
+    Taken,
+    /// It is shorter than the mapping: EMCY 8210h.
+    TooShort,
+}
+
+impl Rpdo {
+    /// One that does not exist.
+    pub(crate) const NONE: Self = Self {
+        valid: false,
+        cob_id: CobId::new(1 << 31),
+        synchronous: false,
+        mapping: Mapping::NONE,
+        waiting: None,
+    };
+
+    /// Reads the objects of RPDO `number` (0 is 1400h and 1600h).
+    pub(crate) fn load(objects: &Objects<'_>, number: u16) -> Self {
+        let parameter = 0x1400 + number;
+        let store = &objects.store;
+        let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
+        let mapping = Mapping::load(objects, 0x1600 + number);
+        Self {
+            valid: cob_id.is_valid() && mapping.len() > 0,
+            cob_id,
+            synchronous: store.unsigned(parameter, 2) <= 240,
+            mapping,
+            waiting: None,
+        }
+    }
+
+    /// Is a frame with this identifier its own?
+    #[inline]
+    pub(crate) fn takes(&self, id: CanId) -> bool {
+        self.valid && self.cob_id.can_id() == id
+    }
+
+    /// Its frame came.
+    pub(crate) fn receive(&mut self, objects: &mut Objects<'_>, frame: &Frame) -> Received {
+        if frame.dlc() < self.mapping.len() {
+            return Received::TooShort;
+        }
+        if self.synchronous {
+            self.waiting = Some(*frame.bytes());
+        } else {
+            self.mapping.apply(objects, *frame.bytes());
+        }
+        Received::Taken
+    }
+
+    /// SYNC came: a waiting frame acts now.
+    pub(crate) fn sync(&mut self, objects: &mut Objects<'_>) {
+        if let Some(data) = self.waiting.take() {
+            self.mapping.apply(objects, data);
+        }
+    }
+
+    /// Operational ends.
+    pub(crate) fn stop(&mut self) {
+        self.waiting = None;
+    }
+}

@@ -1,0 +1,263 @@
+//! One TPDO: when it is sent, and with what.
+
+use super::mapping::Mapping;
+use crate::objects::Objects;
+use crate::{CanId, CobId, Frame, Instant};
+
+/// Transmission types of CiA 301 (table 72).
+mod kind {
+    pub(super) const ACYCLIC: u8 = 0;
+    pub(super) const LAST_CYCLIC: u8 = 240;
+    pub(super) const SYNC_RTR: u8 = 252;
+    pub(super) const RTR: u8 = 253;
+    pub(super) const EVENT_FIRST: u8 = 254;
+}
+
+/// What the objects of a TPDO say.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Config {
+    valid: bool,
+    cob_id: CobId,
+    kind: u8,
+    event_us: u64,
+    inhibit_us: u64,
+    repeat: u8,
+    sync_start: u8,
+    mapping: Mapping,
+}
+
+/// A TPDO: what its objects say, and where it stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tpdo {
+    config: Config,
+    /// The next tick of the event timer.
+    event_at: Option<Instant>,
+    inhibited_until: Instant,
+    /// To be sent as soon as the inhibit time allows.
+    pending: bool,
+    /// SYNCs since the last transmission.
+    syncs: u8,
+    /// Waits for the SYNC whose counter is `sync_start`.
+    waits_for_start: bool,
+    /// Transmissions of this value that the repeat counter still allows.
+    repeats_left: u8,
+    /// What was sampled or sent last.
+    last: [u8; 8],
+    sampled: bool,
+}
+
+impl Config {
+    const NONE: Self = Self {
+        valid: false,
+        cob_id: CobId::new(1 << 31),
+        kind: 0,
+        event_us: 0,
+        inhibit_us: 0,
+        repeat: 0,
+        sync_start: 0,
+        mapping: Mapping::NONE,
+    };
+
+    fn load(objects: &Objects<'_>, number: u16) -> Self {
+        let (parameter, mapping) = (0x1800 + number, 0x1A00 + number);
+        let store = &objects.store;
+        let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
+        let repeat = objects
+            .profile
+            .pdo
+            .repeat_counter
+            .map(|first| first + number);
+        let mapping = Mapping::load(objects, mapping);
+        Self {
+            valid: cob_id.is_valid() && mapping.len() > 0,
+            cob_id,
+            kind: store.unsigned(parameter, 2) as u8,
+            inhibit_us: store.unsigned(parameter, 3) * 100,
+            event_us: store.unsigned(parameter, 5) * 1000,
+            sync_start: store.unsigned(parameter, 6) as u8,
+            repeat: repeat.map_or(0, |index| store.unsigned(index, 0) as u8),
+            mapping,
+        }
+    }
+}
+
+impl Tpdo {
+    /// One that does not exist.
+    pub(crate) const NONE: Self = Self {
+        config: Config::NONE,
+        event_at: None,
+        inhibited_until: Instant::ZERO,
+        pending: false,
+        syncs: 0,
+        waits_for_start: false,
+        repeats_left: 0,
+        last: [0; 8],
+        sampled: false,
+    };
+
+    /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
+    /// they say something else than before; only then the TPDO starts anew.
+    pub(crate) fn configure(&mut self, objects: &Objects<'_>, number: u16) -> bool {
+        let config = Config::load(objects, number);
+        let changed = config != self.config;
+        if changed {
+            *self = Self {
+                config,
+                ..Self::NONE
+            };
+        }
+        changed
+    }
+    fn is_cyclic(&self) -> bool {
+        (1..=kind::LAST_CYCLIC).contains(&self.config.kind)
+    }
+
+    fn is_event_driven(&self) -> bool {
+        self.config.kind >= kind::EVENT_FIRST
+    }
+
+    /// Operational begins: the first period of the event timer, the first SYNC.
+    pub(crate) fn start(&mut self, objects: &mut Objects<'_>) {
+        self.syncs = 0;
+        self.pending = false;
+        self.repeats_left = self.config.repeat;
+        self.waits_for_start = self.config.sync_start != 0;
+        self.sampled = false;
+        self.inhibited_until = objects.now;
+        self.event_at = (self.config.valid && self.is_event_driven() && self.config.event_us > 0)
+            .then(|| objects.now.plus_micros(self.config.event_us));
+        if self.config.valid {
+            self.last = self.config.mapping.sample(objects);
+        }
+    }
+
+    /// Operational ends.
+    pub(crate) fn stop(&mut self) {
+        self.event_at = None;
+        self.pending = false;
+    }
+
+    /// Does a remote frame with this identifier ask for it?
+    pub(crate) fn answers(&self, id: CanId) -> bool {
+        self.config.valid && self.config.cob_id.allows_rtr() && self.config.cob_id.can_id() == id
+    }
+
+    /// A remote frame asks for it: synchronous types answer with what the last SYNC saw.
+    pub(crate) fn request(&mut self, objects: &mut Objects<'_>) -> Option<Frame> {
+        if self.config.kind <= kind::SYNC_RTR {
+            if !self.sampled {
+                self.last = self.config.mapping.sample(objects);
+            }
+            return Some(self.frame(self.last));
+        }
+        self.pending = true;
+        None
+    }
+
+    /// SYNC came, with its counter if it had one.
+    pub(crate) fn sync(&mut self, objects: &mut Objects<'_>, counter: Option<u8>) {
+        if !self.config.valid {
+            return;
+        }
+        if self.waits_for_start {
+            match counter {
+                Some(counter) if counter != self.config.sync_start => return,
+                _ => self.waits_for_start = false,
+            }
+            // The SYNC that starts the count is the one the first PDO follows.
+            self.syncs = self.config.kind.saturating_sub(1);
+        }
+        match self.config.kind {
+            kind::SYNC_RTR => {
+                self.last = self.config.mapping.sample(objects);
+                self.sampled = true;
+            }
+            kind::ACYCLIC => {
+                let data = self.config.mapping.sample(objects);
+                self.pending = data != self.last || !self.sampled;
+            }
+            _ if self.is_cyclic() => {
+                self.syncs += 1;
+                if self.syncs >= self.config.kind {
+                    self.syncs = 0;
+                    self.due(objects);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// A cyclic transmission is due; the repeat counter may hold it back.
+    #[inline]
+    fn due(&mut self, objects: &mut Objects<'_>) {
+        if self.config.repeat != 0 {
+            let data = self.config.mapping.sample(objects);
+            if data != self.last {
+                self.last = data;
+                self.repeats_left = self.config.repeat;
+            }
+            if self.repeats_left == 0 {
+                return;
+            }
+            self.repeats_left -= 1;
+        }
+        self.pending = true;
+    }
+
+    /// The event timer, if its tick has come.
+    #[inline]
+    pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_>) {
+        if let Some(at) = self.event_at.filter(|at| *at <= objects.now) {
+            self.event_at = Some(at.next_period(self.config.event_us, objects.now));
+            self.due(objects);
+        }
+    }
+
+    /// An event-driven PDO of a family that sends changes: has a mapped value changed?
+    pub(crate) fn notice_change(&mut self, objects: &mut Objects<'_>) {
+        if self.config.valid && self.is_event_driven() && !self.pending {
+            self.pending = self.config.mapping.sample(objects) != self.last;
+        }
+    }
+
+    /// When it has something to do.
+    #[inline]
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        match (self.pending, self.event_at) {
+            (true, Some(event)) => Some(event.min(self.inhibited_until)),
+            (true, None) => Some(self.inhibited_until),
+            (false, event) => event,
+        }
+    }
+
+    /// The frame, if one is to be sent and the inhibit time has passed.
+    #[inline]
+    pub(crate) fn poll(&mut self, objects: &mut Objects<'_>) -> Option<Frame> {
+        if !self.is_ready(objects.now) {
+            return None;
+        }
+        self.pending = false;
+        self.last = self.config.mapping.sample(objects);
+        self.sampled = true;
+        if self.is_event_driven() || self.config.kind == kind::RTR {
+            self.inhibited_until = objects.now.plus_micros(self.config.inhibit_us);
+        }
+        Some(self.frame(self.last))
+    }
+
+    /// Something waits to be sent, now or later.
+    #[inline]
+    pub(crate) fn is_pending(&self) -> bool {
+        self.pending
+    }
+
+    /// Something waits to be sent, and nothing keeps it.
+    #[inline]
+    pub(crate) fn is_ready(&self, now: Instant) -> bool {
+        self.pending && now >= self.inhibited_until
+    }
+
+    fn frame(&self, data: [u8; 8]) -> Frame {
+        Frame::with_dlc(self.config.cob_id.can_id(), data, self.config.mapping.len())
+    }
+}

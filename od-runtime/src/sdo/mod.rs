@@ -1,0 +1,249 @@
+//! SDO server (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
+//!
+//! A transfer is taken down into the server's buffer first and written when it is
+//! complete, so one that breaks off leaves the object as it was.
+
+mod block_download;
+mod block_upload;
+mod crc;
+mod segmented;
+
+use od_model::Address;
+
+use crate::objects::Objects;
+use crate::store::little_endian;
+use crate::wire::sdo::{Request, Response};
+use crate::{AbortCode, Instant};
+
+pub use crc::crc16;
+
+/// How long a block transfer waits for the client, in microseconds: its segments cannot
+/// be told from requests, so a client that died would block the next one.
+const BLOCK_TIMEOUT_US: u64 = 5_000_000;
+
+/// Where a transfer stands.
+#[derive(Clone, Copy, Debug, Default)]
+enum Transfer {
+    #[default]
+    None,
+    Upload(segmented::Upload),
+    Download(segmented::Download),
+    BlockUpload(block_upload::BlockUpload),
+    BlockDownload(block_download::BlockDownload),
+}
+
+/// The server: one transfer at a time, `N` bytes of it.
+#[derive(Debug)]
+pub(crate) struct Server<const N: usize> {
+    transfer: Transfer,
+    address: Address,
+    buffer: [u8; N],
+    deadline: Option<Instant>,
+}
+
+/// What the server answers.
+type Answer = Result<Option<Response>, AbortCode>;
+
+impl<const N: usize> Server<N> {
+    pub(crate) const fn new() -> Self {
+        Self {
+            transfer: Transfer::None,
+            address: Address::new(0, 0),
+            buffer: [0; N],
+            deadline: None,
+        }
+    }
+
+    /// Forgets a transfer without a word, as a change of the NMT state does.
+    pub(crate) fn reset(&mut self) {
+        self.transfer = Transfer::None;
+        self.deadline = None;
+    }
+
+    /// A client's frame; `data` beyond `dlc` is 0.
+    pub(crate) fn handle(
+        &mut self,
+        objects: &mut Objects<'_>,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
+        if dlc < objects.profile.sdo.min_dlc {
+            return None;
+        }
+        let answer = match self.transfer {
+            Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
+                self.block_segment(block, data)
+            }
+            _ => self.request(objects, data, dlc),
+        };
+        self.deadline = matches!(
+            self.transfer,
+            Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
+        )
+        .then(|| objects.now.plus_micros(BLOCK_TIMEOUT_US));
+        match answer {
+            Ok(response) => response.map(Response::emit),
+            Err(code) => Some(self.abort(code)),
+        }
+    }
+
+    fn request(&mut self, objects: &mut Objects<'_>, data: &[u8; 8], dlc: u8) -> Answer {
+        let profile = objects.profile.sdo;
+        let request = Request::parse(data);
+        match (request, self.transfer) {
+            (Request::InitiateUpload { address }, _) => self.upload(objects, address),
+            (
+                Request::InitiateDownload {
+                    address,
+                    size,
+                    expedited,
+                },
+                _,
+            ) => {
+                self.begin(address);
+                match expedited {
+                    Some(bytes) => expedited_download(objects, address, size, &bytes, dlc),
+                    None if !profile.segmented => Err(AbortCode::InvalidCommand),
+                    None => self.begin_download(objects, address, size),
+                }
+            }
+            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) => {
+                self.upload_segment(upload, toggle)
+            }
+            (
+                Request::DownloadSegment {
+                    toggle,
+                    data,
+                    len,
+                    last,
+                },
+                Transfer::Download(download),
+            ) => self.download_segment(
+                objects,
+                download,
+                toggle,
+                &data[..usize::from(len.min(7))],
+                last,
+            ),
+            (Request::Abort { .. }, _) => {
+                self.reset();
+                Ok(None)
+            }
+            (
+                Request::InitiateBlockUpload {
+                    address,
+                    crc,
+                    block_size,
+                    ..
+                },
+                _,
+            ) if profile.block => self.begin_block_upload(objects, address, crc, block_size),
+            (Request::StartBlockUpload, Transfer::BlockUpload(block)) => self.start_block(block),
+            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block)) => {
+                self.block_acknowledged(block, ack, block_size)
+            }
+            (Request::EndBlockUpload, Transfer::BlockUpload(block)) if block.is_complete() => {
+                self.reset();
+                Ok(None)
+            }
+            (Request::InitiateBlockDownload { address, crc, size }, _) if profile.block => {
+                self.begin_block_download(objects, address, crc, size)
+            }
+            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block)) => {
+                self.end_block_download(objects, block, unused, crc)
+            }
+            _ => {
+                if matches!(self.transfer, Transfer::None) {
+                    let [_, low, high, sub, ..] = *data;
+                    self.address = Address::new(u16::from_le_bytes([low, high]), sub);
+                }
+                Err(AbortCode::InvalidCommand)
+            }
+        }
+    }
+
+    /// A new transfer takes the place of one that was not finished.
+    fn begin(&mut self, address: Address) {
+        self.reset();
+        self.address = address;
+    }
+
+    #[inline]
+    fn upload(&mut self, objects: &mut Objects<'_>, address: Address) -> Answer {
+        self.begin(address);
+        let segmented = objects.profile.sdo.segmented;
+        let mut number = [0; 8];
+        let bytes = objects.read(address, &mut number)?;
+        match bytes.len() {
+            len @ 1..=4 => Ok(Some(Response::InitiateUpload {
+                address,
+                size: Some(len as u32),
+                expedited: Some((little_endian(bytes) as u32).to_le_bytes()),
+            })),
+            _ if !segmented => Err(AbortCode::UnsupportedAccess),
+            len => {
+                let room = self.buffer.get_mut(..len).ok_or(AbortCode::OutOfMemory)?;
+                room.copy_from_slice(bytes);
+                self.transfer = Transfer::Upload(segmented::Upload::new(len));
+                Ok(Some(Response::InitiateUpload {
+                    address,
+                    size: Some(len as u32),
+                    expedited: None,
+                }))
+            }
+        }
+    }
+
+    fn abort(&mut self, code: AbortCode) -> [u8; 8] {
+        self.reset();
+        Response::Abort {
+            address: self.address,
+            code: code.code(),
+        }
+        .emit()
+    }
+
+    /// The next segment of a block upload, if one is due.
+    pub(crate) fn poll(&mut self) -> Option<[u8; 8]> {
+        match self.transfer {
+            Transfer::BlockUpload(block) => self.next_segment(block),
+            _ => None,
+        }
+    }
+
+    /// When a block transfer gives up.
+    #[inline]
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        self.deadline
+    }
+
+    /// Gives up a block transfer whose client is gone.
+    pub(crate) fn handle_timeout(&mut self, now: Instant) -> Option<[u8; 8]> {
+        self.deadline
+            .is_some_and(|at| at <= now)
+            .then(|| self.abort(AbortCode::Timeout))
+    }
+}
+
+/// Writes the up to four bytes that came with the request. Where no size was indicated,
+/// the object's own counts; where the frame is shorter than its data, what is missing was
+/// not given.
+fn expedited_download(
+    objects: &mut Objects<'_>,
+    address: Address,
+    size: Option<u32>,
+    bytes: &[u8; 4],
+    dlc: u8,
+) -> Answer {
+    let entry = objects.writable(address, None)?;
+    let given = usize::from(dlc.saturating_sub(4)).min(4);
+    let len = match size {
+        Some(size) => (size as usize).min(4),
+        None => entry.data_type.size().unwrap_or(given),
+    };
+    if len > given {
+        return Err(objects.profile.sdo.length.too_short);
+    }
+    objects.write(address, &bytes[..len])?;
+    Ok(Some(Response::InitiateDownload { address }))
+}

@@ -1,0 +1,245 @@
+//! A node on a bench: frames in and out as candump writes them.
+#![allow(dead_code, unreachable_pub)] // each test file uses its own part
+
+use od_model::{
+    Access, Address, DataType, Description, EntryDescription, ObjectCode, ObjectDescription,
+    Spanned, Tables, Value,
+};
+use od_runtime::storage::Memory;
+use od_runtime::{
+    Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
+};
+
+/// One row of a dictionary: address, type, access, mappable, default.
+pub type Row = (u16, u8, DataType, Access, bool, Option<Value>);
+
+pub fn unsigned(value: u64) -> Option<Value> {
+    Some(Value::Unsigned(value))
+}
+
+/// Objects that every node has, and some for the services to work on.
+pub fn rows() -> Vec<Row> {
+    use Access::*;
+    use DataType::*;
+    let mut rows = vec![
+        (0x1000, 0, Unsigned32, Ro, false, unsigned(0x0002_0196)),
+        (0x1001, 0, Unsigned8, Ro, true, unsigned(0)),
+        (0x1003, 0, Unsigned8, Rw, false, unsigned(0)),
+        (0x1003, 1, Unsigned32, Ro, false, unsigned(0)),
+        (0x1003, 2, Unsigned32, Ro, false, unsigned(0)),
+        (0x1005, 0, Unsigned32, Rw, false, unsigned(0x80)),
+        (
+            0x1008,
+            0,
+            VisibleString,
+            Const,
+            false,
+            Some(Value::Text("odkit test device".into())),
+        ),
+        (0x1010, 0, Unsigned8, Const, false, unsigned(1)),
+        (0x1010, 1, Unsigned32, Rw, false, unsigned(1)),
+        (0x1011, 0, Unsigned8, Const, false, unsigned(1)),
+        (0x1011, 1, Unsigned32, Rw, false, unsigned(1)),
+        (0x1014, 0, Unsigned32, Rw, false, Some(Value::NodeId(0x80))),
+        (0x1017, 0, Unsigned16, Rw, false, unsigned(0)),
+        (0x2000, 0, Unsigned32, Rw, true, unsigned(5)),
+        (0x2001, 0, Integer16, Rw, true, Some(Value::Signed(-2))),
+        (
+            0x2002,
+            0,
+            VisibleString,
+            Rw,
+            false,
+            Some(Value::Text("hello".into())),
+        ),
+        (0x2003, 0, Domain, Rw, false, None),
+        (0x2004, 0, Unsigned8, Wo, false, unsigned(0)),
+        (
+            0x2005,
+            0,
+            Unsigned64,
+            Rw,
+            true,
+            unsigned(0x0102_0304_0506_0708),
+        ),
+        (0x2006, 0, Boolean, Rw, true, unsigned(0)),
+    ];
+    for number in 0..2u16 {
+        let (rx, tx) = (0x1400 + number, 0x1800 + number);
+        rows.extend([
+            (rx, 0, Unsigned8, Const, false, unsigned(2)),
+            (
+                rx,
+                1,
+                Unsigned32,
+                Rw,
+                false,
+                Some(Value::NodeId(0x200 + 0x100 * u32::from(number))),
+            ),
+            (rx, 2, Unsigned8, Rw, false, unsigned(255)),
+            (tx, 0, Unsigned8, Const, false, unsigned(6)),
+            (
+                tx,
+                1,
+                Unsigned32,
+                Rw,
+                false,
+                Some(Value::NodeId(0x180 + 0x100 * u32::from(number))),
+            ),
+            (tx, 2, Unsigned8, Rw, false, unsigned(255)),
+            (tx, 3, Unsigned16, Rw, false, unsigned(0)),
+            (tx, 5, Unsigned16, Rw, false, unsigned(0)),
+            (tx, 6, Unsigned8, Rw, false, unsigned(0)),
+        ]);
+        for (index, entry) in [
+            (0x1600 + number, 0x2001_0010),
+            (0x1A00 + number, 0x2000_0020),
+        ] {
+            rows.push((index, 0, Unsigned8, Rw, false, unsigned(1)));
+            rows.push((index, 1, Unsigned32, Rw, false, unsigned(entry)));
+            for sub in 2..=8 {
+                rows.push((index, sub, Unsigned32, Rw, false, unsigned(0)));
+            }
+        }
+    }
+    rows
+}
+
+pub fn tables(rows: Vec<Row>) -> Tables {
+    let mut description = Description::default();
+    for (index, sub, data_type, access, mappable, default) in rows {
+        let mut entry = EntryDescription::new(format!("{index:04X} {sub}"), data_type);
+        entry.access = Spanned::from(access);
+        entry.mappable = Spanned::from(mappable);
+        entry.default = default.map(Spanned::from);
+        if matches!((index, sub), (0x2000, 0)) {
+            entry.low = Some(Spanned::from(Value::Unsigned(2)));
+            entry.high = Some(Spanned::from(Value::Unsigned(1_000_000)));
+        }
+        let object = description
+            .objects
+            .entry(index)
+            .or_insert_with(|| ObjectDescription::var(entry.clone()));
+        if sub > 0 {
+            object.code = Spanned::from(ObjectCode::Record);
+        }
+        object.entries.insert(sub, entry);
+    }
+    Tables::new(&description)
+}
+
+pub type TestNode = Node<4, 512>;
+
+/// The node with everything that it needs.
+pub struct Bench<A = NoApplication> {
+    pub tables: Tables,
+    pub values: Vec<u8>,
+    pub application: A,
+    pub storage: Memory<Vec<u8>>,
+    pub profile: Profile,
+    pub node: TestNode,
+    pub now: Instant,
+}
+
+macro_rules! device {
+    ($bench:expr) => {
+        Device {
+            dictionary: $bench.tables.dictionary(),
+            values: &mut $bench.values,
+            application: &mut $bench.application,
+            storage: &mut $bench.storage,
+            profile: &$bench.profile,
+        }
+    };
+}
+
+impl Bench {
+    /// Node 1 with [`rows`], CiA 301 to the letter, before power-on.
+    pub fn new() -> Self {
+        Self::with(rows(), NoApplication)
+    }
+}
+
+impl<A: Application> Bench<A> {
+    pub fn with(rows: Vec<Row>, application: A) -> Self {
+        let tables = tables(rows);
+        Self {
+            values: vec![0xAA; tables.dictionary().store_len()],
+            tables,
+            application,
+            storage: Memory::new(vec![0xFF; 8192]),
+            profile: Profile::CIA301,
+            node: Node::new(NodeId::ONE),
+            now: Instant::ZERO,
+        }
+    }
+
+    pub fn power_on(&mut self) -> Vec<String> {
+        self.node
+            .power_on(&mut device!(self), self.now)
+            .expect("the values fit");
+        self.drain()
+    }
+
+    fn drain(&mut self) -> Vec<String> {
+        let mut out = Vec::new();
+        while let Some(frame) = self.node.poll_transmit(&mut device!(self), self.now) {
+            out.push(frame.to_string());
+        }
+        out
+    }
+
+    /// A frame comes in, `601#40…` or `181#R`; what goes out.
+    pub fn send(&mut self, text: &str) -> Vec<String> {
+        let (id, data) = text.split_once('#').expect("id#data");
+        let id = CanId::standard(u16::from_str_radix(id, 16).expect("hex"));
+        let frame = match data.strip_prefix('R') {
+            Some(dlc) => Frame::remote(id, dlc.parse().unwrap_or(0)),
+            None => {
+                let bytes: Vec<u8> = (0..data.len() / 2)
+                    .map(|i| u8::from_str_radix(&data[2 * i..2 * i + 2], 16).expect("hex"))
+                    .collect();
+                Frame::new(id, &bytes)
+            }
+        };
+        self.node.handle_frame(&mut device!(self), self.now, &frame);
+        self.drain()
+    }
+
+    /// The one frame that answers.
+    pub fn ask(&mut self, text: &str) -> String {
+        let mut out = self.send(text);
+        assert_eq!(out.len(), 1, "{text} -> {out:?}");
+        out.remove(0)
+    }
+
+    /// Time passes; what goes out, with the millisecond.
+    pub fn wait(&mut self, millis: u64) -> Vec<(u64, String)> {
+        let end = self.now.plus_millis(millis);
+        let mut out = Vec::new();
+        while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
+            self.now = self.now.max(at);
+            self.node.handle_timeout(&mut device!(self), self.now);
+            let ms = self.now.as_micros() / 1000;
+            out.extend(self.drain().into_iter().map(|frame| (ms, frame)));
+        }
+        self.now = end;
+        out
+    }
+
+    pub fn change(&mut self) -> Vec<String> {
+        self.node.handle_change(&mut device!(self), self.now);
+        self.drain()
+    }
+
+    pub fn value(&self, index: u16, sub: u8) -> u64 {
+        let mut values = self.values.clone();
+        let store =
+            od_runtime::Store::new(self.tables.dictionary(), &mut values, self.node.node_id());
+        store.expect("the values fit").unsigned(index, sub)
+    }
+
+    pub fn entry(&self, address: Address) -> od_model::Entry {
+        *self.tables.dictionary().find(address).expect("there")
+    }
+}
