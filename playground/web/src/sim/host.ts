@@ -1,0 +1,29 @@
+// What both workers (WebAssembly and stand-in) share: messages in, reports out, and
+// an end when something throws, so that the page can start a fresh one.
+
+import type { Bus, Command, Report } from './api';
+import { Engine } from './engine';
+
+const report = (message: Report, transfer: Transferable[] = []): void =>
+  (self as unknown as Worker).postMessage(message, transfer);
+
+export async function host(makeBus: () => Promise<Bus>): Promise<void> {
+  const crash = (reason: unknown): void =>
+    report({ op: 'crashed', message: reason instanceof Error ? reason.message : String(reason) });
+  self.addEventListener('error', (event) => crash(event.message));
+  self.addEventListener('unhandledrejection', (event) => crash(event.reason));
+  const waiting: Command[] = [];
+  let engine: Engine | undefined;
+  self.onmessage = ({ data }: MessageEvent<Command>) => {
+    if (engine) engine.handle(data);
+    else waiting.push(data);
+  };
+  try {
+    engine = new Engine(await makeBus(), report);
+  } catch (reason) {
+    crash(reason);
+    return;
+  }
+  report({ op: 'ready' });
+  for (const command of waiting.splice(0)) engine.handle(command);
+}

@@ -1,0 +1,47 @@
+// Plain words of the frames on screen. The last frames of a batch arrive with theirs;
+// for older ones the worker is asked when they come into view.
+
+import { signal } from '@preact/signals-core';
+import { ring } from '../state';
+import { describe } from './link';
+import { FRAME_BYTES } from './packed';
+
+const MOST_KEPT = 4000;
+
+const known = new Map<number, string>();
+const asked = new Set<number>();
+
+/** Changes when words arrived late. */
+export const wordsArrived = signal(0);
+
+export function noteWords(from: number, words: string[]): void {
+  if (known.size > MOST_KEPT) known.clear();
+  words.forEach((text, i) => known.set(from + i, text));
+}
+
+/** The words of these frames, as far as they are known; asks for the others. */
+export function wordsOf(numbers: number[]): (string | undefined)[] {
+  const missing = numbers.filter((number) => !known.has(number) && !asked.has(number) && number >= ring.first);
+  if (missing.length > 0) void ask(missing);
+  return numbers.map((number) => known.get(number));
+}
+
+/** Forgets everything, when another device changes what the bytes mean. */
+export function forgetWords(): void {
+  known.clear();
+  wordsArrived.value += 1;
+}
+
+async function ask(numbers: number[]): Promise<void> {
+  const frames = new Uint8Array(numbers.length * FRAME_BYTES);
+  numbers.forEach((number, i) => {
+    asked.add(number);
+    frames.set(ring.raw(number), i * FRAME_BYTES);
+  });
+  const words = await describe(frames);
+  numbers.forEach((number, i) => {
+    asked.delete(number);
+    known.set(number, words[i] ?? '');
+  });
+  wordsArrived.value += 1;
+}

@@ -1,0 +1,48 @@
+// From the sensor to the telegram, step by step.
+
+import { html, nothing } from 'lit';
+import * as state from '../state';
+import { hexByte } from '../can/text';
+import { grouped } from '../can/values';
+import { View } from './view';
+
+
+/** Bits of 6000h. */
+const REVERSED = 1;
+const SCALING = 4;
+
+class Chain extends View {
+  protected override render() {
+    const shaft = state.shaft.value;
+    const values = state.chain.value ?? [];
+    const [parameters, perTurn, , position] = values.map((value) => (typeof value === 'number' ? value : null));
+    const pdo = state.lastPdo.value;
+    const isLive = state.powered.value;
+    const how: string[] = [];
+    if (parameters != null) {
+      how.push(parameters & REVERSED ? 'counts backwards' : 'counts forwards');
+      how.push(parameters & SCALING && perTurn ? `${grouped(perTurn)} steps a turn` : 'not scaled');
+    }
+    return html`<div class="chain" aria-label="From sensor to telegram" role="group">
+      <div class="chain-step">
+        <span class="chain-name">Sensor</span>
+        <span class="chain-value num" aria-label="Raw position">${shaft ? grouped(shaft.raw) : '–'}</span>
+        <span class="chain-note">raw steps</span>
+      </div>
+      <span class="chain-arrow" aria-hidden="true"></span>
+      <div class="chain-step">
+        <span class="chain-name">6004h</span>
+        <span class="chain-value num" aria-label="Position value 6004h">${isLive && position != null ? grouped(position) : '–'}</span>
+        <span class="chain-note" title=${how.join(', ')}>${how.at(-1) ?? nothing}</span>
+      </div>
+      <span class="chain-arrow" aria-hidden="true"></span>
+      <div class="chain-step">
+        <span class="chain-name">PDO1</span>
+        <span class="chain-value num bytes" aria-label="Last PDO1">${pdo ? Array.from(pdo.data, (byte) => html`<span>${hexByte(byte)}</span>`) : html`<span>–</span>`}</span>
+        <span class="chain-note">${pdo ? 'low byte first' : 'runs when Operational'}</span>
+      </div>
+    </div>`;
+  }
+}
+
+customElements.define('od-chain', Chain);

@@ -1,0 +1,109 @@
+// The encoder: shaft, power, state, lamps, and the way from angle to telegram.
+
+import { html, nothing, type TemplateResult } from 'lit';
+import * as state from '../state';
+import { nmt, setPower, setRpm, turnTo } from '../actions';
+import type { Lamp, Nmt } from '../sim/api';
+import { grouped } from '../can/values';
+import { icons } from './icons';
+import { View } from './view';
+import './shaft';
+import './chain';
+
+const STATES: Record<Nmt, string> = {
+  off: 'Off',
+  initialising: 'Initialising',
+  'pre-operational': 'Pre-operational',
+  operational: 'Operational',
+  stopped: 'Stopped',
+};
+
+const FASTEST = 6000;
+
+class Encoder extends View {
+  protected override render() {
+    const isOn = state.powered.value;
+    const nmtState = state.nmt.value;
+    const hasShaft = state.shaft.value !== null;
+    return html`
+      <header class="panel-head">
+        <h2>Encoder</h2>
+        <span class="pill" data-nmt=${nmtState} role="status" aria-label="NMT state">${STATES[nmtState]}</span>
+        <div class="spacer"></div>
+        <button class="small" title="NMT reset node" ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} Reset<span class="wide">node</span></button>
+        <button class="switch" role="switch" aria-checked=${isOn} aria-label="Power" title=${isOn ? 'Power off' : 'Power on'} @click=${() => setPower(!isOn)}>
+          ${icons.power}<span class="switch-track"><span class="switch-thumb"></span></span>
+        </button>
+      </header>
+      <div class="encoder-body">
+        ${hasShaft ? html`<od-shaft></od-shaft>` : html`<p class="empty">This device has no shaft. It answers on the bus with what its EDS file says.</p>`}
+        <div class="readouts">
+          ${hasShaft ? html`<od-angle></od-angle>${this.rpm()}` : nothing}
+          <od-leds></od-leds>
+        </div>
+      </div>
+      ${hasShaft ? html`<od-chain></od-chain>` : nothing}
+    `;
+  }
+
+  private rpm(): TemplateResult {
+    const rpm = state.shaft.value?.rpm ?? 0;
+    const set = (text: string): void => {
+      const value = Number(text);
+      if (Number.isFinite(value)) setRpm(Math.max(-FASTEST, Math.min(FASTEST, value)));
+    };
+    // Around standstill the slider is fine, at its ends coarse.
+    const toSlider = (value: number): number => Math.sign(value) * Math.cbrt(Math.abs(value) / FASTEST) * 100;
+    const fromSlider = (value: number): number => Math.round((Math.abs(value) < 6 ? 0 : (value / 100) ** 3) * FASTEST);
+    return html`<div class="rpm">
+      <label class="field-label" for="rpm">Speed</label>
+      <span class="input-unit"><input id="rpm" class="num" type="number" step="1" min=${-FASTEST} max=${FASTEST} .value=${String(Math.round(rpm * 100) / 100)}
+        @change=${(event: Event) => set((event.target as HTMLInputElement).value)}><span>rpm</span></span>
+      <input type="range" min="-100" max="100" step="1" aria-label="Speed slider" aria-valuetext=${`${Math.round(rpm)} rpm`}
+          .value=${String(toSlider(rpm))} @input=${(event: Event) => set(String(fromSlider(Number((event.target as HTMLInputElement).value))))}>
+    </div>`;
+  }
+}
+
+/** Turns and angle. */
+class Angle extends View {
+  protected override render() {
+    const turns = state.shaft.value?.turns ?? 0;
+    const whole = Math.floor(turns);
+    const degrees = (turns - whole) * 360;
+    return html`<dl class="angle">
+      <div><dt>Turn</dt><dd class="num" aria-label="Turns">${grouped(whole)}</dd></div>
+      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2).padStart(6, '\u2007')}°</dd></div>
+      <button class="small quiet" title="Turn the shaft to its zero point" @click=${() => turnTo(0)}>To zero</button>
+    </dl>`;
+  }
+}
+
+/** The dual lamp at the back of the bus cover (manual, chapter 7.3). */
+class Lamps extends View {
+  protected override render() {
+    const { green, red } = state.leds.value;
+    // 200 ms on, 200 ms off, in virtual time as long as an eye can follow it.
+    const isFast = state.running.value && state.speed.value > 2;
+    const isLit = Math.floor(isFast ? performance.now() / 200 : state.now.value / 200_000) % 2 === 0;
+    const shown = (lamp: Lamp): boolean => lamp === 'on' || (lamp === 'flashing' && isLit);
+    return html`<div class="leds" role="img" aria-label=${`Status lamp: ${this.words()}`}>
+      <span class="led" data-colour="green" data-pattern=${green} data-lit=${shown(green)}></span>
+      <span class="led" data-colour="red" data-pattern=${red} data-lit=${shown(red)}></span>
+      <span class="led-words">${this.words()}</span>
+    </div>`;
+  }
+
+  private words(): string {
+    const { green, red } = state.leds.value;
+    if (red === 'on') return 'Red: error';
+    if (red === 'flashing') return 'Red flashing: warning';
+    if (green === 'off') return 'Dark: no supply voltage';
+    if (green === 'flashing') return 'Green flashing: Pre-operational';
+    return state.nmt.value === 'stopped' ? 'Green: Stopped' : 'Green: Operational';
+  }
+}
+
+customElements.define('od-angle', Angle);
+customElements.define('od-leds', Lamps);
+customElements.define('od-encoder', Encoder);

@@ -1,0 +1,99 @@
+// Long lists with few elements: a handful of rows is drawn, and used again while the
+// list scrolls under them.
+
+export interface RowSource {
+  /** Number of rows. */
+  count(): number;
+  /** Makes an empty row. */
+  make(): HTMLElement;
+  /** Fills a row; called again for each redraw. */
+  fill(row: HTMLElement, index: number): void;
+  /** After all visible rows were filled. */
+  filled?(from: number, to: number): void;
+}
+
+const SPARE = 4;
+
+export class Rows {
+  private readonly spacer = document.createElement('div');
+  private readonly pool: HTMLElement[] = [];
+  private scheduled = 0;
+  private height = 24;
+  private readonly sizes = new ResizeObserver(() => this.measure());
+
+  constructor(
+    readonly viewport: HTMLElement,
+    private readonly source: RowSource,
+  ) {
+    this.spacer.className = 'rows-spacer';
+    this.spacer.setAttribute('role', 'presentation');
+    viewport.append(this.spacer);
+    viewport.addEventListener('scroll', () => this.redraw(), { passive: true });
+    this.sizes.observe(viewport);
+    this.measure();
+  }
+
+  get rowHeight(): number {
+    return this.height;
+  }
+
+  private measure(): void {
+    const height = Number.parseFloat(getComputedStyle(this.viewport).getPropertyValue('--row-height'));
+    if (height > 0) this.height = height;
+    this.redraw();
+  }
+
+  /** Draws before the next picture. */
+  redraw(): void {
+    this.scheduled ||= requestAnimationFrame(() => {
+      this.scheduled = 0;
+      this.draw();
+    });
+  }
+
+  /** Draws now. */
+  draw(): void {
+    const count = this.source.count();
+    this.spacer.style.height = `${count * this.height}px`;
+    const room = this.viewport.clientHeight;
+    if (room === 0) return;
+    const from = Math.max(0, Math.floor(this.viewport.scrollTop / this.height) - 1);
+    const to = Math.min(count, from + Math.ceil(room / this.height) + SPARE);
+    while (this.pool.length < to - from) {
+      const row = this.source.make();
+      row.classList.add('row');
+      this.spacer.append(row);
+      this.pool.push(row);
+    }
+    // A row keeps its element while it stays on screen: selections and hovers hold.
+    const size = this.pool.length;
+    for (let i = 0; i < size; i++) {
+      const index = size ? from + ((((i - from) % size) + size) % size) : 0;
+      const row = this.pool[i]!;
+      const isShown = index < to;
+      if (row.hidden === isShown) row.hidden = !isShown;
+      if (!isShown) continue;
+      row.style.transform = `translateY(${index * this.height}px)`;
+      this.source.fill(row, index);
+    }
+    this.source.filled?.(from, to);
+  }
+
+  /** Brings a row into view. */
+  reveal(index: number): void {
+    const top = index * this.height;
+    const { scrollTop, clientHeight } = this.viewport;
+    if (top < scrollTop) this.viewport.scrollTop = top;
+    else if (top + this.height > scrollTop + clientHeight) this.viewport.scrollTop = top + this.height - clientHeight;
+  }
+
+  dispose(): void {
+    this.sizes.disconnect();
+    cancelAnimationFrame(this.scheduled);
+  }
+}
+
+/** Sets text only where it changed. */
+export function setText(element: Element | null | undefined, text: string): void {
+  if (element && element.textContent !== text) element.textContent = text;
+}

@@ -1,0 +1,106 @@
+// The dock under the frames: a raw frame, an SDO by name, and the NMT commands.
+
+import { html } from 'lit';
+import * as state from '../state';
+import { NMT_COMMANDS, nmt, sendFrame } from '../actions';
+import { parseFrame } from '../can/text';
+import { describe } from '../sim/link';
+import { pack } from '../sim/packed';
+import { icons } from './icons';
+import { View } from './view';
+import './sdo-form';
+
+const MOST_REMEMBERED = 50;
+
+class Send extends View {
+  protected override render() {
+    return html`
+      <od-raw-frame></od-raw-frame>
+      <od-sdo-form></od-sdo-form>
+      <div class="dock-row">
+        <span class="dock-label" id="nmt-label">NMT</span>
+        <div class="button-row" role="group" aria-labelledby="nmt-label">
+          ${NMT_COMMANDS.map(
+            ({ code, text, title }) => html`<button class="small" title=${title} aria-label=${`NMT ${text}`} data-active=${isState(code)} @click=${() => nmt(code)}>${text}</button>`,
+          )}
+        </div>
+      </div>
+    `;
+  }
+}
+
+/** Is the node where this command would bring it? */
+function isState(code: number): boolean {
+  const target = { 1: 'operational', 2: 'stopped', 128: 'pre-operational' }[code];
+  return target === state.nmt.value;
+}
+
+/** The line for a frame in hexadecimal, with its meaning as it is typed. */
+class RawFrame extends View {
+  static override properties = { text: { state: true }, meaning: { state: true }, isTouched: { state: true } };
+  declare text: string;
+  declare meaning: string;
+  declare isTouched: boolean;
+  private history: string[] = [];
+  private place = 0;
+
+  constructor() {
+    super();
+    this.text = '';
+    this.meaning = '';
+    this.isTouched = false;
+  }
+
+  private async onInput(text: string): Promise<void> {
+    this.text = text;
+    this.isTouched = false;
+    const parsed = parseFrame(text);
+    if ('error' in parsed) {
+      this.meaning = '';
+      return;
+    }
+    const { frame } = parsed;
+    const [words] = await describe(pack({ ...frame, time: 0, fromPage: true }));
+    if (this.text === text) this.meaning = words ?? '';
+  }
+
+  private submit(event: Event): void {
+    event.preventDefault();
+    const parsed = parseFrame(this.text);
+    this.isTouched = true;
+    if ('error' in parsed) return;
+    sendFrame(parsed.frame);
+    if (this.history.at(-1) !== this.text) this.history = [...this.history, this.text].slice(-MOST_REMEMBERED);
+    this.place = this.history.length;
+    this.querySelector('input')?.select();
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const move = event.key === 'ArrowUp' ? -1 : event.key === 'ArrowDown' ? 1 : 0;
+    if (move === 0 || this.history.length === 0) return;
+    event.preventDefault();
+    this.place = Math.max(0, Math.min(this.history.length, this.place + move));
+    void this.onInput(this.history[this.place] ?? '');
+  }
+
+  protected override render() {
+    const parsed = parseFrame(this.text);
+    const isEmpty = this.text.trim() === '';
+    const error = 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
+    const bytes = 'frame' in parsed ? `${parsed.frame.dlc} byte${parsed.frame.dlc === 1 ? '' : 's'}` : '';
+    const node = (0x600 + state.nodeId.value).toString(16).toUpperCase();
+    return html`<form class="dock-row" @submit=${this.submit} novalidate>
+      <label class="dock-label" for="raw-frame">Frame</label>
+      <div class="field-group">
+        <input id="raw-frame" class="num grow" autocomplete="off" autocapitalize="off" spellcheck="false" enterkeyhint="send"
+          placeholder=${`${node}#40 04 60 00 00 00 00 00`} aria-describedby="raw-note" aria-invalid=${error !== ''}
+          .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
+        <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} Send</button>
+        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`COB-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> asks with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
+      </div>
+    </form>`;
+  }
+}
+
+customElements.define('od-raw-frame', RawFrame);
+customElements.define('od-send', Send);

@@ -1,0 +1,24 @@
+// The browser and the page for a test, as a person finds them.
+import { chromium } from 'playwright-core';
+
+export const URL_OF_PAGE = process.env.ODKIT_URL ?? 'http://127.0.0.1:8080/';
+const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+const ARGS = ['--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+
+export const launch = () => chromium.launch({ executablePath, args: ARGS });
+
+/**
+ * Opens the page in a context of its own. `faults` collects what went wrong in it:
+ * console errors, uncaught exceptions, requests that failed.
+ */
+export async function open(browser, { width = 1280, height = 800, hash = '', ...context } = {}) {
+  const own = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, ...context });
+  const page = await own.newPage();
+  const faults = [];
+  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+  page.on('pageerror', (error) => faults.push(String(error)));
+  page.on('requestfailed', (request) => faults.push(`${request.url()} ${request.failure()?.errorText}`));
+  await page.goto(new URL(hash, URL_OF_PAGE).href);
+  return { page, faults, close: () => own.close() };
+}
