@@ -1,6 +1,7 @@
 use alloc::vec;
 
 use super::*;
+use crate::{Description, Value};
 
 fn base() -> Description {
     let mut description = Description::default();
@@ -42,6 +43,28 @@ fn a_record_gets_the_sub_index_0_that_it_lacks() {
     let count = base.entry(Address::new(0x1018, 0)).unwrap();
     assert_eq!(count.default, Some(Spanned::from(Value::Unsigned(2))));
     assert_eq!(*count.access, Access::Const);
+}
+
+#[test]
+fn sub_index_0_follows_unless_it_is_told() {
+    let count = |edits: &[Edit]| {
+        let mut edited = base();
+        edited.objects.get_mut(&0x1018).unwrap().sub_number = Some(Spanned::from(3));
+        assert_eq!(apply(&mut edited, edits), vec![]);
+        let object = &edited.objects[&0x1018];
+        let number = object.sub_number.as_ref().map(|number| number.value);
+        (object.entries[&0].default.clone(), number)
+    };
+    let holds = |value| Some(Spanned::from(Value::Unsigned(value)));
+    let serial = Edit::add(Target::member(0x1018, 4))
+        .name("Serial number")
+        .data_type(DataType::Unsigned32);
+    let told = Edit::modify(Target::member(0x1018, 0)).default(Raw::Integer(1));
+    let fewer = Edit::remove(Target::member(0x1018, 2));
+    assert_eq!(count(core::slice::from_ref(&serial)), (holds(4), Some(4)));
+    assert_eq!(count(&[serial, told.clone()]), (holds(1), Some(4)));
+    assert_eq!(count(&[fewer]), (holds(1), Some(2)));
+    assert_eq!(count(&[told]), (holds(1), Some(3)));
 }
 
 #[test]
