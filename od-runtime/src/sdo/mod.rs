@@ -12,7 +12,7 @@ use od_model::Address;
 
 use crate::objects::Objects;
 use crate::store::little_endian;
-use crate::wire::sdo::{Request, Response};
+use crate::wire::sdo::{Request, Response, expedited_upload};
 use crate::{AbortCode, Instant};
 
 pub use crc::crc16;
@@ -61,6 +61,7 @@ impl<const N: usize> Server<N> {
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.
+    #[inline]
     pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_>,
@@ -70,11 +71,39 @@ impl<const N: usize> Server<N> {
         if dlc < objects.profile.sdo.min_dlc {
             return None;
         }
+        match (self.transfer, data) {
+            // What masters ask for all day comes first.
+            (Transfer::None, [0x40..=0x5F, low, high, sub, ..]) => {
+                self.address = Address::new(u16::from_le_bytes([*low, *high]), *sub);
+                Some(
+                    self.upload(objects, self.address)
+                        .unwrap_or_else(|code| self.abort(code)),
+                )
+            }
+            _ => self.handle_other(objects, data, dlc),
+        }
+    }
+
+    fn handle_other(
+        &mut self,
+        objects: &mut Objects<'_>,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
         let answer = match self.transfer {
             Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
                 self.block_segment(block, data)
             }
-            _ => self.request(objects, data, dlc),
+            _ => match Request::parse(data) {
+                Request::InitiateUpload { address } => {
+                    self.begin(address);
+                    return Some(
+                        self.upload(objects, address)
+                            .unwrap_or_else(|code| self.abort(code)),
+                    );
+                }
+                request => self.request(objects, request, data, dlc),
+            },
         };
         self.deadline = matches!(
             self.transfer,
@@ -87,11 +116,15 @@ impl<const N: usize> Server<N> {
         }
     }
 
-    fn request(&mut self, objects: &mut Objects<'_>, data: &[u8; 8], dlc: u8) -> Answer {
+    fn request(
+        &mut self,
+        objects: &mut Objects<'_>,
+        request: Request,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Answer {
         let profile = objects.profile.sdo;
-        let request = Request::parse(data);
         match (request, self.transfer) {
-            (Request::InitiateUpload { address }, _) => self.upload(objects, address),
             (
                 Request::InitiateDownload {
                     address,
@@ -169,31 +202,37 @@ impl<const N: usize> Server<N> {
     }
 
     #[inline]
-    fn upload(&mut self, objects: &mut Objects<'_>, address: Address) -> Answer {
-        self.begin(address);
+    fn upload(
+        &mut self,
+        objects: &mut Objects<'_>,
+        address: Address,
+    ) -> Result<[u8; 8], AbortCode> {
         let segmented = objects.profile.sdo.segmented;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
         match bytes.len() {
-            len @ 1..=4 => Ok(Some(Response::InitiateUpload {
+            len @ 1..=4 => Ok(expedited_upload(
                 address,
-                size: Some(len as u32),
-                expedited: Some((little_endian(bytes) as u32).to_le_bytes()),
-            })),
+                len as u8,
+                little_endian(bytes) as u32,
+            )),
             _ if !segmented => Err(AbortCode::UnsupportedAccess),
             len => {
                 let room = self.buffer.get_mut(..len).ok_or(AbortCode::OutOfMemory)?;
                 room.copy_from_slice(bytes);
                 self.transfer = Transfer::Upload(segmented::Upload::new(len));
-                Ok(Some(Response::InitiateUpload {
+                let size = Some(len as u32);
+                Ok(Response::InitiateUpload {
                     address,
-                    size: Some(len as u32),
+                    size,
                     expedited: None,
-                }))
+                }
+                .emit())
             }
         }
     }
 
+    #[cold]
     fn abort(&mut self, code: AbortCode) -> [u8; 8] {
         self.reset();
         Response::Abort {

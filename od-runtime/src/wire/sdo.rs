@@ -397,6 +397,15 @@ impl Response {
     }
 }
 
+/// The frame of an expedited upload: `len` bytes, 1–4, of `value`. It is what
+/// [`Response::InitiateUpload`] emits, for the one answer that masters ask for all day.
+#[inline]
+pub const fn expedited_upload(address: Address, len: u8, value: u32) -> [u8; 8] {
+    let command = 0x43 | (4 - len as u64 & 3) << 2;
+    (command | (address.index as u64) << 8 | (address.sub as u64) << 24 | (value as u64) << 32)
+        .to_le_bytes()
+}
+
 #[inline]
 const fn head(command: u8, address: Address, rest: u32) -> [u8; 8] {
     let [low, high] = address.index.to_le_bytes();
@@ -416,6 +425,19 @@ mod tests {
             assert_eq!(Request::parse(&request.emit()), request, "{command:02X}");
             let response = Response::parse(&bytes);
             assert_eq!(Response::parse(&response.emit()), response, "{command:02X}");
+        }
+    }
+
+    #[test]
+    fn the_short_way_says_the_same() {
+        let address = Address::new(0x6004, 3);
+        for len in 1..=4u8 {
+            let response = Response::InitiateUpload {
+                address,
+                size: Some(len.into()),
+                expedited: Some([1, 2, 3, 4]),
+            };
+            assert_eq!(expedited_upload(address, len, 0x0403_0201), response.emit());
         }
     }
 
