@@ -25,7 +25,7 @@ fn frame(random: &mut Random) -> String {
     let id = random.pick(&[
         0x000, 0x080, 0x201, 0x301, 0x601, 0x601, 0x601, 0x601, 0x181, 0x602, 0x7E5,
     ]);
-    if random.next() % 50 == 0 {
+    if random.next().is_multiple_of(50) {
         return format!("{id:03X}#R{}", random.next() % 9);
     }
     if id == 0 {
@@ -36,7 +36,7 @@ fn frame(random: &mut Random) -> String {
     let short = random.next() as usize % 9;
     let len = random.pick(&[8, 8, 8, 8, 8, 8, short]);
     let mut bytes: Vec<u8> = (0..8).map(|_| random.next() as u8).collect();
-    if id == 0x601 && random.next() % 8 != 0 {
+    if id == 0x601 && !random.next().is_multiple_of(8) {
         bytes[0] = random.pick(&[
             0x22, 0x23, 0x27, 0x2B, 0x2F, 0x21, 0x20, 0x40, 0x60, 0x70, 0x00, 0x10, 0x01, 0x80,
             0xA0, 0xA4, 0xA3, 0xA2, 0xA1, 0xC0, 0xC2, 0xC6, 0xC1, 0x81, 0x01, 0x02, 0x03, bytes[0],
@@ -47,7 +47,7 @@ fn frame(random: &mut Random) -> String {
         ]);
         bytes[1..3].copy_from_slice(&index.to_le_bytes());
         bytes[3] = (random.next() % 4) as u8;
-        if random.next() % 2 == 0 {
+        if random.next().is_multiple_of(2) {
             bytes[4..].copy_from_slice(&random.pick(&[*b"save", *b"load", [1, 0, 0, 0], [0; 4]]));
         }
     }
@@ -84,7 +84,7 @@ fn two_hundred_thousand_frames() {
                     "seed {seed}, step {step}: {input} -> {out:?}"
                 );
             }
-            if random.next() % 16 == 0 {
+            if random.next().is_multiple_of(16) {
                 let millis = random.next() % 40;
                 bench.wait(millis);
             }

@@ -26,9 +26,9 @@ pub(super) fn check(
             }
         }
         Kind::Real => {
-            let value = match bytes {
-                &[a, b, c, d] => f64::from(f32::from_le_bytes([a, b, c, d])),
-                &[a, b, c, d, e, f, g, h] => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
+            let value = match *bytes {
+                [a, b, c, d] => f64::from(f32::from_le_bytes([a, b, c, d])),
+                [a, b, c, d, e, f, g, h] => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
                 _ => return Err(AbortCode::Length),
             };
             if matches!(entry.high, Literal::Real(high) if value > high) {
