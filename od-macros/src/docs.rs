@@ -1,8 +1,34 @@
 //! The words on every generated item: an IDE's hover is the datasheet.
 
+use od_model::patch::Action;
 use od_model::{
     Access, Address, DataType, EntryDescription, Group, Kind, ObjectDescription, Span, Value,
 };
+
+use crate::input::Statement;
+
+/// The page on a variant: what of the base is different.
+pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
+    let mut text = format!("\n\nA variant of `{family}`");
+    let mut join = ": ";
+    for (wanted, word) in [
+        (Action::Add, "added"),
+        (Action::Modify, "changed"),
+        (Action::Remove, "removed"),
+    ] {
+        let targets = statements.iter().filter_map(|statement| match statement {
+            Statement::Edit { action, target, .. } if *action == wanted => Some(target.target),
+            _ => None,
+        });
+        let targets: Vec<String> = targets.map(|target| format!("`{target}`")).collect();
+        if !targets.is_empty() {
+            text.push_str(&format!("{join}{word} {}", targets.join(", ")));
+            join = "; ";
+        }
+    }
+    text.push('.');
+    text
+}
 
 /// The page on one value; `member` of an object, or a VAR.
 pub(crate) fn entry(

@@ -6,9 +6,10 @@
 use std::fmt::Write;
 
 use od_model::{Group, Literal, Tables};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::docs;
 use crate::family::{Device, Family};
 use crate::handles::{Body, Handle, Item};
 use crate::input::Input;
@@ -33,15 +34,18 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
             quote! { const _: &[u8] = ::core::include_bytes!(#path); }
         });
     let about = about(source, family);
-    let variants = input
-        .variants
-        .iter()
-        .zip(&family.variants)
-        .map(|(variant, device)| {
-            let mut text = String::new();
-            self::device(&mut text, device, &family.base.items);
-            wrap(&variant.attrs, &variant.name, &lex(&text))
-        });
+    let variants = input.variants.iter().zip(&family.variants);
+    let variants = variants.map(|(variant, made)| {
+        let mut text = String::new();
+        device(&mut text, made, &family.base.items);
+        let (attrs, name, body) = (&variant.attrs, &variant.name, lex(&text));
+        let about = docs::variant(&input.name.to_string(), &variant.statements);
+        quote! {
+            #(#attrs)*
+            #[doc = #about]
+            pub mod #name { #body }
+        }
+    });
     quote! {
         #(#attrs)*
         #[doc = #about]
@@ -54,15 +58,6 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     }
 }
 
-fn wrap(attrs: &[syn::Attribute], name: &Ident, body: &TokenStream) -> TokenStream {
-    let about = "A variant: its own dictionary, and the handles that it keeps.";
-    quote! {
-        #(#attrs)*
-        #[doc = #about]
-        pub mod #name { #body }
-    }
-}
-
 fn about(source: &Source, family: &Family) -> String {
     let objects = family.base.tables.objects().len();
     let mut text = format!("\n\n{objects} objects");
@@ -70,9 +65,9 @@ fn about(source: &Source, family: &Family) -> String {
         let _ = write!(text, ", from `{shown}`");
     }
     text.push('.');
-    let warnings = source.findings.iter().filter(|f| !f.is_error()).count();
-    if warnings > 0 {
-        let _ = write!(text, " `odkit check` has {warnings} remarks on the file.");
+    if family.remarks > 0 {
+        let remarks = family.remarks;
+        let _ = write!(text, " `odkit check` has {remarks} remarks on the file.");
     }
     text
 }

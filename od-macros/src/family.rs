@@ -17,6 +17,8 @@ pub(crate) struct Family {
     pub(crate) base: Device,
     /// In the order of the call's variants.
     pub(crate) variants: Vec<Device>,
+    /// Findings about the file that are no errors.
+    pub(crate) remarks: usize,
 }
 
 /// One device.
@@ -76,7 +78,11 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
             description
         })
         .collect();
-    devices(input, source, base, variants, report)
+    let mut family = devices(input, source, base, variants, report);
+    if source.shown.is_some() {
+        family.remarks = eds.iter().filter(|finding| !finding.is_error()).count();
+    }
+    family
 }
 
 fn devices(
@@ -104,6 +110,7 @@ fn devices(
     let mut family = Family {
         base: Device { tables, items },
         variants: Vec::new(),
+        remarks: 0,
     };
     for ((variant, description), tables) in input.variants.iter().zip(variants).zip(others) {
         let naming = Naming {
