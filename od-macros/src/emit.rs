@@ -195,12 +195,13 @@ static OBJECTS: [Object; {objects}] = ["
     }
     let blob = tables.blob().escape_ascii();
     let text = tables.text();
+    let store_len = tables.dictionary().store_len();
     let _ = write!(
         out,
         "];
-static KEYS: [u32; {entries}] = ::od_model::keys(&ENTRIES);
-static PAGES: [u32; ::od_model::PAGES] = ::od_model::pages(&KEYS);
-::od_model::Dictionary::new(&KEYS, &PAGES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\")
+static KEYS: [u32; {entries}] = keys(&ENTRIES);
+static PAGES: [u32; 257] = pages(&KEYS);
+d(&KEYS, &PAGES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\", {store_len})
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();
