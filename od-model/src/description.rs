@@ -8,7 +8,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::{Access, Address, DataType, Group, ObjectCode, Span, Spanned};
+use crate::{Access, Address, DataType, Group, Kind, ObjectCode, Span, Spanned};
 
 /// A default, a limit or a configured value, owned.
 #[derive(Clone, PartialEq, Debug)]
@@ -37,10 +37,34 @@ impl Value {
             Self::Real(_) | Self::Text(_) | Self::Bytes(_) => None,
         }
     }
+
+    /// Is this a value of the type, whatever the node ID?
+    pub fn fits(&self, data_type: DataType) -> bool {
+        match (data_type.kind(), self) {
+            (Kind::Text, Self::Text(_)) | (Kind::Bytes, Self::Bytes(_)) => true,
+            (Kind::Real, Self::Real(value)) => match data_type {
+                DataType::Real32 => value.abs() <= f64::from(f32::MAX),
+                _ => true,
+            },
+            (Kind::Unsigned, Self::NodeId(offset)) => {
+                data_type.holds_node_id()
+                    && data_type
+                        .integer_range()
+                        .is_some_and(|(_, high)| i128::from(*offset) + 127 <= high)
+            }
+            (_, Self::NodeId(_)) => false,
+            (_, value) => match (value.integer(0), data_type.integer_range()) {
+                (Some(value), Some((low, high))) => (low..=high).contains(&value),
+                _ => false,
+            },
+        }
+    }
 }
 
 /// One value of an object: what an EDS section with a DataType says.
-#[derive(Clone, PartialEq, Debug)]
+///
+/// Two are equal if they say the same, wherever they stand.
+#[derive(Clone, Debug)]
 pub struct EntryDescription {
     /// ParameterName.
     pub name: Spanned<String>,
@@ -67,6 +91,37 @@ pub struct EntryDescription {
     pub extra: Vec<(String, String)>,
     /// The section header, or the token that made it.
     pub span: Span,
+}
+
+impl PartialEq for EntryDescription {
+    fn eq(&self, other: &Self) -> bool {
+        // All fields by name, so that a new one is not forgotten.
+        let Self {
+            name,
+            data_type,
+            access,
+            mappable,
+            default,
+            low,
+            high,
+            parameter,
+            group,
+            flags,
+            extra,
+            span: _,
+        } = self;
+        *name == other.name
+            && *data_type == other.data_type
+            && *access == other.access
+            && *mappable == other.mappable
+            && *default == other.default
+            && *low == other.low
+            && *high == other.high
+            && *parameter == other.parameter
+            && *group == other.group
+            && *flags == other.flags
+            && *extra == other.extra
+    }
 }
 
 impl EntryDescription {
@@ -105,13 +160,15 @@ impl EntryDescription {
 }
 
 /// One object: a VAR with its one entry, or an ARRAY or RECORD with its members.
-#[derive(Clone, PartialEq, Debug)]
+///
+/// Two are equal if they say the same, wherever they stand.
+#[derive(Clone, Debug)]
 pub struct ObjectDescription {
     /// ObjectType; VAR where the text says nothing.
     pub code: Spanned<ObjectCode>,
     /// ParameterName of the object.
     pub name: Spanned<String>,
-    /// SubNumber as given.
+    /// SubNumber as given; counted where a text gives none for an object with members.
     pub sub_number: Option<Spanned<u32>>,
     /// The values by sub-index; a VAR has exactly sub-index 0.
     pub entries: BTreeMap<u8, EntryDescription>,
@@ -121,6 +178,26 @@ pub struct ObjectDescription {
     pub extra: Vec<(String, String)>,
     /// The section header, or the token that made it.
     pub span: Span,
+}
+
+impl PartialEq for ObjectDescription {
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            code,
+            name,
+            sub_number,
+            entries,
+            flags,
+            extra,
+            span: _,
+        } = self;
+        *code == other.code
+            && *name == other.name
+            && *sub_number == other.sub_number
+            && *entries == other.entries
+            && *flags == other.flags
+            && *extra == other.extra
+    }
 }
 
 impl ObjectDescription {

@@ -6,14 +6,14 @@ use alloc::vec::Vec;
 
 use crate::dictionary::{PAGES, pages, store_len};
 use crate::{
-    Access, Address, DataType, Description, Dictionary, Entry, EntryDescription, Literal, Object,
-    Range, Slot, Value,
+    Access, Address, DataType, Description, Dictionary, Entry, EntryDescription, Kind, Literal,
+    Object, Range, Slot, Spanned, Value,
 };
 
 /// Capacity in bytes of a string that a master may write, where its default is shorter.
-pub const STRING_CAPACITY: usize = 64;
+const STRING_CAPACITY: usize = 64;
 /// Capacity in bytes of a DOMAIN that a master may write, where its default is shorter.
-pub const DOMAIN_CAPACITY: usize = 1024;
+const DOMAIN_CAPACITY: usize = 1024;
 
 /// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
 #[derive(Clone, PartialEq, Debug)]
@@ -45,9 +45,9 @@ impl Default for Tables {
 impl Tables {
     /// The tables of everything in `description` that can run.
     ///
-    /// Total: an entry without a usable type and an object without entries are
-    /// left out; the checks have named them. Where a DCF gives a ParameterValue,
-    /// that is the default.
+    /// Total: an entry without a usable type, an object without entries and a value
+    /// that does not fit its type are left out; the checks have named them. Where a
+    /// DCF gives a ParameterValue, that is the default.
     pub fn new(description: &Description) -> Self {
         let mut tables = Self::default();
         let mut names = BTreeMap::new();
@@ -134,17 +134,18 @@ impl Tables {
         offset: &mut u32,
     ) -> Option<Entry> {
         let data_type = from.data_type?.value;
-        if data_type.kind() == crate::Kind::Record {
+        if data_type.kind() == Kind::Record {
             return None;
         }
-        let value = from.parameter.as_ref().or(from.default.as_ref());
-        let default = self.literal(value.map(|v| &v.value), names);
-        let len = slot_len(data_type, *from.access, value.map(|v| &v.value));
+        let value = fitting(&from.parameter, data_type).or(fitting(&from.default, data_type));
+        let default = self.literal(value, data_type, names);
+        let len = slot_len(data_type, *from.access, value);
         let slot = Slot {
             offset: if len == 0 { 0 } else { *offset },
             len,
         };
-        *offset += u32::from(len);
+        // Four gigabytes of values are no device; whoever makes one up gets no panic.
+        *offset = offset.saturating_add(u32::from(len));
         Some(Entry {
             address,
             data_type,
@@ -153,15 +154,27 @@ impl Tables {
             group: from.group_at(address),
             name: self.intern(&from.name, names),
             default,
-            low: self.literal(from.low.as_ref().map(|v| &v.value), names),
-            high: self.literal(from.high.as_ref().map(|v| &v.value), names),
+            low: self.literal(fitting(&from.low, data_type), data_type, names),
+            high: self.literal(fitting(&from.high, data_type), data_type, names),
             slot,
         })
     }
 
-    fn literal(&mut self, value: Option<&Value>, names: &mut BTreeMap<String, Range>) -> Literal {
+    fn literal(
+        &mut self,
+        value: Option<&Value>,
+        data_type: DataType,
+        names: &mut BTreeMap<String, Range>,
+    ) -> Literal {
         match value {
             None => Literal::None,
+            // What fits a type fits its literal: neither cast changes the value.
+            Some(Value::Unsigned(v)) if data_type.kind() == Kind::Signed => {
+                Literal::Signed(*v as i64)
+            }
+            Some(Value::Signed(v)) if data_type.kind() != Kind::Signed => {
+                Literal::Unsigned(*v as u64)
+            }
             Some(Value::Unsigned(v)) => Literal::Unsigned(*v),
             Some(Value::Signed(v)) => Literal::Signed(*v),
             Some(Value::Real(v)) => Literal::Real(*v),
@@ -184,6 +197,14 @@ impl Tables {
         names.insert(text.into(), range);
         range
     }
+}
+
+/// The value, if it is one of the type.
+fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value> {
+    value
+        .as_ref()
+        .map(|value| &value.value)
+        .filter(|value| value.fits(data_type))
 }
 
 /// Bytes that a value takes in the store; see [`Slot`].

@@ -190,6 +190,12 @@ impl DataType {
         }
     }
 
+    /// Can a value of it depend on the node ID: UNSIGNED8 to UNSIGNED32?
+    pub const fn holds_node_id(self) -> bool {
+        use DataType::*;
+        matches!(self, Unsigned8 | Unsigned16 | Unsigned24 | Unsigned32)
+    }
+
     /// Smallest and largest value of an integer type, as the standard ranges them.
     pub const fn integer_range(self) -> Option<(i128, i128)> {
         match (self.kind(), self.bits()) {

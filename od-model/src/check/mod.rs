@@ -1,11 +1,84 @@
 //! What must hold in a description before a device is made of it.
+//!
+//! One rule or one family of rules a file. [`RULES`] says what every code means,
+//! also those that the reader and the patches give. An error is what makes
+//! generated code unsound or a master fail; what many shipped files have is a
+//! warning.
 
 use alloc::vec::Vec;
 
-use crate::{Description, Diagnostic};
+use crate::{Address, Description, Diagnostic, EntryDescription, Span, Spanned, Value};
+
+mod data_types;
+mod identity;
+mod limits;
+mod mandatory;
+mod members;
+mod node_id;
+mod pdo_communication;
+mod pdo_counts;
+mod pdo_mapping;
+pub(crate) mod rules;
+mod sub_index_0;
+pub(crate) mod text;
+mod values;
+
+pub use rules::{RULES, Rule, rule};
 
 /// All that is wrong with a description, in file order.
+///
+/// What the text was like is not seen here: [`eds::parse`](crate::eds::parse) names that.
 pub fn check(description: &Description) -> Vec<Diagnostic> {
-    let _ = description;
-    Vec::new()
+    let mut findings = Vec::new();
+    for check in [
+        mandatory::check,
+        members::check,
+        sub_index_0::check,
+        data_types::check,
+        values::check,
+        node_id::check,
+        limits::check,
+        pdo_communication::check,
+        pdo_mapping::check,
+        pdo_counts::check,
+        identity::check,
+    ] {
+        check(description, &mut findings);
+    }
+    sort(&mut findings);
+    findings
+}
+
+/// File order; what stands nowhere comes last.
+pub(crate) fn sort(findings: &mut [Diagnostic]) {
+    findings.sort_by_key(|finding| match finding.span {
+        Some(span) => (0, span.line, span.column),
+        None => (1, 0, 0),
+    });
+}
+
+/// The first of these places that is one in a text.
+fn place(spans: &[Span]) -> Span {
+    spans
+        .iter()
+        .copied()
+        .find(|span| span.line != 0)
+        .unwrap_or_default()
+}
+
+/// The value that an entry starts with: a DCF's ParameterValue, else the default.
+fn start_value(entry: &EntryDescription) -> Option<&Spanned<Value>> {
+    entry.parameter.as_ref().or(entry.default.as_ref())
+}
+
+/// The unsigned number that an entry starts with.
+fn start_number(description: &Description, address: Address) -> Option<Spanned<u64>> {
+    let value = start_value(description.entry(address)?)?;
+    match value.value.integer(0) {
+        Some(number) if !matches!(value.value, Value::NodeId(_)) => {
+            let number = u64::try_from(number).ok()?;
+            Some(Spanned::new(number, value.span))
+        }
+        _ => None,
+    }
 }

@@ -1,10 +1,40 @@
 //! EDS and DCF text (CiA 306-1): read, check, write.
+//!
+//! [`parse`] never fails: it returns what it understood, and a diagnostic for
+//! everything else, each with its place in the text. What it cannot make a value
+//! of, it keeps as text in `extra`, so that [`write`] loses nothing.
+//!
+//! ```
+//! use od_model::{Address, Value, eds};
+//!
+//! let loaded = eds::load("[2300]\nParameterName=Reset\nDataType=0x0005\nAccessType=rw\nDefaultValue=300\n");
+//! let fault = &loaded.diagnostics.iter().find(|d| d.code == "E0412").unwrap();
+//! assert_eq!(fault.span.unwrap().line, 5);
+//! let reset = loaded.description.entry(Address::new(0x2300, 0)).unwrap();
+//! assert_eq!(reset.default.as_ref().unwrap().value, Value::Unsigned(300));
+//! ```
 
-use alloc::borrow::Cow;
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::{Description, Diagnostic};
+
+mod compact;
+mod decode;
+mod entry;
+mod fields;
+mod ini;
+mod lines;
+mod lists;
+mod number;
+mod object;
+mod parse;
+mod sections;
+mod values;
+mod write;
+
+pub use decode::decode;
+pub use parse::parse;
+pub use write::write;
 
 /// What a text says, and what is to be said about the text.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -15,15 +45,11 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// The text of a file, whatever its encoding.
-pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
-    String::from_utf8_lossy(bytes)
-}
-
-/// Reads an EDS or a DCF. Never fails; what cannot be read is a diagnostic.
-pub fn parse(text: &str) -> Parsed {
-    let _ = text;
-    Parsed::default()
+/// A number of a section that describes no object, however it is written.
+pub(crate) fn number(text: &str) -> Option<i128> {
+    let mut notes = Vec::new();
+    let text = number::without_comment(text, &mut notes);
+    number::integer(text, &mut notes).map(|number| number.value)
 }
 
 /// Reads and checks an EDS or a DCF: [`parse`], then [`check`](crate::check::check).
@@ -32,11 +58,6 @@ pub fn load(text: &str) -> Parsed {
     parsed
         .diagnostics
         .extend(crate::check::check(&parsed.description));
+    crate::check::sort(&mut parsed.diagnostics);
     parsed
-}
-
-/// The canonical text of a description.
-pub fn write(description: &Description) -> String {
-    let _ = description;
-    String::new()
 }

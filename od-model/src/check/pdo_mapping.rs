@@ -1,0 +1,219 @@
+//! What a PDO maps exists, is mappable in its direction, and fits.
+//!
+//! Guarantees that every PDO can be made as its defaults say. Assumes that
+//! sub-index 0 counts the mapped objects: entries above it are not looked at, nor
+//! is anything where it is 0, or 254 or 255 (multiplexed PDOs).
+//! Source: CiA 301, PDO mapping parameter; CiA 306-1, AccessType and DummyUsage.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::{place, rules, start_number};
+use crate::eds::number;
+use crate::{Address, DataType, Description, Diagnostic, ObjectDescription, Spanned};
+
+/// What one mapping entry says, and where.
+struct Mapped {
+    /// The mapping entry.
+    entry: Address,
+    /// What it maps.
+    target: Address,
+    bits: Spanned<u8>,
+    rpdo: bool,
+}
+
+pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+    for (index, object) in description.objects.range(0x1600..=0x1BFF) {
+        let rpdo = match index {
+            0x1600..=0x17FF => true,
+            0x1A00..=0x1BFF => false,
+            _ => continue,
+        };
+        if object.code.has_members() {
+            mapping(description, *index, rpdo, object, findings);
+        }
+    }
+}
+
+fn mapping(
+    description: &Description,
+    index: u16,
+    rpdo: bool,
+    object: &ObjectDescription,
+    findings: &mut Vec<Diagnostic>,
+) {
+    // Without a count, nothing is known to be mapped.
+    let count = start_number(description, Address::new(index, 0)).map_or(0, |count| count.value);
+    let count = match u8::try_from(count) {
+        Ok(count @ ..=64) => count,
+        _ => return,
+    };
+    let mut bits = 0u32;
+    for (sub, entry) in object.entries.range(1..=count.max(1)) {
+        if *sub > count {
+            break;
+        }
+        let address = Address::new(index, *sub);
+        if let Some(given) = entry.data_type.filter(|t| **t != DataType::Unsigned32) {
+            findings.push(
+                rules::E0510
+                    .at(
+                        place(&[given.span, entry.span]),
+                        format!("a mapping entry is UNSIGNED32, not {}", *given),
+                    )
+                    .with_address(address)
+                    .with_help("write `DataType=0x0007`"),
+            );
+            continue;
+        }
+        let Some(value) = start_number(description, address) else {
+            continue;
+        };
+        let Ok(number) = u32::try_from(value.value) else {
+            continue;
+        };
+        if number == 0 {
+            // Nothing, not even a length: there is nothing to judge.
+            continue;
+        }
+        let [len, sub, low, high] = number.to_le_bytes();
+        let span = place(&[value.span, entry.span]);
+        let mapped = Mapped {
+            entry: address,
+            target: Address::new(u16::from_le_bytes([low, high]), sub),
+            bits: Spanned::new(len, span),
+            rpdo,
+        };
+        if let Some(finding) = target(description, &mapped) {
+            findings.push(finding.with_address(address));
+        }
+        let before = bits;
+        bits += u32::from(len);
+        if before <= 64 && bits > 64 {
+            findings.push(
+                rules::E0505
+                    .at(span, format!("with this object the PDO has {bits} bits"))
+                    .with_address(address)
+                    .with_help("a PDO has at most 64 bits; map less"),
+            );
+        }
+    }
+}
+
+fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
+    let Mapped { target, bits, .. } = mapped;
+    let span = bits.span;
+    if (1..=0x1F).contains(&target.index) {
+        return dummy(description, mapped);
+    }
+    let Some(object) = description.objects.get(&target.index) else {
+        return Some(
+            rules::E0501
+                .at(span, format!("{:04X}h does not exist", target.index))
+                .with_help("map an object that exists, or add it"),
+        );
+    };
+    let Some(entry) = object.entries.get(&target.sub) else {
+        return Some(
+            rules::E0512
+                .at(span, format!("{target} does not exist"))
+                .with_label(object.span, format!("{:04X}h is here", target.index))
+                .with_help("map a sub-index that exists, or add it"),
+        );
+    };
+    let name = &entry.name.value;
+    if !*entry.mappable {
+        return Some(
+            rules::E0502
+                .at(span, format!("{target} \"{name}\" is not mappable"))
+                .with_label(
+                    place(&[entry.mappable.span, entry.span]),
+                    "the object is here",
+                )
+                .with_help(format!(
+                    "write `PDOMapping=1` for {target}, or map another object"
+                )),
+        );
+    }
+    let direction = match mapped.rpdo {
+        true => entry.access.maps_to_rpdo(),
+        false => entry.access.maps_to_tpdo(),
+    };
+    if !direction {
+        let (pdo, allowed) = match mapped.rpdo {
+            true => ("an RPDO", "an RPDO maps wo, rw and rww"),
+            false => ("a TPDO", "a TPDO maps ro, rw, rwr and const"),
+        };
+        return Some(
+            rules::E0503
+                .at(
+                    span,
+                    format!("{target} \"{name}\" is {} and not for {pdo}", *entry.access),
+                )
+                .with_label(
+                    place(&[entry.access.span, entry.span]),
+                    "its AccessType is here",
+                )
+                .with_help(allowed),
+        );
+    }
+    let data_type = entry.data_type?;
+    match data_type.bits() {
+        Some(right) if right != **bits => Some(
+            wrong_length(mapped, right)
+                .with_label(data_type.span, format!("{} is declared here", *data_type)),
+        ),
+        _ => None,
+    }
+}
+
+fn wrong_length(mapped: &Mapped, right: u8) -> Diagnostic {
+    let Mapped { target, bits, .. } = mapped;
+    rules::E0504
+        .at(
+            bits.span,
+            format!("{target} has {right} bits, not {}", bits.value),
+        )
+        .with_help(format!(
+            "write `0x{:04X}{:02X}{right:02X}`",
+            target.index, target.sub
+        ))
+}
+
+/// A data type as a placeholder for bits that the device ignores.
+fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
+    let Mapped { target, bits, .. } = mapped;
+    let index = target.index;
+    if !mapped.rpdo {
+        return Some(
+            rules::E0507
+                .at(
+                    bits.span,
+                    format!("{index:04X}h is a dummy, and this is a TPDO"),
+                )
+                .with_help("map an object that can be sent"),
+        );
+    }
+    if let Some(right) = DataType::from_code(index).and_then(DataType::bits)
+        && right != **bits
+    {
+        return Some(wrong_length(mapped, right));
+    }
+    let key = format!("Dummy{index:04X}");
+    let allowed = description
+        .section("DummyUsage")
+        .and_then(|section| section.get(&key))
+        .and_then(|value| number(value));
+    if allowed == Some(1) {
+        return None;
+    }
+    Some(
+        rules::W0506
+            .at(
+                bits.span,
+                format!("[DummyUsage] does not allow the dummy {index:04X}h"),
+            )
+            .with_address(mapped.entry)
+            .with_help(format!("write `{key}=1` in [DummyUsage]")),
+    )
+}

@@ -1,0 +1,157 @@
+//! CompactSubObj: many members from one section.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::entry::{Reader, Unread, extra};
+use super::fields::Fields;
+use super::ini::Placed;
+use super::number;
+use super::sections::Compact;
+use crate::check::rules;
+use crate::{Address, DataType, Diagnostic, EntryDescription, Span, Spanned, Value};
+
+/// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
+pub(super) type CompactSections = BTreeMap<Compact, Placed>;
+
+/// The highest sub-index that a member can have.
+const HIGHEST: u8 = 254;
+
+/// CompactSubObj, if the object has one that is not 0.
+pub(super) fn count(
+    reader: &mut Reader<'_>,
+    fields: &mut Fields,
+    unread: &mut Unread,
+) -> Option<Spanned<u8>> {
+    let given = fields.take("CompactSubObj")?;
+    let number = reader.number("CompactSubObj", &given);
+    let count = match number {
+        Some(0) => return None,
+        Some(number) if (1..=i128::from(HIGHEST)).contains(&number) => {
+            return Some(Spanned::new(number as u8, given.span));
+        }
+        Some(number) if number > 0 => Some(Spanned::new(HIGHEST, given.span)),
+        _ => None,
+    };
+    reader.report(
+        rules::W0313
+            .at(
+                given.span,
+                format!(
+                    "CompactSubObj is a number from 1 to 254, not `{}`",
+                    given.value
+                ),
+            )
+            .with_help("write the number of members besides sub-index 0"),
+    );
+    if count.is_none() {
+        unread.push(("CompactSubObj".into(), given.value));
+    }
+    count
+}
+
+/// The members that CompactSubObj stands for, with the names and values given for some.
+pub(super) fn expand(
+    address: Address,
+    template: (EntryDescription, Unread),
+    count: &Spanned<u8>,
+    sections: CompactSections,
+    log: &mut Vec<Diagnostic>,
+) -> BTreeMap<u8, EntryDescription> {
+    let (template, unread) = template;
+    let mut entries = BTreeMap::from([(0, highest(count))]);
+    for sub in 1..=count.value {
+        let name = format!("{}{sub}", template.name.value);
+        entries.insert(
+            sub,
+            EntryDescription {
+                name: Spanned::new(name, template.name.span),
+                extra: extra(Vec::new(), unread.clone()),
+                ..template.clone()
+            },
+        );
+    }
+    let mut given = BTreeSet::new();
+    for (compact, section) in sections {
+        for (key, value) in &section.section.pairs {
+            if key.eq_ignore_ascii_case("NrOfEntries") || value.is_empty() {
+                continue;
+            }
+            let sub =
+                number::integer(key, &mut Vec::new()).and_then(|n| u8::try_from(n.value).ok());
+            let entry = sub.and_then(|sub| Some((sub, entries.get_mut(&sub)?)));
+            match entry {
+                // Of keys that stand twice, the first counts; that was named.
+                Some((sub, _)) if !given.insert((compact, sub)) => {}
+                Some((sub, entry)) => {
+                    let address = Address::new(address.index, sub);
+                    give(Reader { address, log }, entry, compact, value);
+                }
+                None => log.push(
+                    rules::W0314
+                        .at(
+                            key.span,
+                            format!("there is no member `{}` to give this to", key.value),
+                        )
+                        .with_address(address)
+                        .with_label(count.span, "members are counted here")
+                        .with_help(format!("the members are 1 to {}", count.value)),
+                ),
+            }
+        }
+    }
+    entries
+}
+
+fn give(
+    mut reader: Reader<'_>,
+    entry: &mut EntryDescription,
+    compact: Compact,
+    value: &Spanned<alloc::string::String>,
+) {
+    match compact {
+        Compact::Name => entry.name = value.clone(),
+        Compact::Denotation => {
+            let unread = core::mem::take(&mut entry.extra);
+            entry.extra = extra(
+                alloc::vec![("Denotation".into(), value.value.clone())],
+                unread,
+            );
+        }
+        Compact::Value => {
+            let mut unread = core::mem::take(&mut entry.extra);
+            unread.retain(|(key, _)| key != "ParameterValue");
+            entry.parameter = reader.typed("ParameterValue", value, entry.data_type);
+            if entry.parameter.is_none() {
+                unread.push(("ParameterValue".into(), value.value.clone()));
+            }
+            entry.extra = extra(Vec::new(), unread);
+        }
+    }
+}
+
+/// Sub-index 0, which CompactSubObj implies.
+fn highest(count: &Spanned<u8>) -> EntryDescription {
+    EntryDescription {
+        default: Some(Spanned::new(
+            Value::Unsigned(u64::from(count.value)),
+            count.span,
+        )),
+        span: count.span,
+        ..EntryDescription::new("NrOfObjects", DataType::Unsigned8)
+    }
+}
+
+/// Names a compact section of an object that has no CompactSubObj.
+pub(super) fn unclaimed(name: &str, header: Span, index: u16) -> Diagnostic {
+    rules::W0209
+        .at(
+            header,
+            format!("[{name}] belongs to an object with CompactSubObj"),
+        )
+        .with_address(Address::new(index, 0))
+        .with_help(format!(
+            "write `CompactSubObj=` and the number of members in [{index:04X}], or remove the section"
+        ))
+}

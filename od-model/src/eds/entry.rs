@@ -1,0 +1,266 @@
+//! One value: what a section with a DataType says.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::fields::Fields;
+use super::number::{self, Note};
+use super::values;
+use crate::check::rules;
+use crate::check::text;
+use crate::{Access, Address, DataType, Diagnostic, EntryDescription, Kind, Span, Spanned, Value};
+
+/// Where the diagnostics of one section go, and what it is about.
+pub(super) struct Reader<'a> {
+    pub(super) address: Address,
+    pub(super) log: &'a mut Vec<Diagnostic>,
+}
+
+/// Values that could not be read, kept as text.
+pub(super) type Unread = Vec<(String, String)>;
+
+/// What an object or entry keeps as text: the keys that nobody took, in file
+/// order, then what could not be read, by key, so that reading again finds the same.
+pub(super) fn extra(mut rest: Vec<(String, String)>, mut unread: Unread) -> Vec<(String, String)> {
+    unread.sort();
+    rest.append(&mut unread);
+    rest
+}
+
+impl Reader<'_> {
+    pub(super) fn report(&mut self, finding: Diagnostic) {
+        self.log.push(finding.with_address(self.address));
+    }
+
+    /// ParameterName; empty where it is missing.
+    pub(super) fn name(&mut self, fields: &mut Fields) -> Spanned<String> {
+        fields.take("ParameterName").unwrap_or_else(|| {
+            self.report(
+                rules::W0315
+                    .at(fields.header, "there is no ParameterName")
+                    .with_help("write `ParameterName=` and a name"),
+            );
+            Spanned::from(String::new())
+        })
+    }
+
+    /// A number without a type of its own: ObjectType, SubNumber, ObjFlags …
+    pub(super) fn number(&mut self, key: &str, from: &Spanned<String>) -> Option<i128> {
+        let mut notes = Vec::new();
+        let text = number::without_comment(from, &mut notes);
+        let number = number::integer(text, &mut notes)?;
+        self.notes(&notes, key, from, || number.value.to_string());
+        Some(number.value)
+    }
+
+    /// The entry that the fields describe; takes its keys and leaves the others.
+    pub(super) fn entry(
+        &mut self,
+        fields: &mut Fields,
+        name: Spanned<String>,
+        assumed: Option<DataType>,
+    ) -> (EntryDescription, Unread) {
+        let mut unread = Vec::new();
+        let data_type = match self.data_type(fields, &mut unread) {
+            // An object of code DOMAIN may leave its type out.
+            None if unread.is_empty() => assumed.map(Spanned::from),
+            given => given,
+        };
+        let access = self.access(fields, &mut unread);
+        let mappable = self.mappable(fields, &mut unread);
+        let mut value = |key| self.value(fields, key, data_type, &mut unread);
+        let entry = EntryDescription {
+            name,
+            data_type,
+            access,
+            mappable,
+            default: value("DefaultValue"),
+            low: value("LowLimit"),
+            high: value("HighLimit"),
+            parameter: value("ParameterValue"),
+            group: fields.group,
+            flags: self.flags(fields, &mut unread),
+            extra: Vec::new(),
+            span: fields.header,
+        };
+        (entry, unread)
+    }
+
+    fn data_type(&mut self, fields: &mut Fields, unread: &mut Unread) -> Option<Spanned<DataType>> {
+        let given = fields.take("DataType")?;
+        let number = self.number("DataType", &given);
+        let known = number
+            .and_then(|code| u16::try_from(code).ok())
+            .and_then(DataType::from_code);
+        if known.is_none() {
+            self.report(
+                rules::E0402
+                    .at(given.span, format!("`{}` is no data type", given.value))
+                    .with_help("write the code of a type, for example `0x0007` for UNSIGNED32"),
+            );
+            unread.push(("DataType".into(), given.value));
+        }
+        known.map(|data_type| Spanned::new(data_type, given.span))
+    }
+
+    fn access(&mut self, fields: &mut Fields, unread: &mut Unread) -> Spanned<Access> {
+        let Some(given) = fields.take("AccessType") else {
+            self.report(
+                rules::W0404
+                    .at(fields.header, "there is no AccessType")
+                    .with_help("write `AccessType=ro`, which is taken now, or what it is"),
+            );
+            return Spanned::from(Access::Ro);
+        };
+        let mut notes = Vec::new();
+        let word = number::without_comment(&given, &mut notes);
+        let known = [
+            Access::Ro,
+            Access::Wo,
+            Access::Rw,
+            Access::Rwr,
+            Access::Rww,
+            Access::Const,
+        ]
+        .into_iter()
+        .find(|access| word.eq_ignore_ascii_case(access.name()));
+        match known {
+            Some(access) => {
+                self.notes(&notes, "AccessType", &given, || access.name().into());
+                Spanned::new(access, given.span)
+            }
+            None => {
+                self.report(
+                    rules::E0405
+                        .at(given.span, format!("`{}` is no AccessType", given.value))
+                        .with_help("write ro, wo, rw, rwr, rww or const; `ro` is taken now"),
+                );
+                let span = given.span;
+                unread.push(("AccessType".into(), given.value));
+                Spanned::new(Access::Ro, span)
+            }
+        }
+    }
+
+    fn mappable(&mut self, fields: &mut Fields, unread: &mut Unread) -> Spanned<bool> {
+        let Some(given) = fields.take("PDOMapping") else {
+            return Spanned::from(false);
+        };
+        let mappable = match self.number("PDOMapping", &given) {
+            Some(0) => false,
+            Some(1) => true,
+            _ => {
+                self.report(
+                    rules::W0406
+                        .at(
+                            given.span,
+                            format!("PDOMapping is 0 or 1, not `{}`", given.value),
+                        )
+                        .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`"),
+                );
+                unread.push(("PDOMapping".into(), given.value));
+                false
+            }
+        };
+        Spanned::new(mappable, given.span)
+    }
+
+    /// ObjFlags; 0 where it is missing.
+    pub(super) fn flags(&mut self, fields: &mut Fields, unread: &mut Unread) -> u32 {
+        let Some(given) = fields.take("ObjFlags") else {
+            return 0;
+        };
+        let number = self.number("ObjFlags", &given);
+        number
+            .and_then(|flags| u32::try_from(flags).ok())
+            .unwrap_or_else(|| {
+                self.report(
+                    rules::W0407
+                        .at(given.span, format!("`{}` are no ObjFlags", given.value))
+                        .with_help("write `ObjFlags=0`, or leave the line out"),
+                );
+                unread.push(("ObjFlags".into(), given.value));
+                0
+            })
+    }
+
+    fn value(
+        &mut self,
+        fields: &mut Fields,
+        key: &'static str,
+        data_type: Option<Spanned<DataType>>,
+        unread: &mut Unread,
+    ) -> Option<Spanned<Value>> {
+        let given = fields.take(key)?;
+        let value = self.typed(key, &given, data_type);
+        if value.is_none() {
+            unread.push((key.into(), given.value));
+        }
+        value
+    }
+
+    /// The value of a key by its type; named if it is none of it.
+    pub(super) fn typed(
+        &mut self,
+        key: &str,
+        given: &Spanned<String>,
+        data_type: Option<Spanned<DataType>>,
+    ) -> Option<Spanned<Value>> {
+        // Without a type there are no values; that was named, or the checks will.
+        let data_type = data_type.filter(|t| t.kind() != Kind::Record)?;
+        let mut notes = Vec::new();
+        match values::value(given, *data_type, &mut notes) {
+            Some(value) => {
+                let canonical = || values::text(&value, Some(*data_type));
+                self.notes(&notes, key, given, canonical);
+                Some(Spanned::new(value, given.span))
+            }
+            None => {
+                let finding = text::no_value(key, given, given.span, data_type);
+                self.report(finding);
+                None
+            }
+        }
+    }
+
+    /// Names what was odd about a value that was understood.
+    fn notes(
+        &mut self,
+        notes: &[Note],
+        key: &str,
+        given: &Spanned<String>,
+        canonical: impl Fn() -> String,
+    ) {
+        for note in notes {
+            let finding = note_finding(*note, given, given.span);
+            self.report(finding.with_help(format!("write `{key}={}`", canonical())));
+        }
+    }
+}
+
+fn note_finding(note: Note, given: &str, span: Span) -> Diagnostic {
+    let (rule, message) = match note {
+        Note::Comment => (
+            rules::W0109,
+            format!("a comment stands behind the value: `{given}`"),
+        ),
+        Note::Octal => (rules::I0408, format!("`{given}` is read as octal")),
+        Note::NotOctal => (rules::W0409, format!("`{given}` is read as decimal")),
+        Note::TwosComplement => (
+            rules::I0410,
+            format!("`{given}` is read as a negative number"),
+        ),
+        Note::NodeId => (
+            rules::I0411,
+            format!("`{given}` is read as `$NODEID` plus a number"),
+        ),
+        Note::Characters => (
+            rules::W0419,
+            format!("`{given}` is no string of hexadecimal bytes"),
+        ),
+        Note::Suffix => (rules::W0420, format!("`{given}` is read as an integer")),
+        Note::Word => (rules::W0421, format!("`{given}` is read as a number")),
+    };
+    rule.at(span, message)
+}

@@ -1,0 +1,142 @@
+//! The keys of one section, taken one by one; what nobody takes is left over.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::ini::Placed;
+use crate::check::rules;
+use crate::{Diagnostic, Group, Section, Span, Spanned};
+
+/// The keys of a section that describes an object or a member.
+pub(super) struct Fields {
+    pairs: Vec<(Spanned<String>, Spanned<String>)>,
+    /// The section header.
+    pub(super) header: Span,
+    /// What the `;StorageLocation=` comment says, if it says something known.
+    pub(super) group: Option<Spanned<Group>>,
+}
+
+impl Fields {
+    /// The fields of a section; of keys that stand twice, the first counts.
+    pub(super) fn new(placed: Placed, log: &mut Vec<Diagnostic>) -> Self {
+        let mut pairs = placed.section.pairs;
+        let mut twice = duplicates(&pairs, log).into_iter().peekable();
+        let mut at = 0;
+        pairs.retain(|_| {
+            let keep = twice.next_if_eq(&at).is_none();
+            at += 1;
+            keep
+        });
+        let group = placed
+            .storage
+            .and_then(|storage| group(&storage).map(|group| Spanned::new(group, storage.span)));
+        Self {
+            pairs,
+            header: placed.header,
+            group,
+        }
+    }
+
+    /// Takes the value of a key; an empty one counts as none.
+    pub(super) fn take(&mut self, key: &str) -> Option<Spanned<String>> {
+        let at = self
+            .pairs
+            .iter()
+            .position(|(k, _)| k.eq_ignore_ascii_case(key))?;
+        let (_, value) = self.pairs.remove(at);
+        (!value.is_empty()).then_some(value)
+    }
+
+    /// Does the section give a value for this key?
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.pairs
+            .iter()
+            .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
+    }
+
+    /// What nobody has taken, in file order.
+    pub(super) fn rest(self) -> Vec<(String, String)> {
+        self.pairs
+            .into_iter()
+            .map(|(key, value)| (key.value, value.value))
+            .collect()
+    }
+}
+
+/// CANopenEditor's words for where a value is stored; others are other tools' own.
+fn group(location: &str) -> Option<Group> {
+    [
+        ("RAM", Group::None),
+        ("ROM", Group::None),
+        ("PERSIST_COMM", Group::Communication),
+        ("PERSIST_APP", Group::Application),
+        ("PERSIST_MFR", Group::Manufacturer),
+    ]
+    .into_iter()
+    .find(|(word, _)| location.eq_ignore_ascii_case(word))
+    .map(|(_, group)| group)
+}
+
+/// The word for a group, the reverse of what [`Fields`] reads.
+pub(super) const fn location(group: Group) -> &'static str {
+    match group {
+        Group::None => "RAM",
+        Group::Communication => "PERSIST_COMM",
+        Group::Application => "PERSIST_APP",
+        Group::Manufacturer => "PERSIST_MFR",
+    }
+}
+
+/// Names the keys that stand twice, and returns the positions of the later ones.
+pub(super) fn duplicates(
+    pairs: &[(Spanned<String>, Spanned<String>)],
+    log: &mut Vec<Diagnostic>,
+) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut report = |first: &Spanned<String>, at: usize| {
+        let (key, value) = &pairs[at];
+        log.push(
+            rules::W0107
+                .at(key.span, format!("`{}` stands twice", key.value))
+                .with_label(first.span, "this one counts")
+                .with_help(format!("remove `{}={}`", key.value, value.value)),
+        );
+        found.push(at);
+    };
+    // Sections are short; a tree is for the text that was made to be slow.
+    if pairs.len() <= 24 {
+        for at in 1..pairs.len() {
+            let same = |(k, _): &&(Spanned<String>, _)| k.eq_ignore_ascii_case(&pairs[at].0);
+            if let Some((first, _)) = pairs[..at].iter().find(same) {
+                report(first, at);
+            }
+        }
+    } else {
+        let mut seen = BTreeMap::new();
+        for (at, (key, _)) in pairs.iter().enumerate() {
+            match seen.entry(key.to_ascii_lowercase()) {
+                alloc::collections::btree_map::Entry::Vacant(entry) => {
+                    entry.insert(key);
+                }
+                alloc::collections::btree_map::Entry::Occupied(entry) => report(entry.get(), at),
+            }
+        }
+    }
+    found
+}
+
+/// Do two sections say the same, whatever the order and case of their keys?
+pub(super) fn same_content(a: &Section, b: &Section) -> bool {
+    let sorted = |section: &Section| {
+        let mut pairs: Vec<_> = section
+            .pairs
+            .iter()
+            .map(|(key, value)| (key.to_ascii_lowercase(), value.value.clone()))
+            .collect();
+        pairs.sort();
+        pairs
+    };
+    a.pairs.len() == b.pairs.len() && sorted(a) == sorted(b)
+}

@@ -1,0 +1,136 @@
+//! The three lists of objects, against the sections.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::ini::Placed;
+use super::number;
+use super::sections::List;
+use crate::check::rules;
+use crate::{Address, Description, Diagnostic, Span, Spanned};
+
+/// Compares the lists of a file with the objects it has.
+pub(super) fn check(
+    lists: &BTreeMap<List, Vec<Placed>>,
+    description: &Description,
+    log: &mut Vec<Diagnostic>,
+) {
+    let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
+    for (list, sections) in lists {
+        for section in sections {
+            entries(*list, section, description, &mut listed, log);
+        }
+    }
+    if description.objects.is_empty() {
+        return;
+    }
+    if listed.is_empty() {
+        log.push(rules::W0203.anywhere("no object is listed").with_help(
+            "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]",
+        ));
+        return;
+    }
+    for (index, object) in &description.objects {
+        if !listed.contains_key(index) {
+            let list = List::of(*index).name();
+            log.push(
+                rules::W0202
+                    .at(object.span, format!("{index:04X}h is in no list"))
+                    .with_address(Address::new(*index, 0))
+                    .with_help(format!("add `0x{index:04X}` to [{list}]")),
+            );
+        }
+    }
+}
+
+fn entries(
+    list: List,
+    placed: &Placed,
+    description: &Description,
+    listed: &mut BTreeMap<u16, Span>,
+    log: &mut Vec<Diagnostic>,
+) {
+    let mut count: Option<&Spanned<_>> = None;
+    let mut found = 0;
+    for (key, value) in &placed.section.pairs {
+        let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
+        if word
+            .map(|b| b.to_ascii_lowercase())
+            .eq(*b"supportedobjects")
+        {
+            count = count.or(Some(value));
+            continue;
+        }
+        let Some(index) = index(key, value, description) else {
+            log.push(
+                rules::W0205
+                    .at(
+                        key.span,
+                        format!("`{}={}` lists no object", key.value, value.value),
+                    )
+                    .with_help("write a number and an index, for example `1=0x1000`"),
+            );
+            continue;
+        };
+        found += 1;
+        let address = Address::new(index, 0);
+        if let Some(first) = listed.get(&index) {
+            log.push(
+                rules::W0207
+                    .at(value.span, format!("{index:04X}h is listed twice"))
+                    .with_address(address)
+                    .with_label(*first, "it is listed here")
+                    .with_help("remove one of the entries"),
+            );
+            continue;
+        }
+        listed.insert(index, value.span);
+        if !description.objects.contains_key(&index) {
+            log.push(
+                rules::W0201
+                    .at(
+                        value.span,
+                        format!("{index:04X}h is listed, but there is no section [{index:04X}]"),
+                    )
+                    .with_address(address)
+                    .with_help("write the section, or remove the entry"),
+            );
+        }
+        let right = List::of(index);
+        if right != list {
+            let (right, wrong) = (right.name(), list.name());
+            log.push(
+                rules::W0206
+                    .at(
+                        value.span,
+                        format!("{index:04X}h belongs to [{right}], not to [{wrong}]"),
+                    )
+                    .with_address(address)
+                    .with_help(format!("move the entry to [{right}]")),
+            );
+        }
+    }
+    let given = count.and_then(|count| number(count));
+    if given != Some(found) && (found > 0 || count.is_some()) {
+        let span = count.map_or(placed.header, |count| count.span);
+        log.push(
+            rules::W0204
+                .at(span, format!("the list has {found} entries"))
+                .with_help(format!("write `SupportedObjects={found}`")),
+        );
+    }
+}
+
+/// The index of a list entry; one without `0x` is decimal, unless only hexadecimal makes sense.
+fn index(key: &str, value: &str, description: &Description) -> Option<u16> {
+    number(key)?;
+    let read = number(value).and_then(|n| u16::try_from(n).ok());
+    let text = value.split([';', '#']).next().unwrap_or(value).trim();
+    let exists = |index: &u16| description.objects.contains_key(index);
+    if read.as_ref().is_some_and(exists) {
+        return read;
+    }
+    let hex = u16::from_str_radix(text, 16).ok();
+    hex.filter(exists).or(read)
+}

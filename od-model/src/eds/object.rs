@@ -1,0 +1,291 @@
+//! One object: its own section and those of its members.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::compact::{self, CompactSections};
+use super::entry::{Reader, Unread, extra};
+use super::fields::Fields;
+use super::ini::Placed;
+use crate::check::rules;
+use crate::{
+    Address, DataType, Diagnostic, EntryDescription, ObjectCode, ObjectDescription, Spanned,
+};
+
+/// The sections of one object.
+#[derive(Default)]
+pub(super) struct Sections {
+    pub(super) own: Option<Placed>,
+    pub(super) members: BTreeMap<u8, Placed>,
+    pub(super) compact: CompactSections,
+}
+
+/// The object that the sections describe; `None` if there is neither its own nor a member's.
+pub(super) fn object(
+    index: u16,
+    sections: Sections,
+    log: &mut Vec<Diagnostic>,
+) -> Option<ObjectDescription> {
+    let Some(own) = sections.own else {
+        return orphan(index, sections.members, log);
+    };
+    let mut fields = Fields::new(own, log);
+    let mut reader = Reader {
+        address: Address::new(index, 0),
+        log,
+    };
+    let name = reader.name(&mut fields);
+    let mut unread = Vec::new();
+    let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
+    let count = compact::count(&mut reader, &mut fields, &mut unread);
+    let has_members = !sections.members.is_empty() || count.is_some();
+    let code = object_code(&mut reader, &mut fields, &mut unread, has_members);
+    let mut members = sections.members;
+    let code = match !code.has_members() && has_members {
+        true => contradiction(&mut reader, &fields, code, &mut members, count.as_ref()),
+        false => code,
+    };
+    if !code.has_members() {
+        return Some(var(reader, fields, name, code, sub_number.given(), unread));
+    }
+    let mut entries = BTreeMap::new();
+    let mut flags = 0;
+    if let Some(count) = &count {
+        let template = reader.entry(&mut fields, name.clone(), None);
+        flags = template.0.flags;
+        entries = compact::expand(
+            reader.address,
+            template,
+            count,
+            sections.compact,
+            reader.log,
+        );
+    } else {
+        flags = reader.flags(&mut fields, &mut unread).max(flags);
+    }
+    let group = fields.group;
+    for (sub, section) in members {
+        let mut entry = member(Address::new(index, sub), section, reader.log);
+        entry.group = entry.group.or(group);
+        entries.insert(sub, entry);
+    }
+    let counted = entries.len() as u32;
+    let sub_number = match (count, sub_number) {
+        // CompactSubObj takes its place.
+        (Some(count), _) => Spanned::new(counted, count.span),
+        (None, SubNumber::Given(given)) => given,
+        (None, SubNumber::Unread) => Spanned::from(counted),
+        (None, SubNumber::Missing) => {
+            let span = fields.header;
+            reader.report(
+                rules::W0317
+                    .at(span, "there is no SubNumber")
+                    .with_help(format!("write `SubNumber={counted}`")),
+            );
+            Spanned::from(counted)
+        }
+    };
+    let span = fields.header;
+    Some(ObjectDescription {
+        code,
+        name,
+        sub_number: Some(sub_number),
+        entries,
+        flags,
+        extra: extra(fields.rest(), unread),
+        span,
+    })
+}
+
+/// Members without the section of their object.
+fn orphan(
+    index: u16,
+    members: BTreeMap<u8, Placed>,
+    log: &mut Vec<Diagnostic>,
+) -> Option<ObjectDescription> {
+    let span = members.values().next()?.header;
+    log.push(
+        rules::E0208
+            .at(
+                span,
+                format!("there is no section [{index:04X}] for this member"),
+            )
+            .with_address(Address::new(index, 0))
+            .with_help(format!(
+                "write a section [{index:04X}] with `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"
+            )),
+    );
+    let entries: BTreeMap<_, _> = members
+        .into_iter()
+        .map(|(sub, section)| (sub, member(Address::new(index, sub), section, log)))
+        .collect();
+    Some(ObjectDescription {
+        code: Spanned::from(ObjectCode::Record),
+        name: Spanned::from(String::new()),
+        sub_number: Some(Spanned::from(entries.len() as u32)),
+        entries,
+        flags: 0,
+        extra: Vec::new(),
+        span,
+    })
+}
+
+fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> EntryDescription {
+    let mut fields = Fields::new(section, log);
+    let mut reader = Reader { address, log };
+    let name = reader.name(&mut fields);
+    let mut unread = Vec::new();
+    let mut assumed = None;
+    if let Some(given) = fields.take("ObjectType") {
+        let code = reader
+            .number("ObjectType", &given)
+            .and_then(|code| u8::try_from(code).ok())
+            .and_then(ObjectCode::from_code);
+        // A member is a VAR; what else is said is kept.
+        if code != Some(ObjectCode::Var) {
+            unread.push(("ObjectType".into(), given.value));
+        }
+        if code == Some(ObjectCode::Domain) {
+            assumed = Some(DataType::Domain);
+        }
+    }
+    let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
+    unread.append(&mut more);
+    entry.extra = extra(fields.rest(), unread);
+    entry
+}
+
+fn var(
+    mut reader: Reader<'_>,
+    mut fields: Fields,
+    name: Spanned<String>,
+    code: Spanned<ObjectCode>,
+    sub_number: Option<Spanned<u32>>,
+    mut unread: Unread,
+) -> ObjectDescription {
+    let assumed = match *code {
+        ObjectCode::Domain => Some(DataType::Domain),
+        _ => None,
+    };
+    let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
+    unread.append(&mut more);
+    entry.extra = extra(fields.rest(), unread);
+    ObjectDescription {
+        code,
+        sub_number,
+        ..ObjectDescription::var(entry)
+    }
+}
+
+fn object_code(
+    reader: &mut Reader<'_>,
+    fields: &mut Fields,
+    unread: &mut Unread,
+    has_members: bool,
+) -> Spanned<ObjectCode> {
+    let guess = match has_members {
+        true => ObjectCode::Record,
+        false => ObjectCode::Var,
+    };
+    let Some(given) = fields.take("ObjectType") else {
+        if has_members {
+            reader.report(
+                rules::W0302
+                    .at(
+                        fields.header,
+                        "there is no ObjectType, but there are members",
+                    )
+                    .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"),
+            );
+        }
+        return Spanned::from(guess);
+    };
+    let code = reader
+        .number("ObjectType", &given)
+        .and_then(|code| u8::try_from(code).ok())
+        .and_then(ObjectCode::from_code);
+    match code {
+        Some(code) => Spanned::new(code, given.span),
+        None => {
+            reader.report(
+                rules::E0301
+                    .at(given.span, format!("`{}` is no object code", given.value))
+                    .with_help("write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD"),
+            );
+            let span = given.span;
+            unread.push(("ObjectType".into(), given.value));
+            Spanned::new(guess, span)
+        }
+    }
+}
+
+/// An object that can have no members, but has: a RECORD, unless it has a type
+/// itself; an ARRAY where CompactSubObj counts them.
+fn contradiction(
+    reader: &mut Reader<'_>,
+    fields: &Fields,
+    code: Spanned<ObjectCode>,
+    members: &mut BTreeMap<u8, Placed>,
+    count: Option<&Spanned<u8>>,
+) -> Spanned<ObjectCode> {
+    let span = match (members.values().next(), count) {
+        (Some(member), _) => member.header,
+        (None, Some(count)) => count.span,
+        (None, None) => fields.header,
+    };
+    let finding = rules::E0305
+        .at(span, format!("a {} has no sub-indices", *code))
+        .with_label(code.span, "the object code is declared here");
+    if count.is_some() {
+        reader.report(finding.with_help("write `ObjectType=0x8` (ARRAY)"));
+        return Spanned::new(ObjectCode::Array, code.span);
+    }
+    if fields.has("DataType") {
+        reader.report(finding.with_help(
+            "remove the sub-index sections, or write `ObjectType=0x9` and remove the DataType",
+        ));
+        members.clear();
+        return code;
+    }
+    reader.report(finding.with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"));
+    Spanned::new(ObjectCode::Record, code.span)
+}
+
+/// SubNumber, and whether there is one.
+enum SubNumber {
+    Given(Spanned<u32>),
+    Unread,
+    Missing,
+}
+
+impl SubNumber {
+    fn given(self) -> Option<Spanned<u32>> {
+        match self {
+            Self::Given(number) => Some(number),
+            Self::Unread | Self::Missing => None,
+        }
+    }
+}
+
+fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields, unread: &mut Unread) -> SubNumber {
+    let Some(given) = fields.take("SubNumber") else {
+        return SubNumber::Missing;
+    };
+    let number = reader
+        .number("SubNumber", &given)
+        .and_then(|number| u32::try_from(number).ok());
+    match number {
+        Some(number) => SubNumber::Given(Spanned::new(number, given.span)),
+        None => {
+            reader.report(
+                rules::W0316
+                    .at(given.span, format!("`{}` is no number", given.value))
+                    .with_help("write how many sub-index sections there are"),
+            );
+            unread.push(("SubNumber".into(), given.value));
+            SubNumber::Unread
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What a section is about, by its name.
+
+/// The three lists of objects.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum List {
+    Mandatory,
+    Optional,
+    Manufacturer,
+}
+
+impl List {
+    pub(super) const ALL: [List; 3] = [List::Mandatory, List::Optional, List::Manufacturer];
+
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Mandatory => "MandatoryObjects",
+            Self::Optional => "OptionalObjects",
+            Self::Manufacturer => "ManufacturerObjects",
+        }
+    }
+
+    /// The list that an object belongs to.
+    pub(super) const fn of(index: u16) -> Self {
+        match index {
+            0x1000 | 0x1001 | 0x1018 => Self::Mandatory,
+            0x2000..=0x5FFF => Self::Manufacturer,
+            _ => Self::Optional,
+        }
+    }
+}
+
+/// The three sections that an object with CompactSubObj may have besides its own,
+/// in the order in which they are taken.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Compact {
+    Name,
+    Value,
+    Denotation,
+}
+
+/// What a section is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Place {
+    Object(u16),
+    Member(u16, u8),
+    Compact(u16, Compact),
+    List(List),
+    Other,
+}
+
+/// What the section of this name is about: `1018`, `1018sub2`, `1600Name` …
+pub(super) fn place(name: &str) -> Place {
+    for list in List::ALL {
+        if name.eq_ignore_ascii_case(list.name()) {
+            return Place::List(list);
+        }
+    }
+    let Some((digits, rest)) = name.split_at_checked(4) else {
+        return Place::Other;
+    };
+    let Some(index) = hex(digits).and_then(|index| u16::try_from(index).ok()) else {
+        return Place::Other;
+    };
+    if rest.is_empty() {
+        return Place::Object(index);
+    }
+    for (word, compact) in [
+        ("Name", Compact::Name),
+        ("Value", Compact::Value),
+        ("Denotation", Compact::Denotation),
+    ] {
+        if rest.eq_ignore_ascii_case(word) {
+            return Place::Compact(index, compact);
+        }
+    }
+    match rest.split_at_checked(3) {
+        Some((word, sub)) if word.eq_ignore_ascii_case("sub") && sub.len() <= 2 => {
+            match hex(sub).and_then(|sub| u8::try_from(sub).ok()) {
+                Some(sub) => Place::Member(index, sub),
+                None => Place::Other,
+            }
+        }
+        _ => Place::Other,
+    }
+}
+
+fn hex(digits: &str) -> Option<u32> {
+    // from_str_radix would take a sign.
+    match digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        true => u32::from_str_radix(digits, 16).ok(),
+        false => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_what_a_section_is_about() {
+        for (name, expected) in [
+            ("1018", Place::Object(0x1018)),
+            ("6aBc", Place::Object(0x6ABC)),
+            ("1018sub2", Place::Member(0x1018, 2)),
+            ("1018SUB0A", Place::Member(0x1018, 10)),
+            ("1600name", Place::Compact(0x1600, Compact::Name)),
+            ("1600Value", Place::Compact(0x1600, Compact::Value)),
+            ("mandatoryobjects", Place::List(List::Mandatory)),
+        ] {
+            assert_eq!(place(name), expected, "{name}");
+        }
+        for name in [
+            "",
+            "101",
+            "10180",
+            "1018sub",
+            "1018sub100",
+            "+018",
+            "1018sub+1",
+            "FileInfo",
+            "é€x",
+            "abc€",
+        ] {
+            assert_eq!(place(name), Place::Other, "{name}");
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! From a description to its canonical text.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt::Write;
+
+use super::sections::List;
+use super::{fields, values};
+use crate::{Description, EntryDescription, ObjectDescription, Spanned, Value};
+
+/// The canonical text of a description.
+///
+/// Sections that describe no object come first, as they are; the three lists are
+/// made from the objects; CompactSubObj is written out. Reading the text again
+/// gives the same description.
+pub fn write(description: &Description) -> String {
+    let mut out = Text(String::new());
+    for section in &description.sections {
+        out.section(&section.name);
+        for (key, value) in &section.pairs {
+            out.pair(key, value);
+        }
+    }
+    for list in List::ALL {
+        let indices: Vec<u16> = description
+            .objects
+            .keys()
+            .copied()
+            .filter(|index| List::of(*index) == list)
+            .collect();
+        out.section(list.name());
+        out.pair("SupportedObjects", &indices.len().to_string());
+        for (number, index) in (1..).zip(&indices) {
+            out.line(format_args!("{number}=0x{index:04X}"));
+        }
+        for index in indices {
+            if let Some(object) = description.objects.get(&index) {
+                out.object(index, object);
+            }
+        }
+    }
+    out.0
+}
+
+struct Text(String);
+
+impl Text {
+    fn line(&mut self, line: core::fmt::Arguments<'_>) {
+        // Writing to a String cannot fail.
+        let _ = self.0.write_fmt(line);
+        self.0.push('\n');
+    }
+
+    fn section(&mut self, name: &str) {
+        if !self.0.is_empty() {
+            self.0.push('\n');
+        }
+        self.0.push('[');
+        self.one_line(name);
+        self.0.push_str("]\n");
+    }
+
+    fn pair(&mut self, key: &str, value: &str) {
+        self.one_line(key);
+        self.0.push('=');
+        self.one_line(value);
+        self.0.push('\n');
+    }
+
+    /// A text that a patch brought may hold line ends; the format has no way to write them.
+    fn one_line(&mut self, text: &str) {
+        for (at, piece) in text.split(['\n', '\r']).enumerate() {
+            if at > 0 {
+                self.0.push(' ');
+            }
+            self.0.push_str(piece);
+        }
+    }
+
+    /// A field, unless the text of what could not be read stands in its place.
+    fn field(&mut self, key: &str, value: &str, extra: &[(String, String)]) {
+        if !extra.iter().any(|(k, _)| k.eq_ignore_ascii_case(key)) {
+            self.pair(key, value);
+        }
+    }
+
+    fn object(&mut self, index: u16, object: &ObjectDescription) {
+        self.section(&alloc::format!("{index:04X}"));
+        let code = alloc::format!("0x{:X}", object.code.code());
+        if !object.code.has_members() {
+            let entry = object.entries.get(&0);
+            self.pair("ParameterName", &object.name);
+            let extra = entry.map_or(&[][..], |entry| &entry.extra);
+            self.field("ObjectType", &code, extra);
+            if let Some(number) = &object.sub_number {
+                self.field("SubNumber", &number.to_string(), extra);
+            }
+            if let Some(entry) = entry {
+                self.entry(entry);
+            }
+            return;
+        }
+        let extra = &object.extra;
+        self.pair("ParameterName", &object.name);
+        self.field("ObjectType", &code, extra);
+        let number = object
+            .sub_number
+            .map_or(object.entries.len() as u32, |number| number.value);
+        self.field("SubNumber", &number.to_string(), extra);
+        if object.flags != 0 {
+            self.field("ObjFlags", &alloc::format!("0x{:X}", object.flags), extra);
+        }
+        for (key, value) in extra {
+            self.pair(key, value);
+        }
+        for (sub, entry) in &object.entries {
+            self.section(&alloc::format!("{index:04X}sub{sub:X}"));
+            self.pair("ParameterName", &entry.name);
+            self.field("ObjectType", "0x7", &entry.extra);
+            self.entry(entry);
+        }
+    }
+
+    fn entry(&mut self, entry: &EntryDescription) {
+        let extra = &entry.extra;
+        if let Some(group) = &entry.group {
+            self.0.push(';');
+            self.pair("StorageLocation", fields::location(**group));
+        }
+        let data_type = entry.data_type.map(|t| t.value);
+        if let Some(data_type) = data_type {
+            let code = alloc::format!("0x{:04X}", data_type.code());
+            self.field("DataType", &code, extra);
+        }
+        self.value("LowLimit", entry, &entry.low);
+        self.value("HighLimit", entry, &entry.high);
+        self.field("AccessType", entry.access.name(), extra);
+        self.value("DefaultValue", entry, &entry.default);
+        let mappable = if *entry.mappable { "1" } else { "0" };
+        self.field("PDOMapping", mappable, extra);
+        self.value("ParameterValue", entry, &entry.parameter);
+        if entry.flags != 0 {
+            self.field("ObjFlags", &alloc::format!("0x{:X}", entry.flags), extra);
+        }
+        for (key, value) in extra {
+            self.pair(key, value);
+        }
+    }
+
+    fn value(&mut self, key: &str, entry: &EntryDescription, value: &Option<Spanned<Value>>) {
+        if let Some(value) = value {
+            let data_type = entry.data_type.map(|t| t.value);
+            self.field(key, &values::text(value, data_type), &entry.extra);
+        }
+    }
+}
