@@ -11,7 +11,12 @@ fn running(setup: &[&str]) -> Bench {
         let answer = bench.ask(&format!("601#{request}"));
         assert_eq!(&answer[4..6], "60", "{request} -> {answer}");
     }
-    bench.send("000#0101");
+    // Event-driven PDOs say at the start what they hold.
+    let started = bench.send("000#0101");
+    assert!(
+        started.iter().all(|frame| frame.contains("81#")),
+        "{started:?}"
+    );
     bench
 }
 
@@ -27,6 +32,7 @@ fn the_event_timer_sends_from_one_period_after_the_start() {
 #[test]
 fn an_event_driven_pdo_sends_changes_as_fast_as_the_inhibit_time_allows() {
     let mut bench = running(&["2300180181010080", "2B001803C8000000", "2300180181010000"]);
+    bench.wait(20);
     assert_eq!(
         bench.send("601#2300200006000000"),
         ["581#6000200000000000", "181#06000000", "281#06000000"]
@@ -37,7 +43,7 @@ fn an_event_driven_pdo_sends_changes_as_fast_as_the_inhibit_time_allows() {
     );
     assert_eq!(
         bench.wait(50),
-        [(20, "181#07000000".into())],
+        [(40, "181#07000000".into())],
         "200 x 100 us"
     );
     assert_eq!(
@@ -45,6 +51,16 @@ fn an_event_driven_pdo_sends_changes_as_fast_as_the_inhibit_time_allows() {
         ["581#6000200000000000"],
         "no change"
     );
+}
+
+#[test]
+fn event_driven_pdos_say_at_the_start_what_they_hold() {
+    let mut bench = Bench::new();
+    bench.power_on();
+    assert_eq!(bench.send("000#0101"), ["181#05000000", "281#05000000"]);
+    bench.send("000#8001");
+    bench.profile.pdo.event_on_change = false;
+    assert_eq!(bench.send("000#0101"), [""; 0]);
 }
 
 #[test]
@@ -107,8 +123,8 @@ fn a_cob_id_changes_only_while_the_pdo_is_off() {
         "an SDO's COB-ID"
     );
     assert_eq!(
-        bench.ask("601#2300180187010120"),
-        "581#6000180100000000",
+        bench.send("601#2300180187010120"),
+        ["581#6000180100000000"],
         "29 bits"
     );
     bench.ask("601#2B00180564000000");

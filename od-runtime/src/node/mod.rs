@@ -251,6 +251,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     fn start_pdos(&mut self, objects: &mut Objects<'_>) {
         for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
             pdo.start(objects);
+            pdo.announce(objects);
+            self.pdo_pending |= pdo.is_pending();
         }
     }
 

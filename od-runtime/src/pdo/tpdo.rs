@@ -131,6 +131,12 @@ impl Tpdo {
         }
     }
 
+    /// Operational begins: a family that sends changes says first what there is to change.
+    pub(crate) fn announce(&mut self, objects: &Objects<'_>) {
+        let sends_changes = objects.profile.pdo.event_on_change;
+        self.pending |= sends_changes && self.config.valid && self.is_event_driven();
+    }
+
     /// Operational ends.
     pub(crate) fn stop(&mut self) {
         self.event_at = None;
