@@ -39,8 +39,11 @@ export interface DeviceInfo {
 /** A fault in an EDS file, or something that deserves a look. */
 export interface Diagnostic {
   code: string;
-  severity: 'error' | 'warning' | 'note';
+  severity: 'error' | 'warning' | 'info';
   message: string;
+  /** How to mend it; empty if the message says so. */
+  help: string;
+  /** Counted from 1; 0 where something is missing altogether. */
   line: number;
   column: number;
   /** The object it is about, as `6004h`, or an empty string. */

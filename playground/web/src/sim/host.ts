@@ -10,8 +10,14 @@ const report = (message: Report, transfer: Transferable[] = []): void =>
 export async function host(makeBus: () => Promise<Bus>): Promise<void> {
   const crash = (reason: unknown): void =>
     report({ op: 'crashed', message: reason instanceof Error ? reason.message : String(reason) });
-  self.addEventListener('error', (event) => crash(event.message));
-  self.addEventListener('unhandledrejection', (event) => crash(event.reason));
+  self.addEventListener('error', (event) => {
+    event.preventDefault();
+    crash(event.message);
+  });
+  self.addEventListener('unhandledrejection', (event) => {
+    event.preventDefault();
+    crash(event.reason);
+  });
   const waiting: Command[] = [];
   let engine: Engine | undefined;
   self.onmessage = ({ data }: MessageEvent<Command>) => {

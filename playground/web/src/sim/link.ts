@@ -19,11 +19,15 @@ let openings: ((result: Opened) => void)[] = [];
 let current: { source: Source; nodeId: number } | null = null;
 
 export function start(): void {
-  worker = new Worker(new URL('worker.js', import.meta.url), { type: 'module', name: 'odkit simulation' });
-  worker.onmessage = ({ data }: MessageEvent<Report>) => receive(data);
-  worker.onerror = (event) => {
+  const own = new Worker(new URL('worker.js', import.meta.url), { type: 'module', name: 'odkit simulation' });
+  worker = own;
+  // One that was ended has nothing to say any more, even if it is on its way.
+  own.onmessage = ({ data }: MessageEvent<Report>) => {
+    if (own === worker) receive(data);
+  };
+  own.onerror = (event) => {
     event.preventDefault();
-    crashed(event.message || 'the worker could not be loaded');
+    if (own === worker) crashed(event.message || 'the worker could not be loaded');
   };
 }
 

@@ -56,7 +56,7 @@ export class MockBus implements Bus {
     return { device, diagnostics: [] };
   }
   openEds(text: string, nodeId: number): Opened {
-    if (!text.includes('[1000]')) return { device: null, diagnostics: [{ code: 'E0101', severity: 'error', message: 'object 1000h is missing; every device has it', line: 1, column: 1, object: '1000h' }] };
+    if (!text.includes('[1000]')) return { device: null, diagnostics: [{ code: 'E0101', severity: 'error', message: 'object 1000h is missing; every device has it', help: '', line: 1, column: 1, object: '1000h' }] };
     return this.openBuiltin('eds', nodeId);
   }
   private emit(id: number, bytes: number[], fromPage = false): void {

@@ -82,6 +82,7 @@ class Console extends View {
         void state.cleared.value;
         this.follows = true;
         this.behind = false;
+        this.settle(viewport, rows);
       }),
       effect(() => {
         // A panel that was hidden has no height until its tab is chosen.
@@ -152,6 +153,7 @@ class Console extends View {
   protected override render() {
     const paused = state.pausedAt.value;
     void state.captured.value;
+    void state.cleared.value;
     const kept = state.ring.end - state.ring.first;
     const waiting = paused === null ? 0 : state.ring.end - Math.max(paused, state.ring.first);
     return html`

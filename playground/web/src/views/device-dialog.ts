@@ -124,8 +124,8 @@ class DeviceDialog extends View {
   private fault(one: Diagnostic, lines: string[]) {
     const source = lines[one.line - 1] ?? '';
     return html`<li data-severity=${one.severity}>
-      <span class="num where">${one.line}:${one.column}</span>
-      <span><span class="code">${one.code}</span> ${one.message}${source.trim() ? html`<code class="source">${source.slice(0, 160)}</code>` : nothing}</span>
+      <span class="num where">${one.line ? `${one.line}:${one.column}` : '–'}</span>
+      <span><span class="code">${one.code}</span> ${one.message}${one.help ? html`<span class="muted help">${one.help}</span>` : nothing}${source.trim() ? html`<code class="source">${source.slice(0, 160)}</code>` : nothing}</span>
     </li>`;
   }
 }

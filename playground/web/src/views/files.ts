@@ -16,7 +16,7 @@ export async function openFile(file: File, nodeId: number): Promise<boolean> {
   const isOpen = await openDevice({ kind: 'eds', name: file.name, text }, nodeId);
   const found = state.diagnostics.value;
   if (isOpen) {
-    const warnings = found.filter((one) => one.severity !== 'note').length;
+    const warnings = found.filter((one) => one.severity !== 'info').length;
     state.toast.value = {
       text: `${file.name} is on the bus${warnings ? `, with ${warnings} warning${warnings > 1 ? 's' : ''}` : ''}.`,
       tone: 'info',

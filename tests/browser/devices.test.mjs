@@ -1,0 +1,160 @@
+// Other devices, EDS files, links, a phone, a crash.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open } from './harness.mjs';
+import { booted, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+const GOOD = `[FileInfo]
+FileName=little.eds
+[DeviceInfo]
+VendorName=odkit
+ProductName=Little node
+[MandatoryObjects]
+SupportedObjects=3
+1=0x1000
+2=0x1001
+3=0x1018
+[ManufacturerObjects]
+SupportedObjects=1
+1=0x2000
+[1000]
+ParameterName=Device type
+ObjectType=0x7
+DataType=0x0007
+AccessType=ro
+DefaultValue=0x00000191
+PDOMapping=0
+[1001]
+ParameterName=Error register
+ObjectType=0x7
+DataType=0x0005
+AccessType=ro
+DefaultValue=0
+PDOMapping=0
+[1018]
+ParameterName=Identity object
+ObjectType=0x9
+SubNumber=2
+[1018sub0]
+ParameterName=Number of entries
+ObjectType=0x7
+DataType=0x0005
+AccessType=const
+DefaultValue=1
+PDOMapping=0
+[1018sub1]
+ParameterName=Vendor ID
+ObjectType=0x7
+DataType=0x0007
+AccessType=ro
+DefaultValue=0
+PDOMapping=0
+[2000]
+ParameterName=Lamp brightness
+ObjectType=0x7
+DataType=0x0005
+AccessType=rw
+DefaultValue=40
+LowLimit=0
+HighLimit=100
+PDOMapping=0
+`;
+
+/** Drops a text as a file on the page. */
+async function drop(page, name, text) {
+  const transfer = await page.evaluateHandle(
+    ([name, text]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([text], name, { type: 'text/plain' }));
+      return transfer;
+    },
+    [name, text],
+  );
+  await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+function check(name, options, body) {
+  test(name, async () => {
+    const { page, faults, close } = await open(browser, options);
+    try {
+      await body(page);
+      assert.deepEqual(faults, [], 'the page complained');
+    } finally {
+      await close();
+    }
+  });
+}
+
+check('an EDS file that is dropped runs', {}, async (page) => {
+  await booted(page);
+  await drop(page, 'little.eds', GOOD);
+  await until('the name of the device', async () => /Little node|little/.test(await page.locator('.device-button').textContent()));
+  await sdo(page, '2000');
+  await until('its value', async () => /2000h = 40/.test(await sdoNote(page)));
+  await sdo(page, 'Lamp brightness', '55');
+  await until('the answer', async () => /2000h written/.test(await sdoNote(page)));
+  await sdo(page, '2000', '101');
+  await until('the abort', async () => /0609003[01]/.test(await sdoNote(page)));
+  await row(page, 'the object by its name', (one) => /Lamp brightness/.test(one.words));
+});
+
+check('an EDS file that cannot run says where and why', {}, async (page) => {
+  await booted(page);
+  const bad = GOOD.replace('DefaultValue=40', 'DefaultValue=forty').replace('DataType=0x0005\nAccessType=rw', 'DataType=0x00FF\nAccessType=rw');
+  await drop(page, 'broken.eds', bad);
+  const faults = page.getByRole('alert', { name: 'What is wrong with the file' });
+  await until('the faults', () => faults.isVisible());
+  assert.match(await faults.textContent(), /broken\.eds/);
+  const line = bad.split('\n').findIndex((text) => text === 'DataType=0x00FF') + 1;
+  await until(`line ${line}`, async () => (await faults.locator('.where').allTextContents()).some((where) => where.startsWith(`${line}:`)));
+  assert.match(await faults.textContent(), /E\d{3,4}/);
+  await page.keyboard.press('Escape');
+  assert.match(await page.locator('.device-button strong').textContent(), /gxmm/, 'the device before stays');
+});
+
+check('the dialog changes device and node ID, and the link keeps them', {}, async (page) => {
+  await booted(page);
+  await page.locator('.device-button').click();
+  const dialog = page.getByRole('dialog', { name: 'Device on the bus' });
+  await dialog.getByRole('spinbutton', { name: 'Node ID' }).fill('5');
+  await dialog.getByRole('button', { name: 'gxam' }).click();
+  await row(page, 'the boot-up of node 5', (one) => one.id === '705');
+  assert.match(await page.evaluate(() => location.hash), /device=gxam/);
+  await page.reload();
+  await row(page, 'the boot-up of node 5 after loading', (one) => one.id === '705');
+  assert.match(await page.locator('.device-button').textContent(), /gxam/);
+});
+
+check('a link opens a device', { hash: '#device=gxam&node=33' }, async (page) => {
+  await row(page, 'the boot-up of node 33', (one) => one.id === '721');
+});
+
+check('a crash of the simulation is not one of the page', {}, async (page) => {
+  await booted(page);
+  const [worker] = page.workers();
+  await worker.evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
+  await until('a word about it', async () => /started again/.test(await page.locator('.toasts').textContent()));
+  await sendRaw(page, '601#4000100000000000');
+  await row(page, 'an answer after the crash', (one) => one.id === '581');
+  await until('two boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
+});
+
+for (const width of [390, 320]) {
+  check(`${width} pixels wide: no sideways scrolling, every panel in reach`, { width, height: 780, hasTouch: true }, async (page) => {
+    const overflow = () => page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.className || e.tagName));
+    assert.deepEqual(await overflow(), []);
+    await page.getByRole('tab', { name: 'Bus' }).click();
+    await booted(page);
+    await nmt(page, 'Start');
+    await row(page, 'a PDO1', (one) => one.id === '181');
+    assert.deepEqual(await overflow(), []);
+    await page.getByRole('tab', { name: 'Objects' }).click();
+    await until('objects', () => page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').first().isVisible());
+    assert.deepEqual(await overflow(), []);
+  });
+}

@@ -1,0 +1,232 @@
+// The page as a person uses it.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { after, before, test } from 'node:test';
+import { launch, open } from './harness.mjs';
+import { booted, captured, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+/** A test with a page of its own, which must not complain on its console. */
+function check(name, options, body) {
+  if (typeof options === 'function') [options, body] = [{}, options];
+  test(name, async () => {
+    const { page, faults, close } = await open(browser, options);
+    try {
+      await booted(page);
+      await body(page);
+      assert.deepEqual(faults, [], 'the page complained');
+    } finally {
+      await close();
+    }
+  });
+}
+
+check('the node boots and says so', async (page) => {
+  const boot = await booted(page);
+  assert.equal(boot.dir, 'Rx');
+  assert.match(boot.words, /boot-?up/i);
+  assert.equal(await state(page), 'Pre-operational');
+  assert.match(await page.locator('.led-words').textContent(), /Green flashing/);
+});
+
+check('a request typed by hand gets its answer', async (page) => {
+  await sendRaw(page, '601#4004600000000000');
+  const request = await row(page, 'the request', (one) => one.id === '601');
+  assert.equal(request.dir, 'Tx');
+  assert.match(request.words, /6004/);
+  const answer = await row(page, 'the answer', (one) => one.id === '581');
+  assert.match(answer.data, /^43 04 60 00 /);
+  assert.equal(answer.tag, 'SDO');
+  const bytes = answer.data.split(' ').slice(4).map((byte) => Number.parseInt(byte, 16));
+  assert.equal(bytes.reduceRight((value, byte) => value * 256 + byte, 0), await position(page));
+});
+
+check('typed frames may be loose, and are checked as they are typed', async (page) => {
+  const line = page.getByRole('textbox', { name: 'Frame', exact: true });
+  const note = page.locator('#raw-note');
+  for (const [text, fault] of [
+    ['601#4', ''],
+    ['601#40 0x', 'hexadecimal'],
+    ['800#00', '7FF'],
+    ['zz', 'hexadecimal'],
+    ['601#001122334455667788', '8 bytes'],
+  ]) {
+    await line.fill(text);
+    if (fault) await until(`“${fault}” under “${text}”`, async () => (await note.textContent()).includes(fault));
+    assert.equal(await line.getAttribute('aria-invalid'), String(fault !== ''), text);
+  }
+  await sendRaw(page, '601 40 00 10 00');
+  await row(page, 'the answer of 1000h', (one) => one.id === '581' && one.data.startsWith('43 00 10 00'));
+  await line.press('ArrowUp');
+  assert.equal(await line.inputValue(), '601 40 00 10 00');
+});
+
+check('NMT start makes PDOs run, stop silences them', async (page) => {
+  await nmt(page, 'Start');
+  await until('Operational', async () => (await state(page)) === 'Operational');
+  const pdo = await row(page, 'a PDO1', (one) => one.id === '181');
+  assert.equal(pdo.tag, 'PDO1');
+  assert.match(pdo.words, /position/i);
+  const before = (await rows(page)).filter((one) => one.id === '181').length;
+  await until('more PDOs', async () => (await rows(page)).filter((one) => one.id === '181').length > before + 1);
+  await nmt(page, 'Stop');
+  await until('Stopped', async () => (await state(page)) === 'Stopped');
+  const count = await captured(page);
+  await page.waitForTimeout(1200);
+  assert.equal(await captured(page), count);
+  await sdo(page, '6004');
+  await until('no answer', async () => /No answer/.test(await sdoNote(page)));
+});
+
+check('the shaft turns by key', async (page) => {
+  const shaft = page.getByRole('slider', { name: 'Shaft' });
+  await shaft.focus();
+  await page.keyboard.press('Home');
+  await until('the zero point', async () => Number(await shaft.getAttribute('aria-valuenow')) === 0);
+  const start = await position(page);
+  await page.keyboard.press('ArrowRight');
+  await until('5 degrees', async () => (await shaft.getAttribute('aria-valuenow')) === '5.0');
+  await until('6004h to follow', async () => Math.abs((await position(page)) - start - (8192 * 5) / 360) <= 1);
+  await page.keyboard.press('PageUp');
+  await until('a turn more', async () => Math.abs((await position(page)) - start - 8192 - (8192 * 5) / 360) <= 1);
+  await page.keyboard.press('Shift+ArrowLeft');
+  await until('a tenth of a degree less', async () => (await shaft.getAttribute('aria-valuenow')) === '4.9');
+});
+
+check('the shaft turns by pointer, more than once round', async (page) => {
+  const shaft = page.getByRole('slider', { name: 'Shaft' });
+  await shaft.focus();
+  await page.keyboard.press('Home');
+  await until('the zero point', async () => Number(await shaft.getAttribute('aria-valuenow')) === 0);
+  const start = await position(page);
+  const box = await shaft.boundingBox();
+  const at = (degrees) => {
+    const angle = (degrees * Math.PI) / 180;
+    return [box.x + box.width / 2 + 70 * Math.sin(angle), box.y + box.height / 2 - 70 * Math.cos(angle)];
+  };
+  await page.mouse.move(...at(0));
+  await page.mouse.down();
+  for (let degrees = 0; degrees <= 540; degrees += 15) await page.mouse.move(...at(degrees));
+  await page.mouse.up();
+  await until('one and a half turns', async () => Math.abs((await position(page)) - start - 8192 * 1.5) < 60);
+});
+
+check('the shaft runs at a speed', async (page) => {
+  const before = await position(page);
+  const rpm = page.getByRole('spinbutton', { name: 'Speed' });
+  await rpm.fill('600');
+  await rpm.press('Enter');
+  await until('a moving position', async () => Math.abs((await position(page)) - before) > 8192);
+  await rpm.fill('0');
+  await rpm.press('Enter');
+  await page.waitForTimeout(200);
+  const stopped = await position(page);
+  await page.waitForTimeout(300);
+  assert.equal(await position(page), stopped);
+});
+
+check('power off silences the node, power on boots it', async (page) => {
+  await nmt(page, 'Start');
+  await row(page, 'a PDO1', (one) => one.id === '181');
+  const power = page.getByRole('switch', { name: 'Power' });
+  await power.click();
+  await until('Off', async () => (await state(page)) === 'Off');
+  assert.match(await page.locator('.led-words').textContent(), /no supply/);
+  const count = await captured(page);
+  await page.waitForTimeout(900);
+  assert.equal(await captured(page), count);
+  await sdo(page, '6004');
+  await until('a word about the power', async () => /power is off/.test(await sdoNote(page)));
+  await power.click();
+  await until('the second boot-up', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
+  assert.equal(await state(page), 'Pre-operational');
+});
+
+check('reset node boots again', async (page) => {
+  await page.getByRole('button', { name: 'Reset node', exact: true }).first().click();
+  await until('the second boot-up', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
+});
+
+check('pause holds the view and loses nothing', async (page) => {
+  await nmt(page, 'Start');
+  await row(page, 'a PDO1', (one) => one.id === '181');
+  await page.locator('.frames').focus();
+  await page.keyboard.press('Space');
+  await until('the mark of the pause', () => page.getByText(/^Paused/).isVisible());
+  const shown = (await rows(page)).length;
+  const count = await captured(page);
+  await until('frames behind the pause', async () => (await captured(page)) >= count + 2);
+  assert.equal((await rows(page)).length, shown);
+  await page.keyboard.press('Space');
+  await until('the frames of the pause', async () => (await rows(page)).length >= shown + 2);
+});
+
+check('clear empties the console', async (page) => {
+  await page.getByRole('button', { name: 'Clear' }).click();
+  await until('no rows', async () => (await rows(page)).length === 0 && (await captured(page)) === 0);
+  await sendRaw(page, '601#4004600000000000');
+  await row(page, 'a new frame', (one) => one.id === '581');
+});
+
+check('save writes a candump log', async (page) => {
+  await sendRaw(page, '601#4004600000000000');
+  await row(page, 'the answer', (one) => one.id === '581');
+  await sendRaw(page, '701#R');
+  await row(page, 'the remote frame', (one) => one.data.includes('remote'));
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save log' }).click()]);
+  assert.match(download.suggestedFilename(), /\.log$/);
+  const lines = (await readFile(await download.path(), 'utf8')).trimEnd().split('\n');
+  for (const line of lines) assert.match(line, /^\(\d+\.\d{6}\) can0 [0-9A-F]{3}#([0-9A-F]{2}){0,8}$|#R\d?$/);
+  assert.ok(lines.some((line) => line.endsWith('601#4004600000000000')));
+  assert.ok(lines.some((line) => /581#43046000/.test(line)));
+  assert.ok(lines.some((line) => line.endsWith('701#R')));
+});
+
+check('scrolling up holds the place, one button goes back to the end', async (page) => {
+  const speed = page.getByRole('combobox', { name: 'Speed' });
+  await nmt(page, 'Start');
+  await speed.selectOption('100');
+  await until('many frames', async () => (await captured(page)) > 300);
+  await page.locator('.frames').hover();
+  await page.mouse.wheel(0, -600);
+  await until('the way back', () => page.getByRole('button', { name: 'Latest frames' }).isVisible());
+  await page.waitForTimeout(150);
+  const [first] = await rows(page);
+  await page.waitForTimeout(400);
+  assert.equal((await rows(page))[0].number, first.number);
+  await page.getByRole('button', { name: 'Latest frames' }).click();
+  await until('the newest rows', async () => (await rows(page)).at(-1).number > first.number + 60);
+});
+
+check('time stands still and goes on by steps', async (page) => {
+  await page.getByRole('button', { name: 'Stop time' }).click();
+  const clock = page.getByRole('timer');
+  await page.waitForTimeout(150);
+  const before = await clock.textContent();
+  await page.waitForTimeout(250);
+  assert.equal(await clock.textContent(), before);
+  await page.getByRole('button', { name: 'Step 1 millisecond' }).click();
+  await until('one millisecond more', async () => (await clock.textContent()) !== before);
+  await page.getByRole('button', { name: 'Run time' }).click();
+  const after = await clock.textContent();
+  await until('time to run', async () => (await clock.textContent()) !== after);
+});
+
+check('light and dark', async (page) => {
+  const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await background();
+  await page.getByRole('button', { name: 'Light or dark' }).click();
+  const dark = await background();
+  assert.notEqual(dark, light);
+  await page.reload();
+  await booted(page);
+  assert.equal(await background(), dark, 'the choice is kept');
+});
+
+check('dark where the system is dark', { colorScheme: 'dark' }, async (page) => {
+  const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
+  assert.ok(red < 40);
+});
