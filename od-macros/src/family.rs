@@ -2,15 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use od_model::patch::{self, Edit};
-use od_model::{Address, Description, Diagnostic, Tables};
+use od_model::patch;
+use od_model::{Description, Diagnostic, Tables};
 use proc_macro2::Span;
 
 use crate::handles::{self, Item, Naming};
 use crate::input::{Input, Statement};
-use crate::report::{Place, Report};
+use crate::report::Report;
 use crate::source::Source;
-use crate::{layout, lower};
+use crate::{findings, layout, lower};
 
 /// What a call describes.
 pub(crate) struct Family {
@@ -147,6 +147,7 @@ impl Findings<'_> {
         context: &str,
         report: &mut Report,
     ) -> Vec<Diagnostic> {
+        let first = report.numbers();
         let edits = lower::edits(statements, report);
         let mut findings = patch::apply(description, &edits);
         findings.extend(handles::check_renames(statements, description, report));
@@ -157,10 +158,10 @@ impl Findings<'_> {
             self.tell(&findings, description, report);
             return Vec::new();
         }
-        let findings = od_model::check::check(description);
+        let found = od_model::check::check(description);
         if edits.is_empty() {
             return if context.is_empty() {
-                findings
+                found
             } else {
                 Vec::new()
             };
@@ -169,37 +170,19 @@ impl Findings<'_> {
             true => Vec::new(),
             false => od_model::check::check(before),
         };
-        let (old, new): (Vec<_>, Vec<_>) = findings.into_iter().partition(|f| known.contains(f));
-        for finding in new.iter().filter(|f| f.is_error()) {
-            let at = report
-                .token(finding)
-                .or_else(|| self.culprit(finding, &edits, report))
-                .unwrap_or(home.into());
-            report.blame(at, context, finding, self.file, &|a| {
-                name_of(description, a)
-            });
-        }
+        let (old, new): (Vec<_>, Vec<_>) = found.into_iter().partition(|f| known.contains(f));
+        let patch = findings::Patch {
+            edits: &edits,
+            tokens: first..report.numbers(),
+            home,
+            context,
+            file: self.file,
+        };
+        patch.blame(&new, description, report);
         if context.is_empty() { old } else { Vec::new() }
     }
 
-    /// The last edit of the object that a finding is about.
-    fn culprit(&self, finding: &Diagnostic, edits: &[Edit], report: &Report) -> Option<Place> {
-        let address = finding.address?;
-        let edit = edits
-            .iter()
-            .rev()
-            .find(|edit| edit.target.index == address.index)?;
-        report.span(edit.target.span)
-    }
-
     fn tell(&self, findings: &[Diagnostic], description: &Description, report: &mut Report) {
-        report.findings(findings, self.home, self.file, &|a| name_of(description, a));
-    }
-}
-
-fn name_of(description: &Description, address: Address) -> Option<String> {
-    match description.entry(address) {
-        Some(entry) => Some(entry.name.value.clone()),
-        None => Some(description.objects.get(&address.index)?.name.value.clone()),
+        findings::tell(findings, self.home, self.file, description, report);
     }
 }

@@ -331,9 +331,19 @@ fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) ->
     None
 }
 
+/// Does a statement begin here? The word alone does not say it: `eds` is also the
+/// end of `device.eds`.
 fn starts_statement(body: ParseStream) -> bool {
-    let word = Ident::parse_any(&body.fork()).map(|word| word.to_string());
-    word.is_ok_and(|word| STATEMENTS.contains(&word.as_str()))
+    let ahead = body.fork();
+    let Ok(word) = Ident::parse_any(&ahead) else {
+        return false;
+    };
+    match word.to_string().as_str() {
+        "add" | "modify" | "remove" | "rename" => ahead.peek(LitInt),
+        "eds" | "profile" => ahead.peek(Token![=]),
+        "variant" => ahead.peek(syn::Ident),
+        _ => false,
+    }
 }
 
 fn skip_all(stream: ParseStream) {

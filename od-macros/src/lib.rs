@@ -98,6 +98,7 @@ mod docs;
 mod emit;
 mod family;
 mod fields;
+mod findings;
 mod handles;
 mod input;
 mod layout;
@@ -144,7 +145,8 @@ mod tests {
                 add 0x1001 { name = "Error register"; type = u8; mappable = true }
                 add 0x1018 { code = record; name = "Identity" }
                 add 0x1018sub1 { name = "Vendor-ID"; type = u32; access = const; default = 7 }
-                variant blind { remove 0x1001; }
+                add 0x2000 { name = "Speed"; type = u16; access = rw; default = 7 }
+                variant blind { remove 0x2000; }
             }
         });
         let tight = |text: &str| text.replace([' ', '\n'], "");
@@ -153,7 +155,7 @@ mod tests {
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
             "pub const DICTIONARY: ::od_model::Dictionary<'static> =",
-            "static OBJECTS: [Object; 3] = [o(0x1000, C::Var, 0, 11, 0, 1),",
+            "static OBJECTS: [Object; 4] = [o(0x1000, C::Var, 0, 11, 0, 1),",
             "e(0x1000, 0, T::Unsigned32, A::Ro, false, GN, 0, 11, U(406), N, N, 0, 4),",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
@@ -162,9 +164,9 @@ mod tests {
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }
-        let handed_on = tight("pub use super::{DEVICE_TYPE, identity};");
+        let handed_on = tight("pub use super::{DEVICE_TYPE, ERROR_REGISTER, identity};");
         assert!(variant.contains(&handed_on), "{variant}");
-        assert!(!variant.contains("ERROR_REGISTER"));
+        assert!(!variant.contains("SPEED"));
         assert!(!made.contains("compile_error"), "{made}");
     }
 

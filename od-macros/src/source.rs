@@ -70,14 +70,20 @@ fn locate(literal: &LitStr) -> PathBuf {
 }
 
 fn unreadable(shown: &str, path: &Path, error: &std::io::Error) -> String {
+    if path.is_dir() {
+        return format!("`{shown}` is a folder\nhelp: name the EDS file in it");
+    }
     if error.kind() != std::io::ErrorKind::NotFound {
         return format!("cannot read `{shown}`: {error}");
     }
-    let base = "the path is relative to this source file, as for `include_str!`";
+    let relative = "the path is relative to this source file, as for `include_str!`";
     let help = match beside(path) {
-        Ok(Some(near)) => format!("did you mean `{near}`? {base}"),
-        Ok(None) => base.to_string(),
-        Err(()) => format!("the folder does not exist; {base}"),
+        Ok(Some(near)) => {
+            let written = Path::new(shown).with_file_name(near);
+            format!("did you mean `{}`?", written.display())
+        }
+        Ok(None) => relative.to_string(),
+        Err(()) => format!("the folder does not exist; {relative}"),
     };
     format!("there is no file `{shown}`\nhelp: {help}")
 }

@@ -25,6 +25,7 @@ macro_rules! files {
 
 files! {
     small: "../eds/small.eds",
+    gxmm: "../../devices/eds/GXMM.eds",
 }
 
 #[track_caller]

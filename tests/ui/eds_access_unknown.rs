@@ -1,0 +1,11 @@
+//! An object with an access type that there is not.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/access_unknown.eds";
+    }
+}
+
+fn main() {}

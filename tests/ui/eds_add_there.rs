@@ -1,0 +1,12 @@
+//! An addition of what the file has.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/sound.eds";
+        add 0x2300 { name = "Reset"; type = u8 }
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A default outside its limits.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/default_above_limit.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! Limits the wrong way round.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/limits_swapped.eds";
+    }
+}
+
+fn main() {}

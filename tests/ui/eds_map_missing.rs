@@ -1,0 +1,11 @@
+//! A mapping of an object that is not there.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/map_missing.eds";
+    }
+}
+
+fn main() {}

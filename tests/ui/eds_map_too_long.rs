@@ -1,0 +1,11 @@
+//! A mapping past the 64 bits of a frame.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/map_too_long.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A mapping of an object that no PDO can carry.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/map_unmappable.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,12 @@
+//! A change that makes a sound file unsound.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/sound.eds";
+        modify 0x2300 { low = 5 }
+    }
+}
+
+fn main() {}

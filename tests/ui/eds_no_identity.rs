@@ -1,0 +1,11 @@
+//! A file without 1018h.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/no_identity.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! `$NODEID` in a real number.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/node_id_in_real.eds";
+    }
+}
+
+fn main() {}

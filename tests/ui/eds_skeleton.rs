@@ -1,0 +1,19 @@
+//! What is sound is made in spite of the fault: its use is no second error.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/skeleton.eds";
+
+        variant fast {
+            modify 0x2301 { default = 9 }
+        }
+    }
+}
+
+fn main() {
+    let _ = (device::RESET, device::SPEED, device::fast::SPEED);
+    let _ = [0; device::STORE_LEN];
+    let _ = device::DICTIONARY.objects();
+}

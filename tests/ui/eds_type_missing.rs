@@ -1,0 +1,11 @@
+//! An object without DataType.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/type_missing.eds";
+    }
+}
+
+fn main() {}

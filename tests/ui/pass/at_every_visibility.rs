@@ -1,0 +1,19 @@
+//! Modules in modules and in functions.
+
+mod inner {
+    od_macros::object_dictionary! {
+        pub(super) mod device {
+            eds = "../eds/sound.eds";
+            variant same {}
+        }
+    }
+}
+
+fn main() {
+    od_macros::object_dictionary! {
+        mod local {
+            eds = "../eds/sound.eds";
+        }
+    }
+    assert_eq!(local::DICTIONARY, inner::device::same::DICTIONARY);
+}

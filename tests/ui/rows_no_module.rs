@@ -1,0 +1,9 @@
+//! A call that begins with something else than a module.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    pub struct Device;
+}
+
+fn main() {}

@@ -1,0 +1,24 @@
+//! Use of a member that the variant removed.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        add 0x1000 { name = "Device type"; type = u32; default = 0x0001_0196 }
+        add 0x1001 { name = "Error register"; type = u8; mappable = true }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+        add 0x2000 { code = record; name = "Limits" }
+        add 0x2000sub1 { name = "Lowest"; type = u16; access = rw; default = 3 }
+        add 0x2000sub2 { name = "Highest"; type = u16; access = rw; default = 4 }
+        variant fast {
+            remove 0x2000sub2;
+            modify 0x2000sub0 { default = 1 }
+        }
+    }
+}
+
+fn main() {
+    let _ = device::fast::limits::LOWEST;
+    let _ = device::fast::limits::HIGHEST;
+}
