@@ -11,6 +11,7 @@ extern crate std;
 mod abort;
 mod application;
 mod emcy;
+pub mod encoder;
 mod fifo;
 mod frame;
 mod heartbeat;

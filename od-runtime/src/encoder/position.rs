@@ -1,0 +1,316 @@
+//! From an angle to a position (CiA 406: objects 6000h–6004h, 6500h–6502h, 6509h).
+//!
+//! ```text
+//! angle ──> raw ──> resolution ──> range ──> sense of rotation ──> offset ──> 6004h
+//!           6501h   6001h          6002h     6000h bit 0           6509h
+//! ```
+
+use super::Angle;
+
+/// What the sensor tells apart.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Sensor {
+    /// Steps per revolution, 1 or more.
+    pub steps: u32,
+    /// Revolutions, 1 or more; 1 is a singleturn.
+    pub turns: u32,
+}
+
+impl Sensor {
+    /// Steps in all: `steps × turns`.
+    pub const fn range(self) -> u64 {
+        self.steps as u64 * self.turns as u64
+    }
+
+    /// The sensor's own position, 0 to [`range`](Self::range) − 1.
+    #[inline]
+    pub const fn raw(self, angle: Angle) -> u64 {
+        let (turns, fraction) = angle.split();
+        let turn = turns.rem_euclid(if self.turns == 0 {
+            1
+        } else {
+            self.turns as i64
+        });
+        turn as u64 * self.steps as u64 + self.step(fraction)
+    }
+
+    /// The angle where the sensor begins to say `raw`; past its range it goes on with 0.
+    pub const fn angle(self, raw: u64) -> Angle {
+        if self.steps == 0 || self.turns == 0 {
+            return Angle::ZERO;
+        }
+        let steps = self.steps as u64;
+        let turn = raw / steps % self.turns as u64;
+        let fraction = ((raw % steps) << 32).div_ceil(steps);
+        Angle::from_fractions(((turn << 32) + fraction) as i64)
+    }
+
+    /// Step within the revolution.
+    #[inline]
+    const fn step(self, fraction: u32) -> u64 {
+        (fraction as u64 * self.steps as u64) >> 32
+    }
+}
+
+/// How a position is made; everything that 6004h depends on besides the angle.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Scale {
+    sensor: Sensor,
+    /// Steps per revolution that are shown.
+    steps: u64,
+    /// Positions that are shown, 1 to 2³².
+    range: u64,
+    /// Where counting begins anew: `range`, or what the sensor can tell apart if that is less.
+    wrap: u64,
+    reversed: bool,
+    /// 0 to `range` − 1.
+    offset: u64,
+}
+
+impl Scale {
+    /// Shows the sensor as it is. A range past 2³² is cut there.
+    pub const fn unscaled(sensor: Sensor) -> Self {
+        let range = sensor.range();
+        Self::new(
+            sensor,
+            sensor.steps,
+            if range > 1 << 32 { 1 << 32 } else { range },
+        )
+    }
+
+    /// Shows `steps` a revolution (6001h) and positions 0 to `range` − 1 (6002h).
+    ///
+    /// Both are brought into what can be computed with: 1 or more, `range` at most 2³².
+    pub const fn new(sensor: Sensor, steps: u32, range: u64) -> Self {
+        let sensor = Sensor {
+            steps: if sensor.steps == 0 { 1 } else { sensor.steps },
+            turns: if sensor.turns == 0 { 1 } else { sensor.turns },
+        };
+        let steps = if steps == 0 { 1 } else { steps as u64 };
+        let range = match range {
+            0 => 1,
+            1..=0x1_0000_0000 => range,
+            _ => 0x1_0000_0000,
+        };
+        let most = steps.saturating_mul(sensor.turns as u64);
+        Self {
+            sensor,
+            steps,
+            range,
+            wrap: if range < most { range } else { most },
+            reversed: false,
+            offset: 0,
+        }
+    }
+
+    /// With the sense of rotation: counter-clockwise counts up if `reversed`.
+    #[must_use]
+    pub const fn with_sense(mut self, reversed: bool) -> Self {
+        self.reversed = reversed;
+        self
+    }
+
+    /// With an offset in steps of this scale; any number, taken modulo the range.
+    #[must_use]
+    pub const fn with_offset(mut self, offset: i64) -> Self {
+        self.offset = offset.rem_euclid(self.range as i64) as u64;
+        self
+    }
+
+    /// Positions that are shown: 1 to 2³².
+    pub const fn range(&self) -> u64 {
+        self.range
+    }
+
+    /// The position at an angle: 0 to range − 1.
+    ///
+    /// A multiturn goes on counting past the end of its sensor as long as it has
+    /// power, so the number of revolutions need not be a power of two. A singleturn
+    /// begins anew with each revolution.
+    #[inline]
+    pub const fn position(&self, angle: Angle) -> u32 {
+        let position = self.without_offset(angle) + self.offset;
+        if position >= self.range {
+            (position - self.range) as u32
+        } else {
+            position as u32
+        }
+    }
+
+    /// The position as it would be with offset 0.
+    #[inline]
+    pub const fn without_offset(&self, angle: Angle) -> u64 {
+        let (turns, fraction) = angle.split();
+        let step = self.sensor.step(fraction);
+        let most = self.sensor.steps as u64;
+        // Both factors are less than 2³².
+        let step = if self.steps == most {
+            step
+        } else if most.is_power_of_two() {
+            (step * self.steps) >> most.trailing_zeros()
+        } else {
+            step * self.steps / most
+        };
+        let total = match self.sensor.turns {
+            1 => step as i64,
+            // At most 2³¹ revolutions of less than 2³² steps.
+            _ => turns * self.steps as i64 + step as i64,
+        };
+        let position = if self.wrap.is_power_of_two() {
+            total as u64 & (self.wrap - 1)
+        } else {
+            total.rem_euclid(self.wrap as i64) as u64
+        };
+        if self.reversed && position != 0 {
+            self.range - position
+        } else {
+            position
+        }
+    }
+
+    /// The offset that makes the position at `angle` this one, 0 to range − 1.
+    pub const fn offset_for(&self, angle: Angle, position: u32) -> u32 {
+        let difference = position as i64 - self.without_offset(angle) as i64;
+        difference.rem_euclid(self.range as i64) as u32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MULTIVO: Sensor = Sensor {
+        steps: 0x2000,
+        turns: 0x1_0000,
+    };
+    const SINGLE: Sensor = Sensor {
+        steps: 0x2000,
+        turns: 1,
+    };
+
+    fn check(scale: Scale, sensor: Sensor, raw: u64, expected: u32) {
+        assert_eq!(
+            scale.position(sensor.angle(raw)),
+            expected,
+            "{scale:?} at {raw}"
+        );
+    }
+
+    #[test]
+    fn the_trace_of_the_manual() {
+        let rest = MULTIVO.angle(0x7_9592);
+        assert_eq!(MULTIVO.raw(rest), 0x7_9592);
+        assert_eq!(Scale::unscaled(MULTIVO).position(rest), 0x7_9592);
+        let scale = Scale::new(MULTIVO, 0x1000, 0x1000_0000);
+        assert_eq!(scale.position(rest), 0x3_CAC9);
+        let offset = scale.offset_for(rest, 0);
+        assert_eq!(offset, 0x1000_0000 - 0x3_CAC9);
+        assert_eq!(scale.with_offset(offset.into()).position(rest), 0);
+        assert_eq!(
+            scale.with_offset(-0x3_CAC9).position(rest),
+            0,
+            "a signed one"
+        );
+    }
+
+    #[test]
+    fn sense_of_rotation_comes_before_the_offset() {
+        let scale = Scale::new(MULTIVO, 0x2000, 0x2000_0000).with_sense(true);
+        check(scale, MULTIVO, 0, 0);
+        check(scale, MULTIVO, 1, 0x1FFF_FFFF);
+        check(scale, MULTIVO, 0x1FFF_FFFF, 1);
+        check(scale.with_offset(5), MULTIVO, 1, 4);
+        let angle = MULTIVO.angle(1000);
+        let offset = scale.offset_for(angle, 7);
+        check(scale.with_offset(offset.into()), MULTIVO, 1000, 7);
+        check(scale.with_offset(offset.into()), MULTIVO, 1001, 6);
+    }
+
+    #[test]
+    fn ranges_up_to_two_to_the_thirty_second() {
+        let plus = Sensor {
+            steps: 0x4_0000,
+            turns: 0x2000,
+        };
+        check(Scale::unscaled(plus), plus, 0x7FFF_FFFF, 0x7FFF_FFFF);
+        check(Scale::unscaled(plus), plus, 0x8000_0000, 0);
+        let eam = Sensor {
+            steps: 0x4000,
+            turns: 0x4_0000,
+        };
+        assert_eq!(Scale::unscaled(eam).range(), 1 << 32);
+        check(Scale::unscaled(eam), eam, 0xFFFF_FFFF, 0xFFFF_FFFF);
+        check(Scale::unscaled(eam).with_sense(true), eam, 1, 0xFFFF_FFFF);
+        check(Scale::unscaled(eam).with_offset(1), eam, 0xFFFF_FFFF, 0);
+        check(Scale::unscaled(eam).with_offset(-1), eam, 0, 0xFFFF_FFFF);
+        let odd = Scale::new(eam, 0x4000, 0xFFFF_FFFF);
+        check(odd, eam, 0xFFFF_FFFF, 0);
+        check(odd.with_sense(true), eam, 1, 0xFFFF_FFFE);
+        let large = Sensor {
+            steps: 0x20_0000,
+            turns: 0x1_0000,
+        };
+        check(Scale::unscaled(large), large, 0x1F_FFFF_FFFF, 0xFFFF_FFFF);
+    }
+
+    #[test]
+    fn a_singleturn_begins_anew_and_a_multiturn_goes_on() {
+        let turn = |turns: i64| Angle::from_fractions(turns << 32 | 1 << 31);
+        let scale = Scale::new(SINGLE, 1000, 0x2000);
+        assert_eq!(scale.position(turn(0)), 500);
+        assert_eq!(scale.position(turn(7)), 500);
+        assert_eq!(scale.position(turn(-7)), 500);
+        let scale = Scale::new(SINGLE, 0x2000, 3000);
+        assert_eq!(scale.position(turn(5)), 4096 % 3000);
+        // Three revolutions, past the 65,536 of the sensor and below zero.
+        let scale = Scale::new(MULTIVO, 1000, 3000);
+        assert_eq!(scale.position(turn(2)), 2500);
+        assert_eq!(scale.position(turn(65_535)), 500);
+        assert_eq!(scale.position(turn(65_536)), 1500);
+        assert_eq!(scale.position(turn(-1)), 2500);
+        // More revolutions than the sensor has: it begins anew where the sensor does.
+        let scale = Scale::new(MULTIVO, 0x1000, 0x2000_0000);
+        assert_eq!(scale.position(turn(65_535)), 0x0FFF_F800);
+        assert_eq!(scale.position(turn(65_536)), 0x800);
+    }
+
+    /// Rounds down wherever it rounds, and never leaves the range.
+    #[test]
+    fn the_same_as_with_big_integers() {
+        let mut random = 0x9E37_79B9_7F4A_7C15u64;
+        let mut next = move || {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            random
+        };
+        for _ in 0..200_000 {
+            let sensor = Sensor {
+                steps: (next() as u32 >> (next() % 31)).max(1),
+                turns: 1 << (next() % 19),
+            };
+            let steps = (next() as u32 >> (next() % 32)).max(1);
+            let range = (next() >> (32 + next() % 32)) + 1;
+            let (reversed, offset) = (next() & 1 == 1, next() as i32);
+            let raw = next() % sensor.range();
+            let angle = sensor.angle(raw);
+            assert_eq!(sensor.raw(angle), raw);
+            let scale = Scale::new(sensor, steps, range)
+                .with_sense(reversed)
+                .with_offset(offset.into());
+            let turn = i128::from(raw / u64::from(sensor.steps));
+            let step = i128::from(raw % u64::from(sensor.steps));
+            let mut p =
+                turn * i128::from(steps) + step * i128::from(steps) / i128::from(sensor.steps);
+            p %= i128::from(range);
+            if reversed {
+                p = (i128::from(range) - p) % i128::from(range);
+            }
+            p = (p + i128::from(offset)).rem_euclid(i128::from(range));
+            assert_eq!(i128::from(scale.position(angle)), p, "{scale:?} {raw}");
+            let target = (next() % range) as u32;
+            let offset = scale.offset_for(angle, target);
+            assert_eq!(scale.with_offset(offset.into()).position(angle), target);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! The shaft that the encoder sits on: an angle that is a pure function of time.
+
+use crate::Instant;
+
+/// Thousandths of a revolution per minute, times microseconds, in one revolution.
+const PER_REVOLUTION: u64 = 60_000_000_000;
+
+/// An angle in 2⁻³² revolutions, counted on from where the simulation began.
+///
+/// Whole revolutions are the upper half, −2³¹ to 2³¹−1; past the ends it wraps.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
+pub struct Angle(i64);
+
+impl Angle {
+    /// Zero of the sensor.
+    pub const ZERO: Self = Self(0);
+
+    /// `fraction` 2⁻³² revolutions.
+    pub const fn from_fractions(fraction: i64) -> Self {
+        Self(fraction)
+    }
+
+    /// In 2⁻³² revolutions.
+    pub const fn fractions(self) -> i64 {
+        self.0
+    }
+
+    /// `degrees` of a revolution, rounded towards zero.
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self((degrees / 360.0 * 4_294_967_296.0) as i64)
+    }
+
+    /// In degrees, all revolutions included.
+    pub fn degrees(self) -> f64 {
+        self.0 as f64 / 4_294_967_296.0 * 360.0
+    }
+
+    /// This angle and another.
+    #[must_use]
+    pub const fn plus(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+
+    /// This angle without another.
+    #[must_use]
+    pub const fn minus(self, other: Self) -> Self {
+        Self(self.0.wrapping_sub(other.0))
+    }
+
+    /// Whole revolutions, rounded down, and the rest in 2⁻³² revolutions.
+    #[inline]
+    pub const fn split(self) -> (i64, u32) {
+        (self.0 >> 32, self.0 as u32)
+    }
+}
+
+/// A shaft that turns evenly between two changes of its speed.
+///
+/// It turns whether the encoder has power or not. Positive is clockwise, looking at
+/// the encoder's flange.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Shaft {
+    angle: Angle,
+    since: Instant,
+    milli_rpm: i32,
+}
+
+impl Shaft {
+    /// A shaft that stands at `angle`.
+    pub const fn at_rest(angle: Angle) -> Self {
+        Self {
+            angle,
+            since: Instant::ZERO,
+            milli_rpm: 0,
+        }
+    }
+
+    /// Its angle at a moment; what was before the last change is not known any more.
+    #[inline]
+    pub fn angle(&self, now: Instant) -> Angle {
+        if self.milli_rpm == 0 {
+            return self.angle;
+        }
+        let turned = turned(self.milli_rpm.unsigned_abs(), now.micros_since(self.since));
+        if self.milli_rpm > 0 {
+            Angle(self.angle.0.wrapping_add(turned))
+        } else {
+            Angle(self.angle.0.wrapping_sub(turned))
+        }
+    }
+
+    /// Speed in thousandths of a revolution per minute, positive clockwise.
+    pub const fn milli_rpm(&self) -> i32 {
+        self.milli_rpm
+    }
+
+    /// From `now` on it turns with this speed, in thousandths of a revolution per minute.
+    pub fn set_milli_rpm(&mut self, now: Instant, milli_rpm: i32) {
+        self.rebase(now);
+        self.milli_rpm = milli_rpm;
+    }
+
+    /// Turns it by hand; it goes on with its speed.
+    pub fn turn(&mut self, now: Instant, by: Angle) {
+        self.rebase(now);
+        self.angle = self.angle.plus(by);
+    }
+
+    /// Puts it somewhere; it goes on with its speed.
+    pub fn set_angle(&mut self, now: Instant, angle: Angle) {
+        self.rebase(now);
+        self.angle = angle;
+    }
+
+    fn rebase(&mut self, now: Instant) {
+        self.angle = self.angle(now);
+        self.since = self.since.max(now);
+    }
+}
+
+/// 2⁻³² revolutions in `micros` at this speed: exact to 2⁻²⁸, rounded down.
+#[inline]
+fn turned(milli_rpm: u32, micros: u64) -> i64 {
+    // 60·10⁹ is less than 2³⁶, so its remainders have room for 28 more bits.
+    match u64::from(milli_rpm).checked_mul(micros) {
+        Some(way) => {
+            let (turns, rest) = (way / PER_REVOLUTION, way % PER_REVOLUTION);
+            (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
+        }
+        None => long_way(milli_rpm, micros),
+    }
+}
+
+#[cold]
+fn long_way(milli_rpm: u32, micros: u64) -> i64 {
+    let way = u128::from(milli_rpm) * u128::from(micros);
+    // Revolutions past 2³² do not matter: the angle wraps there.
+    let turns = (way / u128::from(PER_REVOLUTION)) as u64;
+    let rest = (way % u128::from(PER_REVOLUTION)) as u64;
+    (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_minute_at_one_revolution_per_minute_is_one_revolution() {
+        let mut shaft = Shaft::at_rest(Angle::ZERO);
+        shaft.set_milli_rpm(Instant::from_millis(5), 1000);
+        assert_eq!(shaft.angle(Instant::from_millis(3)), Angle::ZERO);
+        let at = |ms: u64| shaft.angle(Instant::from_millis(5 + ms)).fractions();
+        assert_eq!(at(60_000), 1 << 32);
+        assert_eq!(at(30_000), 1 << 31);
+        assert_eq!(at(59_999), (((59_999u64 << 28) / 60_000) << 4) as i64);
+        for milli_rpm in [1, 7, 6_000_000, i32::MAX] {
+            shaft = Shaft::at_rest(Angle::ZERO);
+            shaft.set_milli_rpm(Instant::ZERO, milli_rpm);
+            let hour = shaft.angle(Instant::from_millis(3_600_000)).fractions();
+            let exact = i128::from(milli_rpm) * 60 * (1i128 << 32) / 1000;
+            assert!(
+                (i128::from(hour) - i128::from(exact as i64)).abs() < 16,
+                "{milli_rpm}"
+            );
+        }
+    }
+
+    #[test]
+    fn it_stops_where_it_is_and_turns_back() {
+        let mut shaft = Shaft::at_rest(Angle::from_fractions(77));
+        shaft.set_milli_rpm(Instant::ZERO, 60_000);
+        shaft.set_milli_rpm(Instant::from_millis(500), 0);
+        let half = Angle::from_fractions(77 + (1 << 31));
+        assert_eq!(shaft.angle(Instant::from_millis(9_000)), half);
+        shaft.set_milli_rpm(Instant::from_millis(9_000), -60_000);
+        assert_eq!(shaft.angle(Instant::from_millis(9_500)).fractions(), 77);
+        assert_eq!(
+            shaft.angle(Instant::from_millis(10_000)).split(),
+            (-1, (1u32 << 31) + 77)
+        );
+        shaft.turn(Instant::from_millis(9_500), Angle::from_degrees(90.0));
+        assert_eq!(
+            shaft.angle(Instant::from_millis(9_500)).fractions(),
+            77 + (1 << 30)
+        );
+    }
+
+    #[test]
+    fn the_long_way_is_the_short_way() {
+        for (milli_rpm, micros) in [(1, 1), (6_000_000, 123_456_789), (u32::MAX, 1 << 31)] {
+            assert_eq!(long_way(milli_rpm, micros), turned(milli_rpm, micros));
+        }
+        // Three hundred thousand years at full speed, and no panic.
+        let _ = turned(u32::MAX, u64::MAX);
+    }
+}
