@@ -61,7 +61,9 @@ class App extends View {
     const tab = state.tab.value;
     return html`
       <od-topbar></od-topbar>
+      
       <main class="bench" data-tab=${tab}>
+        <h1 class="sr">Virtual CANopen encoder</h1>
         <div class="side">
           <od-encoder class="panel" data-panel="encoder"></od-encoder>
           <od-objects class="panel" data-panel="objects"></od-objects>
@@ -71,13 +73,13 @@ class App extends View {
           <od-send></od-send>
         </div>
       </main>
-      <nav class="tabs" role="tablist" aria-label="Panels">
+      <nav aria-label="Panels"><div class="tabs" role="tablist" aria-label="Panels">
         ${TABS.map(
           (entry) => html`<button role="tab" aria-selected=${entry.tab === tab} @click=${() => (state.tab.value = entry.tab)}>
             ${entry.icon}<span>${entry.text}</span>
           </button>`,
         )}
-      </nav>
+      </div></nav>
       <od-device-dialog></od-device-dialog>
       <div class="toasts" role="status" aria-live="polite">
         ${state.toast.value

@@ -71,11 +71,11 @@ class Angle extends View {
     const turns = state.shaft.value?.turns ?? 0;
     const whole = Math.floor(turns);
     const degrees = (turns - whole) * 360;
-    return html`<dl class="angle">
+    return html`<div class="angle"><dl>
       <div><dt>Turn</dt><dd class="num" aria-label="Turns">${grouped(whole)}</dd></div>
-      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2).padStart(6, '\u2007')}°</dd></div>
+      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2).padStart(6, '\u2007')}°</dd></div></dl>
       <button class="small quiet" title="Turn the shaft to its zero point" @click=${() => turnTo(0)}>To zero</button>
-    </dl>`;
+    </div>`;
   }
 }
 

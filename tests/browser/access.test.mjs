@@ -1,0 +1,62 @@
+// People who use no mouse, no eyes, or little light: axe finds nothing, keys reach everything.
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { after, before, test } from 'node:test';
+import { launch, open } from './harness.mjs';
+import { booted, nmt, row } from './bench.mjs';
+
+const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+async function faults(page) {
+  await page.addScriptTag({ path: axe });
+  const { violations } = await page.evaluate(() => globalThis.axe.run());
+  return violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(', ')}`);
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing, ${colorScheme}`, async () => {
+    const { page, close } = await open(browser, { colorScheme });
+    await booted(page);
+    await nmt(page, 'Start');
+    await row(page, 'a PDO1', (one) => one.id === '181');
+    assert.deepEqual(await faults(page), []);
+    await page.locator('.device-button').click();
+    assert.deepEqual(await faults(page), []);
+    await close();
+  });
+}
+
+test('axe finds nothing on a phone', async () => {
+  const { page, close } = await open(browser, { width: 390, height: 844 });
+  for (const name of ['Bus', 'Objects', 'Encoder']) {
+    await page.getByRole('tab', { name }).click();
+    assert.deepEqual(await faults(page), [], name);
+  }
+  await close();
+});
+
+test('the keyboard reaches every control, in a sensible order', async () => {
+  const { page, close } = await open(browser, {});
+  await booted(page);
+  const names = [];
+  for (let i = 0; i < 40; i++) {
+    await page.keyboard.press('Tab');
+    const name = await page.evaluate(() => {
+      const { activeElement: it } = document;
+      if (!it || it === document.body) return null;
+      const ring = getComputedStyle(it);
+      return { name: it.getAttribute('aria-label') ?? it.labels?.[0]?.textContent ?? it.textContent.trim(), ring: ring.outlineStyle !== 'none' };
+    });
+    if (name === null) break;
+    assert.ok(name.ring, `${name.name} shows its focus`);
+    names.push(name.name);
+  }
+  const order = ['Stop time', 'Power', 'Shaft', 'Search objects', 'Frame', 'Object', 'Read', 'Write', 'NMT Start'].map((name) => names.indexOf(name));
+  assert.ok(order.every((place) => place >= 0), `all in ${names}`);
+  assert.deepEqual([...order].sort((a, b) => a - b), order);
+  await close();
+});
