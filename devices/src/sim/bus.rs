@@ -1,0 +1,161 @@
+//! Several devices on one bus, in virtual time.
+
+use std::collections::VecDeque;
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant};
+
+use super::VirtualDevice;
+
+/// A frame that a device on the bus sent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Sent {
+    /// When.
+    pub at: Instant,
+    /// Which device, counted from 0 in the order of [`Bus::add`].
+    pub device: usize,
+    /// What.
+    pub frame: Frame,
+}
+
+/// A bus without bit times: a frame reaches everybody at the moment it is sent.
+///
+/// What happens at one moment happens in a fixed order: devices in the order they
+/// were added, frames in the order they were sent. The same inputs give the same
+/// frames on every run.
+#[derive(Default)]
+pub struct Bus {
+    devices: Vec<VirtualDevice>,
+    now: Instant,
+    sent: VecDeque<Sent>,
+}
+
+/// So often in a row a device may have a deadline that is already due; after that the
+/// bus moves on by a microsecond, so that no device can stop time.
+const STUCK: u32 = 1000;
+
+impl Bus {
+    /// A bus without devices, at the origin of time.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Puts a device on the bus; answers with its number. It may be powered or not.
+    pub fn add(&mut self, device: VirtualDevice) -> usize {
+        self.devices.push(device);
+        let added = self.devices.len() - 1;
+        self.settle(added);
+        added
+    }
+
+    /// The devices, in the order they were added.
+    pub fn devices(&self) -> &[VirtualDevice] {
+        &self.devices
+    }
+
+    /// The present moment.
+    pub fn now(&self) -> Instant {
+        self.now
+    }
+
+    /// Does something with a device at the present moment (power, shaft, faults …) and takes
+    /// what it sends because of that. `None` where there is no such device.
+    pub fn with<R>(
+        &mut self,
+        device: usize,
+        act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
+    ) -> Option<R> {
+        let now = self.now;
+        let result = act(self.devices.get_mut(device)?, now);
+        self.settle(device);
+        Some(result)
+    }
+
+    /// A frame from outside: every device receives it, and each other's answers.
+    pub fn receive(&mut self, frame: &Frame) {
+        for device in 0..self.devices.len() {
+            self.devices[device].handle_frame(self.now, frame);
+            self.settle(device);
+        }
+    }
+
+    /// Time passes until `to`; deadlines on the way are met at their own moment.
+    pub fn advance(&mut self, to: Instant) {
+        while self.step(to) {}
+    }
+
+    /// Time passes until the first moment not after `to` at which something is sent.
+    /// Answers whether something was; if not, it is `to` now.
+    pub fn advance_until_sent(&mut self, to: Instant) -> bool {
+        while self.sent.is_empty() {
+            if !self.step(to) {
+                return !self.sent.is_empty();
+            }
+        }
+        true
+    }
+
+    /// The next deadline of any device.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        self.devices
+            .iter()
+            .filter_map(VirtualDevice::poll_timeout)
+            .min()
+    }
+
+    /// The next frame that a device sent, oldest first.
+    pub fn poll(&mut self) -> Option<Sent> {
+        self.sent.pop_front()
+    }
+
+    /// Meets the next deadline not after `to`, if there is one; else it is `to` now.
+    fn step(&mut self, to: Instant) -> bool {
+        let due = (0..self.devices.len())
+            .filter_map(|device| Some((self.devices[device].poll_timeout()?, device)))
+            .min();
+        let Some((at, device)) = due.filter(|(at, _)| *at <= to) else {
+            self.now = self.now.max(to);
+            return false;
+        };
+        self.now = self.now.max(at);
+        for _ in 0..STUCK {
+            self.devices[device].handle_timeout(self.now);
+            self.settle(device);
+            match self.devices[device].poll_timeout() {
+                Some(again) if again <= self.now => {}
+                _ => return true,
+            }
+        }
+        self.now = self.now.plus_micros(1);
+        self.now <= to
+    }
+
+    /// Takes what a device sends and hands it to the others, whose answers in turn …
+    fn settle(&mut self, device: usize) {
+        let mut carry = VecDeque::new();
+        self.collect(device, &mut carry);
+        // Two devices that answer each other for ever would be a broken pair; stop there.
+        for _ in 0..STUCK {
+            let Some((from, frame)) = carry.pop_front() else {
+                return;
+            };
+            for other in (0..self.devices.len()).filter(|other| *other != from) {
+                self.devices[other].handle_frame(self.now, &frame);
+                self.collect(other, &mut carry);
+            }
+        }
+    }
+
+    fn collect(&mut self, device: usize, carry: &mut VecDeque<(usize, Frame)>) {
+        while let Some(frame) = self.devices[device].poll_transmit(self.now) {
+            self.sent.push_back(Sent {
+                at: self.now,
+                device,
+                frame,
+            });
+            if self.devices.len() > 1 {
+                carry.push_back((device, frame));
+            }
+        }
+    }
+}

@@ -1,0 +1,371 @@
+//! The text of can-utils: what `candump` prints and `cansend` takes.
+//!
+//! | form | example |
+//! |---|---|
+//! | log (`candump -L`) | `(0.100000) can0 601#4004600000000000` |
+//! | `cansend` | `601#40.04.60.00`, `701#R`, `701#R4`, `1F334455#11` |
+//! | screen (`candump`) | `can0  601   [8]  40 04 60 00 00 00 00 00` |
+//!
+//! Everything that is not one of these is an [`Error`] that says where and why.
+
+use std::prelude::v1::*;
+use std::{fmt, format};
+
+use od_runtime::{CanId, Frame, Instant};
+
+/// A frame as a log has it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Line {
+    /// The time stamp, where there is one.
+    pub at: Option<Instant>,
+    /// The interface, where there is one.
+    pub interface: Option<String>,
+    /// The frame.
+    pub frame: Frame,
+}
+
+/// A text is no frame.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Error {
+    /// The first character that does not fit, counted from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to write instead.
+    pub help: &'static str,
+}
+
+impl Error {
+    pub(crate) fn new(column: usize, message: impl Into<String>, help: &'static str) -> Self {
+        Self {
+            column,
+            message: message.into(),
+            help,
+        }
+    }
+
+    fn shifted(mut self, by: usize) -> Self {
+        self.column += by;
+        self
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "column {}: {}; {}", self.column, self.message, self.help)
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// One line in any of the three forms. Empty lines are the caller's business.
+///
+/// # Errors
+/// [`Error`] names the first character that does not fit.
+pub fn parse_line(line: &str) -> Result<Line, Error> {
+    let mut rest = Cursor::new(line);
+    let at = match rest.peek() {
+        Some(word) if word.starts_with('(') => Some(time_stamp(&mut rest)?),
+        _ => None,
+    };
+    let (column, word) = rest.word(FRAME)?;
+    if word.contains('#') {
+        let frame = parse_frame(word).map_err(|error| error.shifted(column - 1))?;
+        return end(rest).map(|()| Line {
+            at,
+            interface: None,
+            frame,
+        });
+    }
+    let interface = Some(word.to_owned());
+    let (column, word) = rest.word(FRAME)?;
+    let frame = if word.contains('#') {
+        parse_frame(word).map_err(|error| error.shifted(column - 1))?
+    } else {
+        screen(column, word, &mut rest)?
+    };
+    end(rest).map(|()| Line {
+        at,
+        interface,
+        frame,
+    })
+}
+
+const FRAME: &str = "write a frame like 601#4004600000000000 or 701#R";
+const TIME: &str = "write seconds in parentheses, like (0.100000)";
+const ID: &str =
+    "an identifier has 3 hex digits (11 bits, up to 7FF) or 8 (29 bits, up to 1FFFFFFF)";
+const DATA: &str = "data is 0 to 8 bytes of two hex digits each";
+
+/// A frame as `cansend` takes it: `601#40046000`, `601#40.04.60.00`, `701#R`, `701#R4`.
+///
+/// # Errors
+/// [`Error`] names the first character that does not fit.
+pub fn parse_frame(text: &str) -> Result<Frame, Error> {
+    let Some((id, data)) = text.split_once('#') else {
+        return Err(Error::new(1, format!("`{text}` has no `#`"), FRAME));
+    };
+    let start = id.chars().count() + 2;
+    let id = parse_id(id)?;
+    if data.starts_with('#') {
+        return Err(Error::new(
+            start,
+            "`##` begins a CAN FD frame",
+            "CANopen has none; use one `#`",
+        ));
+    }
+    if let Some(dlc) = data.strip_prefix(['R', 'r']) {
+        return match dlc.as_bytes() {
+            [] => Ok(Frame::remote(id, 0)),
+            [digit @ b'0'..=b'8'] => Ok(Frame::remote(id, digit - b'0')),
+            _ => Err(Error::new(
+                start + 1,
+                format!("`{dlc}` is no length"),
+                "a remote frame is R, or R and its length 0 to 8",
+            )),
+        };
+    }
+    let (bytes, len) = parse_data(data).map_err(|error| error.shifted(start - 1))?;
+    Ok(Frame::new(id, &bytes[..len]))
+}
+
+/// An identifier of 3 or 8 hex digits.
+pub(crate) fn parse_id(text: &str) -> Result<CanId, Error> {
+    let bad = |message: String| Err(Error::new(1, message, ID));
+    if let Some(at) = text.chars().position(|c| !c.is_ascii_hexdigit()) {
+        return bad(format!("`{text}` is no identifier")).map_err(|error| error.shifted(at));
+    }
+    let raw = u32::from_str_radix(text, 16).unwrap_or(u32::MAX);
+    match text.len() {
+        3 if raw <= 0x7FF => Ok(CanId::standard(raw as u16)),
+        8 if raw <= 0x1FFF_FFFF => Ok(CanId::extended(raw)),
+        3 | 8 => bad(format!("the identifier {text} is too large")),
+        0 => bad("the identifier is missing".into()),
+        digits => bad(format!("`{text}` has {digits} digits")),
+    }
+}
+
+/// Hex bytes, with or without dots or blanks between them.
+fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
+    let mut bytes = [0; 8];
+    let mut len = 0;
+    let mut high = None;
+    for (column, c) in text.chars().enumerate().map(|(at, c)| (at + 1, c)) {
+        let Some(digit) = c.to_digit(16) else {
+            if matches!(c, '.' | ' ') && high.is_none() {
+                continue;
+            }
+            return Err(Error::new(column, format!("`{c}` is no hex digit"), DATA));
+        };
+        let Some(first) = high.take() else {
+            high = Some(digit);
+            continue;
+        };
+        let Some(byte) = bytes.get_mut(len) else {
+            return Err(Error::new(column, "more than 8 bytes", DATA));
+        };
+        *byte = (first << 4 | digit) as u8;
+        len += 1;
+    }
+    match high {
+        Some(_) => Err(Error::new(text.chars().count(), "half a byte", DATA)),
+        None => Ok((bytes, len)),
+    }
+}
+
+/// `601   [8]  40 04 60 00 00 00 00 00`, or `701   [0]  remote request`.
+fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error> {
+    let id = parse_id(id).map_err(|error| error.shifted(column - 1))?;
+    let (column, length) = rest.word(FRAME)?;
+    let length = length
+        .strip_prefix('[')
+        .and_then(|rest| rest.strip_suffix(']'));
+    let Some(dlc) = length
+        .and_then(|digits| digits.parse().ok())
+        .filter(|dlc| *dlc <= 8)
+    else {
+        return Err(Error::new(
+            column,
+            "here stands the length",
+            "write it as [0] to [8]",
+        ));
+    };
+    if rest.peek() == Some("remote") {
+        rest.word(FRAME)?;
+        if rest.peek() == Some("request") {
+            rest.word(FRAME)?;
+        }
+        return Ok(Frame::remote(id, dlc));
+    }
+    let mut data = [0; 8];
+    for byte in data.iter_mut().take(usize::from(dlc)) {
+        let (column, word) = rest.word("as many bytes as the length says")?;
+        *byte = match (word.len(), u8::from_str_radix(word, 16)) {
+            (2, Ok(byte)) => byte,
+            _ => return Err(Error::new(column, format!("`{word}` is no byte"), DATA)),
+        };
+    }
+    Ok(Frame::new(id, &data[..usize::from(dlc)]))
+}
+
+fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
+    let (column, word) = rest.word(TIME)?;
+    let inner = word
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    match inner.and_then(seconds) {
+        Some(micros) => Ok(Instant::from_micros(micros)),
+        None => Err(Error::new(
+            column,
+            format!("`{word}` is no time stamp"),
+            TIME,
+        )),
+    }
+}
+
+/// Microseconds of a decimal number of seconds; digits past the sixth are cut.
+pub(crate) fn seconds(text: &str) -> Option<u64> {
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    if !digits(whole) || !digits(fraction) || whole.len() + fraction.len() == 0 {
+        return None;
+    }
+    let whole: u64 = if whole.is_empty() {
+        0
+    } else {
+        whole.parse().ok()?
+    };
+    let micros = fraction.bytes().chain([b'0'; 6]).take(6);
+    let micros = micros.fold(0, |micros, digit| micros * 10 + u64::from(digit - b'0'));
+    whole.checked_mul(1_000_000)?.checked_add(micros)
+}
+
+/// A log line may end with `R` or `T`: received or sent. Nothing else follows a frame.
+fn end(mut rest: Cursor<'_>) -> Result<(), Error> {
+    match rest.word("") {
+        Err(_) | Ok((_, "R" | "T")) => Ok(()),
+        Ok((column, word)) => Err(Error::new(
+            column,
+            format!("`{word}` follows the frame"),
+            "one line holds one frame and nothing else",
+        )),
+    }
+}
+
+/// One line of a log, as `candump -L` writes it.
+pub fn format_line(at: Instant, interface: &str, frame: &Frame) -> String {
+    format!("({at:?}) {interface} {frame}")
+}
+
+/// The words of a line, with their columns.
+struct Cursor<'t> {
+    text: &'t str,
+    column: usize,
+}
+
+impl<'t> Cursor<'t> {
+    fn new(text: &'t str) -> Self {
+        let mut cursor = Self { text, column: 1 };
+        cursor.skip();
+        cursor
+    }
+
+    fn skip(&mut self) {
+        let trimmed = self.text.trim_start();
+        self.column += self.text[..self.text.len() - trimmed.len()].chars().count();
+        self.text = trimmed;
+    }
+
+    fn peek(&self) -> Option<&'t str> {
+        self.text.split_whitespace().next()
+    }
+
+    fn word(&mut self, help: &'static str) -> Result<(usize, &'t str), Error> {
+        let column = self.column;
+        let Some(word) = self.peek() else {
+            return Err(Error::new(column, "the line ends here", help));
+        };
+        self.text = &self.text[word.len()..];
+        self.column += word.chars().count();
+        self.skip();
+        Ok((column, word))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(line: &str, expected: &str) {
+        let shown = match parse_line(line) {
+            Ok(Line {
+                at: Some(at),
+                interface,
+                frame,
+            }) => format_line(at, interface.as_deref().unwrap_or("-"), &frame),
+            Ok(Line { frame, .. }) => frame.to_string(),
+            Err(error) => format!("{}: {}", error.column, error.message),
+        };
+        assert_eq!(shown, expected, "{line}");
+    }
+
+    #[test]
+    fn the_three_forms_read_the_same() {
+        check(
+            "(0.100000) can0 601#4004600000000000",
+            "(0.100000) can0 601#4004600000000000",
+        );
+        check(
+            "  (1600000000.5)  vcan1  701#R R",
+            "(1600000000.500000) vcan1 701#R",
+        );
+        check("601#40.04.60.00", "601#40046000");
+        check("1F334455#11", "1F334455#11");
+        check("701#R4", "701#R4");
+        check("080#", "080#");
+        check(
+            "can0  601   [8]  40 04 60 00 00 00 00 00",
+            "601#4004600000000000",
+        );
+        check(
+            " (003.1)  can0  701   [0]  remote request",
+            "(3.100000) can0 701#R",
+        );
+    }
+
+    #[test]
+    fn errors_say_where_and_what() {
+        check("601", "4: the line ends here");
+        check("(x) can0 601#40", "1: `(x)` is no time stamp");
+        check("601#4", "5: half a byte");
+        check("601#4g", "6: `g` is no hex digit");
+        check("601#112233445566778899", "22: more than 8 bytes");
+        check("800#11", "1: the identifier 800 is too large");
+        check("can0 6011#11", "6: `6011` has 4 digits");
+        check("60x#11", "3: `60x` is no identifier");
+        check("601#R9", "6: `9` is no length");
+        check("601##011", "5: `##` begins a CAN FD frame");
+        check("can0 601 [9] 00", "10: here stands the length");
+        check("can0 601 [2] 00", "16: the line ends here");
+        check("601#11 22", "8: `22` follows the frame");
+        check("ä#11", "1: `ä` is no identifier");
+    }
+
+    #[test]
+    fn no_text_panics() {
+        let pieces = [
+            "(", ")", "can0", "#", "601", "R", "9", "[8]", " ", "ä", "\u{0}", "FFFFFFFF", ".",
+        ];
+        let mut state = 1u32;
+        for _ in 0..20_000 {
+            let mut line = String::new();
+            for _ in 0..state % 9 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                line.push_str(pieces[(state >> 16) as usize % pieces.len()]);
+            }
+            state = state.wrapping_add(1);
+            let _ = parse_line(&line);
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! One device: dictionary, values, node, behaviour and storage in one piece.
+
+use std::prelude::v1::*;
+use std::vec;
+
+use od_model::{Address, Diagnostic, Dictionary, Entry, Tables, eds};
+use od_runtime::encoder::Encoder;
+use od_runtime::storage::{Memory, Storage, image};
+use od_runtime::wire::nmt::State;
+use od_runtime::{
+    Application, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Signals, Store,
+};
+
+use super::{Led, leds};
+use crate::DeviceKind;
+
+/// A node with room for what EDS files have: 64 PDOs each way, values of 4 KiB.
+type RoomyNode = Node<64, 4096>;
+
+/// Where a dictionary comes from.
+enum Source {
+    Compiled(Dictionary<'static>),
+    Loaded(Box<Tables>),
+}
+
+impl Source {
+    fn dictionary(&self) -> Dictionary<'_> {
+        match self {
+            Self::Compiled(dictionary) => *dictionary,
+            Self::Loaded(tables) => tables.dictionary(),
+        }
+    }
+}
+
+/// What is behind the dictionary.
+pub(super) enum Behaviour {
+    Encoder(Box<Encoder>),
+    Nothing(NoApplication),
+}
+
+impl Behaviour {
+    fn as_application(&mut self) -> &mut dyn Application {
+        match self {
+            Self::Encoder(encoder) => &mut **encoder,
+            Self::Nothing(nothing) => nothing,
+        }
+    }
+}
+
+/// What an EDS file leaves open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct EdsOptions {
+    /// The node ID; `None`: the one of the DCF, else 1.
+    pub node_id: Option<NodeId>,
+    /// Runs what can be run of a text with errors.
+    pub lenient: bool,
+}
+
+/// A CANopen device that lives in virtual time.
+///
+/// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
+/// [`Bus`](super::Bus) does it for you.
+pub struct VirtualDevice {
+    title: String,
+    source: Source,
+    values: Vec<u8>,
+    node: Box<RoomyNode>,
+    pub(super) behaviour: Behaviour,
+    storage: Box<dyn Storage>,
+    pub(super) profile: &'static Profile,
+    wanted_id: NodeId,
+    /// When the turning shaft is looked at again.
+    look_at: Option<Instant>,
+}
+
+impl VirtualDevice {
+    /// A built-in device, without power, with an empty EEPROM in memory.
+    pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
+        let behaviour = Behaviour::Encoder(Box::new(Encoder::new(kind.encoder)));
+        let source = Source::Compiled(kind.dictionary);
+        Self::build(kind.title.into(), source, behaviour, kind.profile, node_id)
+    }
+
+    /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
+    /// there is a position (6004h).
+    ///
+    /// # Errors
+    /// The diagnostics, if one of them is an error and `options` is not lenient.
+    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Diagnostic>> {
+        let parsed = eds::load(text);
+        if !options.lenient && parsed.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(parsed.diagnostics);
+        }
+        let description = &parsed.description;
+        let commissioned = description.commissioned_node_id().and_then(NodeId::new);
+        let node_id = options.node_id.or(commissioned).unwrap_or(NodeId::ONE);
+        let product = description
+            .section("DeviceInfo")
+            .and_then(|info| info.get("ProductName"));
+        let title = product.map(|name| name.value.trim().to_owned());
+        let tables = Tables::new(description);
+        let behaviour = match Encoder::for_dictionary(tables.dictionary()) {
+            Some(encoder) => Behaviour::Encoder(Box::new(encoder)),
+            None => Behaviour::Nothing(NoApplication),
+        };
+        let title = title
+            .filter(|title| !title.is_empty())
+            .unwrap_or_else(|| "EDS device".into());
+        let source = Source::Loaded(Box::new(tables));
+        Ok(Self::build(
+            title,
+            source,
+            behaviour,
+            &Profile::CIA301,
+            node_id,
+        ))
+    }
+
+    fn build(
+        title: String,
+        source: Source,
+        behaviour: Behaviour,
+        profile: &'static Profile,
+        node_id: NodeId,
+    ) -> Self {
+        let dictionary = source.dictionary();
+        let values = vec![0; dictionary.store_len()];
+        let erased = vec![0xFF; image::capacity_needed(&dictionary)];
+        Self {
+            title,
+            source,
+            values,
+            node: Box::new(Node::new(node_id)),
+            behaviour,
+            storage: Box::new(Memory::new(erased)),
+            profile,
+            wanted_id: node_id,
+            look_at: None,
+        }
+    }
+
+    /// Another EEPROM, with what is in it. Do it before power comes.
+    #[must_use]
+    pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
+        self.storage = storage;
+        self
+    }
+
+    /// Bytes that an EEPROM of this device needs.
+    pub fn storage_needed(&self) -> usize {
+        image::capacity_needed(&self.dictionary())
+    }
+
+    /// A name to show.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Power comes. A device that keeps its node ID in 2101h and has an empty EEPROM starts
+    /// with the ID that it was made with.
+    pub fn power_on(&mut self, now: Instant) {
+        if self.node.is_powered() {
+            return;
+        }
+        self.configure_node_id();
+        let (node, mut device) = self.parts();
+        // `build` made room for the values.
+        let powered = node.power_on(&mut device, now);
+        debug_assert!(powered.is_ok());
+    }
+
+    /// Power goes. Time goes on, and the shaft with it.
+    pub fn power_off(&mut self, now: Instant) {
+        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+            encoder.power_off(now);
+        }
+        self.node.power_off();
+    }
+
+    /// Is there power?
+    pub fn is_powered(&self) -> bool {
+        self.node.is_powered()
+    }
+
+    /// A frame was received.
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        let (node, mut device) = self.parts();
+        node.handle_frame(&mut device, now, frame);
+    }
+
+    /// Time has passed.
+    pub fn handle_timeout(&mut self, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_timeout(&mut device, now);
+        if self.look_at.is_some_and(|at| at <= now) {
+            self.noticed(now);
+        }
+    }
+
+    /// Something outside the bus changed.
+    pub(super) fn noticed(&mut self, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_change(&mut device, now);
+        self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
+    }
+
+    /// The next frame to send.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        let (node, mut device) = self.parts();
+        node.poll_transmit(&mut device, now)
+    }
+
+    /// When [`handle_timeout`](Self::handle_timeout) is due.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        let look_at = self
+            .look_at
+            .filter(|_| self.node.state() == State::Operational);
+        match (self.node.poll_timeout(), look_at) {
+            (Some(node), Some(look)) => Some(node.min(look)),
+            (node, look) => node.or(look),
+        }
+    }
+
+    /// What happened, oldest first.
+    pub fn poll_event(&mut self) -> Option<Event> {
+        self.node.poll_event()
+    }
+
+    /// The NMT state.
+    pub fn state(&self) -> State {
+        self.node.state()
+    }
+
+    /// The active node ID.
+    pub fn node_id(&self) -> NodeId {
+        self.node.node_id()
+    }
+
+    /// The object dictionary.
+    pub fn dictionary(&self) -> Dictionary<'_> {
+        self.source.dictionary()
+    }
+
+    /// The value at an address as an SDO would carry it now, without a frame on the bus;
+    /// empty where there is no such object. Also what a master may not read.
+    pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
+        let Self {
+            source,
+            values,
+            behaviour,
+            node,
+            ..
+        } = self;
+        let dictionary = source.dictionary();
+        let (Ok(entry), Ok(mut store)) = (
+            dictionary.find(address),
+            Store::new(dictionary, values, node.node_id()),
+        ) else {
+            return Vec::new();
+        };
+        if node.is_powered() && address.index >= 0x2000 {
+            let mut signals = Signals::default();
+            let mut context = Context {
+                store: &mut store,
+                now,
+                signals: &mut signals,
+            };
+            // What cannot be had now shows as it was.
+            let _ = behaviour.as_application().refresh(&mut context, address);
+        }
+        store.bytes(entry, &mut [0; 8]).to_vec()
+    }
+
+    /// The number that stands at an address, live values as they were last asked for.
+    pub fn stored(&self, index: u16, sub: u8) -> Option<u64> {
+        let dictionary = self.dictionary();
+        let entry = dictionary.entry(index, sub)?;
+        let start = entry.slot.offset as usize;
+        let bytes = self
+            .values
+            .get(start..start + usize::from(entry.slot.len))?;
+        match bytes {
+            [] => u64::try_from(entry.default.integer(self.node_id().raw())?).ok(),
+            bytes if bytes.len() <= 8 && !entry.is_variable() => Some(
+                bytes
+                    .iter()
+                    .rev()
+                    .fold(0, |value, byte| value << 8 | u64::from(*byte)),
+            ),
+            _ => None,
+        }
+    }
+
+    /// What the two dies of the LED do: green, red (manual 000, chapter 7.3).
+    pub fn leds(&self) -> (Led, Led) {
+        let bits = |index| self.stored(index, 0).unwrap_or(0);
+        let warning = bits(0x6505) != 0;
+        let error = bits(0x6503) != 0 || (bits(0x1001) != 0 && !warning);
+        leds::dual(self.is_powered(), self.state(), warning, error)
+    }
+
+    /// Writes the wanted node ID into an empty EEPROM, as somebody did who set the device up.
+    fn configure_node_id(&mut self) {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return;
+        };
+        let Some(index) = encoder.profile().node_id else {
+            return;
+        };
+        let Self {
+            source,
+            values,
+            storage,
+            wanted_id,
+            ..
+        } = self;
+        let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
+            return;
+        };
+        store.reset(|_| true);
+        let loaded = image::load(&mut **storage, &mut store, &|_: &Entry| true);
+        let own = store.unsigned(index, 0);
+        if loaded == Ok(image::Loaded::Blank) && own != u64::from(wanted_id.raw()) {
+            store.set_unsigned(Address::new(index, 0), wanted_id.raw().into());
+            // Only the group of the object; a storage that fails keeps the default.
+            let _ = image::save(&mut **storage, &store, 4);
+        }
+    }
+
+    fn parts(&mut self) -> (&mut RoomyNode, Device<'_>) {
+        let Self {
+            source,
+            values,
+            node,
+            behaviour,
+            storage,
+            profile,
+            ..
+        } = self;
+        let device = Device {
+            dictionary: source.dictionary(),
+            values,
+            application: behaviour.as_application(),
+            storage: &mut **storage,
+            profile,
+        };
+        (node, device)
+    }
+}

@@ -1,0 +1,61 @@
+//! The dual LED of the bus cover (manual 000, chapter 7.3).
+
+use od_runtime::Instant;
+use od_runtime::wire::nmt::State;
+
+/// What one die of the LED does.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Led {
+    /// Dark.
+    Off,
+    /// 200 ms on, 200 ms off, as CiA 303-3 blinks.
+    Flashing,
+    /// Steady.
+    On,
+}
+
+impl Led {
+    /// Is it lit at this moment? Every LED of a bench flashes in step, as CiA 303-3 wants.
+    pub const fn lit(self, now: Instant) -> bool {
+        match self {
+            Self::Off => false,
+            Self::On => true,
+            Self::Flashing => (now.as_micros() / 200_000).is_multiple_of(2),
+        }
+    }
+
+    /// `off`, `flashing`, `on`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Flashing => "flashing",
+            Self::On => "on",
+        }
+    }
+
+    /// The one with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Off, Self::Flashing, Self::On]
+            .into_iter()
+            .find(|led| led.name() == name)
+    }
+}
+
+/// The green die shows the NMT state, the red one what is wrong; they are independent
+/// (DECISIONS U-29, C-GX-39).
+pub(super) fn dual(powered: bool, state: State, warning: bool, error: bool) -> (Led, Led) {
+    if !powered {
+        return (Led::Off, Led::Off);
+    }
+    let green = match state {
+        State::Initialising => Led::Off,
+        State::PreOperational => Led::Flashing,
+        State::Operational | State::Stopped => Led::On,
+    };
+    let red = match (error, warning) {
+        (true, _) => Led::On,
+        (false, true) => Led::Flashing,
+        (false, false) => Led::Off,
+    };
+    (green, red)
+}

@@ -1,0 +1,21 @@
+//! The virtual bench: devices in virtual time, their bus, candump text, frames in plain
+//! words, scenario scripts.
+//!
+//! Like the runtime it has no clock, thread, socket or file of its own; what it needs from
+//! outside comes in as an argument. So the same bench runs behind `odkit`, in a test and in
+//! a browser's worker.
+
+pub mod bus;
+pub mod candump;
+mod device;
+pub mod faults;
+mod leds;
+pub mod script;
+pub mod values;
+pub mod words;
+mod world;
+
+pub use bus::Bus;
+pub use device::{EdsOptions, VirtualDevice};
+pub use leds::Led;
+pub use world::ShaftView;

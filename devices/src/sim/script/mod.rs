@@ -1,0 +1,184 @@
+//! The language of `odkit run` and of the conformance tests: frames, the world outside the
+//! bus, and what is expected, one line after the other, in virtual time.
+//!
+//! `od-cli/SCRIPTS.md` describes it for those who write scripts.
+//!
+//! ```
+//! use od_devices::sim::script::{Bare, Script, run};
+//! # let text = "";
+//! let script = Script::parse(text).expect("a script without mistakes");
+//! assert!(run(&script, &mut Bare).is_ok());
+//! ```
+
+mod client;
+mod expect;
+mod parse;
+mod pattern;
+mod run;
+mod statement;
+mod words;
+
+use std::prelude::v1::*;
+use std::{fmt, format};
+
+use od_runtime::{Frame, Instant, NodeId};
+
+pub use pattern::Pattern;
+pub use run::run;
+
+use super::VirtualDevice;
+use statement::{Action, Statement};
+
+/// A script that was read.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Script {
+    statements: Vec<Statement>,
+}
+
+/// A line that says nothing the language knows.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Problem {
+    /// Counted from 1.
+    pub line: u32,
+    /// In characters, counted from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What is allowed.
+    pub help: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}:{}: {}; {}",
+            self.line, self.column, self.message, self.help
+        )
+    }
+}
+
+impl Script {
+    /// Reads a script.
+    ///
+    /// # Errors
+    /// Everything that could not be read, in order.
+    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+        parse::parse(text)
+    }
+
+    /// How many `expect` lines it has, SDO lines with an outcome included.
+    pub fn expectations(&self) -> usize {
+        let expects = |statement: &&Statement| {
+            matches!(
+                statement.action,
+                Action::Expect(_) | Action::Read { .. } | Action::Write { .. }
+            )
+        };
+        self.statements.iter().filter(expects).count()
+    }
+}
+
+/// Who put a frame on the bus.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Origin {
+    /// The script.
+    Script,
+    /// A device, counted from 0 in the order of the `device` lines.
+    Device(usize),
+}
+
+/// What a script needs of the program that runs it.
+pub trait Host {
+    /// Makes the device of a `device` line: the name of a built-in one, or of an EDS file.
+    /// With no name: the one that scripts without a `device` line run on.
+    ///
+    /// # Errors
+    /// Why there is no such device, and what to do.
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String>;
+
+    /// A frame is on the bus.
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let _ = (at, origin, frame);
+    }
+}
+
+/// A host with the built-in devices and nothing else; the default one is the first.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bare;
+
+impl Host for Bare {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let name = name.unwrap_or("gxmm");
+        match crate::find(name) {
+            Some(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
+            None => {
+                let names: Vec<_> = crate::DEVICES.iter().map(|kind| kind.name).collect();
+                Err(format!(
+                    "no device is called `{name}`; there are {}",
+                    names.join(", ")
+                ))
+            }
+        }
+    }
+}
+
+/// A run that came to its end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Summary {
+    /// Expectations that held.
+    pub held: usize,
+    /// Frames that the devices sent.
+    pub frames: u64,
+    /// Virtual time at the end.
+    pub end: Instant,
+}
+
+/// Why a run stopped before its end.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Stop {
+    /// The line, counted from 1.
+    pub line: u32,
+    /// What it says.
+    pub text: String,
+    /// Virtual time.
+    pub at: Instant,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// What stopped a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// An expectation did not hold.
+    Failed {
+        /// What was expected.
+        expected: String,
+        /// What came instead.
+        got: String,
+    },
+    /// The line cannot be carried out: no such device, no such fault, a moment that has passed.
+    Impossible(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "line {} at {:?} s: {}", self.line, self.at, self.text)?;
+        match &self.reason {
+            Reason::Failed { expected, got } => {
+                write!(f, "  expected  {expected}\n  but       {got}")
+            }
+            Reason::Impossible(why) => write!(f, "  {why}"),
+        }
+    }
+}
+
+impl core::error::Error for Stop {}

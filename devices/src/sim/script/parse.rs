@@ -1,0 +1,468 @@
+//! From text to statements. Every line stands for itself, so every mistake is found.
+
+use std::prelude::v1::*;
+use std::{format, vec};
+
+use od_runtime::wire::nmt::Command;
+use od_runtime::{AbortCode, Instant, NodeId};
+
+use super::statement::{Action, Expect, Outcome, Power, Shaft, Statement, Timing, When};
+use super::words::Words;
+use super::{Pattern, Problem, Script};
+use crate::sim::{Led, candump, faults};
+
+/// A log of the wall clock counts from 1970; its first stamp is taken as the origin.
+const WALL_CLOCK: u64 = 100_000_000_000_000;
+
+const STATEMENTS: &str = "a line is a frame (601#4004600000000000), or begins with device, use, \
+                          shaft, power, switch, fault, wait, at, after, send, nmt, sync, sdo, \
+                          ignore, skip or expect";
+
+pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
+    let mut script = Script::default();
+    let mut problems = vec![];
+    let mut origin = None;
+    for (line, text) in (1..).zip(text.lines()) {
+        let words = Words::new(line, text.strip_prefix('\u{feff}').unwrap_or(text));
+        if words.is_empty() {
+            continue;
+        }
+        let shown = words.rest().to_owned();
+        match statement(words, &mut origin) {
+            Ok((when, action)) => {
+                script.statements.push(Statement {
+                    line,
+                    text: shown,
+                    when,
+                    action,
+                });
+            }
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if problems.is_empty() {
+        Ok(script)
+    } else {
+        Err(problems)
+    }
+}
+
+fn statement(mut words: Words<'_>, origin: &mut Option<u64>) -> Result<(When, Action), Problem> {
+    let when = time(&mut words, origin)?;
+    if words.is_empty() && when != When::Next {
+        return Ok((when, Action::Wait));
+    }
+    let start = words;
+    let action = match words.next() {
+        "device" => device(&mut words)?,
+        "use" => Action::Use(label(&mut words)?),
+        "shaft" => shaft(&mut words)?,
+        "power" => power(&mut words)?,
+        "switch" => switch(&mut words)?,
+        "fault" => fault(&mut words)?,
+        "wait" => {
+            let micros = words.duration()?;
+            words.end()?;
+            return match when {
+                When::Next => Ok((When::After(micros), Action::Wait)),
+                _ => Err(start.problem("a time and a wait", "write one of the two")),
+            };
+        }
+        "send" => send(&mut words)?,
+        "nmt" => nmt(&mut words)?,
+        "sync" => sync(&mut words)?,
+        "sdo" => sdo(&mut words)?,
+        "ignore" => ignore(&mut words)?,
+        "skip" => Action::Skip,
+        "expect" => Action::Expect(expect(&mut words)?),
+        word => {
+            let looks_like_a_frame =
+                word.contains('#') || words.peek().contains('#') || words.rest().contains('[');
+            if !looks_like_a_frame {
+                return Err(start.problem(format!("`{word}` begins no statement"), STATEMENTS));
+            }
+            words = start;
+            frame(&mut words)?
+        }
+    };
+    words.end()?;
+    Ok((when, action))
+}
+
+/// `(0.100000)`, `at 1.5s`, `after 100ms`, or nothing.
+fn time(words: &mut Words<'_>, origin: &mut Option<u64>) -> Result<When, Problem> {
+    if words.take("at") {
+        return words
+            .duration()
+            .map(|micros| When::At(Instant::from_micros(micros)));
+    }
+    if words.take("after") {
+        return words.duration().map(When::After);
+    }
+    if !words.peek().starts_with('(') {
+        return Ok(When::Next);
+    }
+    let here = *words;
+    let stamp = words.next();
+    let inner = stamp
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    let Some(micros) = inner.and_then(candump::seconds) else {
+        let message = format!("`{stamp}` is no time stamp");
+        return Err(here.problem(message, "write seconds in parentheses, like (0.100000)"));
+    };
+    let first = *origin.get_or_insert(if micros >= WALL_CLOCK { micros } else { 0 });
+    Ok(When::At(Instant::from_micros(micros.saturating_sub(first))))
+}
+
+/// A line of a log, or a frame as `cansend` takes it, blanks between its bytes allowed.
+fn frame(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    let frame = match words.peek().contains('#') {
+        true => candump::parse_frame(words.rest()),
+        false => candump::parse_line(words.rest()).map(|line| line.frame),
+    };
+    *words = Words::new(0, "");
+    match frame {
+        Ok(frame) => Ok(Action::Send {
+            frame,
+            times: 1,
+            every: 0,
+        }),
+        Err(error) => Err(here.frame_problem(&error)),
+    }
+}
+
+/// `send 080# 3 times every 10ms`.
+fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let (head, times, timing) = repeated(words)?;
+    let every = match timing {
+        Timing::Now => 0,
+        Timing::Every(micros) => micros,
+        _ => return Err(words.problem("a sent frame has no such time", "write `every 10ms`")),
+    };
+    match candump::parse_frame(head.rest()) {
+        Ok(frame) => Ok(Action::Send {
+            frame,
+            times,
+            every,
+        }),
+        Err(error) => Err(head.frame_problem(&error)),
+    }
+}
+
+/// A frame, then `N times`, `within D`, `after D`, `every D`.
+fn repeated<'t>(words: &mut Words<'t>) -> Result<(Words<'t>, u32, Timing), Problem> {
+    let mut head = words.split_at_word(&["times", "within", "after", "every"]);
+    let mut times = 1;
+    if words.take("times") {
+        times = head.split_last().number(1, 1_000_000)? as u32;
+    }
+    let timing = timing(words)?;
+    if times == 1 && words.peek().parse::<u32>().is_ok() {
+        times = words.number(1, 1_000_000)? as u32;
+        if !words.take("times") {
+            return Err(words.problem("`times` is missing", "write `5 times`"));
+        }
+    }
+    Ok((head, times, timing))
+}
+
+fn timing(words: &mut Words<'_>) -> Result<Timing, Problem> {
+    if words.take("within") {
+        return words.duration().map(Timing::Within);
+    }
+    if words.take("after") {
+        return words.duration().map(Timing::After);
+    }
+    if words.take("every") {
+        return words.duration().map(Timing::Every);
+    }
+    Ok(Timing::Now)
+}
+
+fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
+    const HELP: &str = "write `device gxmm`, `device gxmm node 5 as left`, or a file name";
+    let head = words.split_at_word(&["node", "as", "off"]);
+    let name = head.rest().trim_matches('"').to_owned();
+    if name.is_empty() {
+        return Err(words.problem("a device name is missing", HELP));
+    }
+    let (mut node, mut name_of, mut powered) = (None, None, true);
+    while !words.is_empty() {
+        if words.take("node") {
+            node = NodeId::new(words.number(1, 127)? as u8);
+        } else if words.take("as") {
+            name_of = Some(label(words)?);
+        } else if words.take("off") {
+            powered = false;
+        } else {
+            return Err(words.problem(format!("`{}` is unknown", words.peek()), HELP));
+        }
+    }
+    Ok(Action::Device {
+        name,
+        node,
+        label: name_of,
+        powered,
+    })
+}
+
+fn label(words: &mut Words<'_>) -> Result<String, Problem> {
+    match words.next() {
+        "" => Err(words.problem(
+            "a name is missing",
+            "name the device of a `device … as name` line",
+        )),
+        label => Ok(label.to_owned()),
+    }
+}
+
+fn shaft(words: &mut Words<'_>) -> Result<Action, Problem> {
+    const HELP: &str = "write `shaft at 0x79592` (raw steps), `shaft turn 2.5` or `shaft rpm 60`";
+    let what = words.next();
+    let here = *words;
+    if what == "at" {
+        return words
+            .number(0, u64::MAX)
+            .map(|raw| Action::Shaft(Shaft::At(raw)));
+    }
+    let number = words
+        .next()
+        .parse::<f64>()
+        .ok()
+        .filter(|value| value.abs() <= 1e6);
+    match (what, number) {
+        ("turn", Some(turns)) => Ok(Action::Shaft(Shaft::Turn(turns))),
+        ("rpm", Some(rpm)) => Ok(Action::Shaft(Shaft::Rpm(rpm))),
+        ("turn" | "rpm", None) => Err(here.problem("a number is missing", HELP)),
+        _ => Err(here.problem(format!("a shaft cannot `{what}`"), HELP)),
+    }
+}
+
+fn power(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    Ok(Action::Power(match words.next() {
+        "on" => Power::On,
+        "off" => Power::Off,
+        "cycle" if words.is_empty() => Power::Cycle(0),
+        "cycle" => Power::Cycle(words.duration()?),
+        word => {
+            let message = format!("power cannot be `{word}`");
+            return Err(here.problem(message, "write `power on`, `power off` or `power cycle 2s`"));
+        }
+    }))
+}
+
+fn switch(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    match words.next() {
+        "node" => words
+            .number(0, 99)
+            .map(|number| Action::SwitchNode(number as u8)),
+        "bitrate" => words
+            .number(0, 7)
+            .map(|number| Action::SwitchBitrate(number as u8)),
+        word => Err(here.problem(
+            format!("there is no switch `{word}`"),
+            "write `switch node 12` (rotary, 0: EEPROM) or `switch bitrate 5` (DIP, 0 to 7)",
+        )),
+    }
+}
+
+fn fault(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    let name = words.next();
+    if !faults::NAMES.contains(&name) {
+        let help = format!("there are {}", faults::NAMES.join(", "));
+        return Err(here.problem(format!("there is no fault `{name}`"), help));
+    }
+    let on = match words.next() {
+        "on" => true,
+        "off" => false,
+        _ => return Err(words.problem("`on` or `off` is missing", "write `fault battery-low on`")),
+    };
+    Ok(Action::Fault {
+        name: name.to_owned(),
+        on,
+    })
+}
+
+fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    let command = match words.next() {
+        "start" => Command::Start,
+        "stop" => Command::Stop,
+        "preop" => Command::EnterPreOperational,
+        "reset" => Command::ResetNode,
+        "reset-comm" => Command::ResetCommunication,
+        word => {
+            let message = format!("there is no NMT command `{word}`");
+            return Err(here.problem(message, "there are start, stop, preop, reset, reset-comm"));
+        }
+    };
+    let node = match words.is_empty() {
+        true => None,
+        false if words.take("all") => Some(0),
+        false => Some(words.number(0, 127)? as u8),
+    };
+    Ok(Action::Nmt { command, node })
+}
+
+fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let mut data = vec![];
+    let (mut times, mut every) = (1, 0);
+    if words.take("counter") {
+        data.push(words.number(1, 240)? as u8);
+    }
+    if words.peek().parse::<u32>().is_ok() {
+        times = words.number(1, 1_000_000)? as u32;
+        if !words.take("times") {
+            return Err(words.problem("`times` is missing", "write `sync 15 times every 10ms`"));
+        }
+    }
+    if words.take("every") {
+        every = words.duration()?;
+    }
+    let frame = od_runtime::Frame::standard(0x80, &data);
+    Ok(Action::Send {
+        frame,
+        times,
+        every,
+    })
+}
+
+fn ignore(words: &mut Words<'_>) -> Result<Action, Problem> {
+    if words.take("nothing") {
+        return Ok(Action::IgnoreNothing);
+    }
+    let head = words.split_at_word(&[]);
+    match Pattern::parse(head.rest()) {
+        Ok(pattern) => Ok(Action::Ignore(pattern)),
+        Err(error) => Err(head.frame_problem(&error)),
+    }
+}
+
+/// `sdo read 6004h = 5`, `sdo write 6001h = 4096 as u32 aborts 06090031h`.
+fn sdo(words: &mut Words<'_>) -> Result<Action, Problem> {
+    const HELP: &str = "write `sdo read 6004h`, `sdo read 6004h = 5`, `sdo write 6001h = 4096`, \
+                        each with ` aborts 06090031h` at the end if it has to fail";
+    let here = *words;
+    let kind = words.next();
+    let mut body = words.split_at_word(&["aborts"]);
+    let aborts = if words.take("aborts") {
+        Some(abort(words)?)
+    } else {
+        None
+    };
+    let object = match body.split_at_equals() {
+        Some(head) => (head.rest().to_owned(), true),
+        None => (body.rest().to_owned(), false),
+    };
+    if object.0.is_empty() {
+        return Err(here.problem("an object is missing", HELP));
+    }
+    match (kind, object, aborts) {
+        ("read", (object, false), None) => Ok(Action::Read {
+            object,
+            outcome: Outcome::Done,
+        }),
+        ("read", (object, false), Some(code)) => Ok(Action::Read {
+            object,
+            outcome: Outcome::Aborts(code),
+        }),
+        ("read", (object, true), None) if !body.is_empty() => Ok(Action::Read {
+            object,
+            outcome: Outcome::Value(body.rest().to_owned()),
+        }),
+        ("write", (object, true), aborts) => {
+            let value = body.split_at_word(&["as"]);
+            if value.is_empty() {
+                return Err(body.problem("a value is missing", HELP));
+            }
+            let type_name = body.take("as").then(|| body.next().to_owned());
+            body.end()?;
+            let outcome = aborts.map_or(Outcome::Done, Outcome::Aborts);
+            Ok(Action::Write {
+                object,
+                value: value.rest().to_owned(),
+                type_name,
+                outcome,
+            })
+        }
+        _ => Err(here.problem("this is no SDO line", HELP)),
+    }
+}
+
+fn abort(words: &mut Words<'_>) -> Result<AbortCode, Problem> {
+    let here = *words;
+    let word = words.next();
+    let digits = word
+        .strip_suffix(['h', 'H'])
+        .unwrap_or(word)
+        .replace('_', "");
+    let code = u32::from_str_radix(digits.trim_start_matches("0x"), 16).ok();
+    code.and_then(AbortCode::from_code).ok_or_else(|| {
+        here.problem(
+            format!("`{word}` is no abort code"),
+            "write eight hex digits, like 06090031h",
+        )
+    })
+}
+
+fn expect(words: &mut Words<'_>) -> Result<Expect, Problem> {
+    let start = *words;
+    match words.next() {
+        "silence" => words.duration().map(Expect::Silence),
+        "state" => match words.next() {
+            name @ ("operational" | "pre-operational" | "stopped" | "initialising" | "off") => {
+                Ok(Expect::State(name.to_owned()))
+            }
+            word => Err(start.problem(
+                format!("there is no state `{word}`"),
+                "there are operational, pre-operational, stopped, initialising, off",
+            )),
+        },
+        "value" => {
+            let object = words.split_at_equals();
+            let value = words.split_at_word(&[]);
+            match object {
+                Some(object) if !object.is_empty() && !value.is_empty() => Ok(Expect::Value {
+                    object: object.rest().to_owned(),
+                    value: value.rest().to_owned(),
+                }),
+                _ => Err(start.problem("a value line has a `=`", "write `expect value 6004h = 5`")),
+            }
+        }
+        "led" => {
+            let green = match words.next() {
+                "green" => true,
+                "red" => false,
+                _ => return Err(start.problem("which LED", "write `expect led green flashing`")),
+            };
+            match Led::from_name(words.next()) {
+                Some(led) => Ok(Expect::Led { green, led }),
+                None => Err(start.problem("what LED does", "there are off, flashing, on")),
+            }
+        }
+        "abort" => {
+            let code = abort(words)?;
+            Ok(Expect::Abort {
+                code,
+                timing: timing(words)?,
+            })
+        }
+        _ => {
+            *words = start;
+            let (head, times, timing) = repeated(words)?;
+            match Pattern::parse(head.rest()) {
+                Ok(pattern) => Ok(Expect::Frame {
+                    pattern,
+                    times,
+                    timing,
+                }),
+                Err(error) => Err(head.frame_problem(&error)),
+            }
+        }
+    }
+}

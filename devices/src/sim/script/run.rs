@@ -1,0 +1,269 @@
+//! From statements to frames.
+
+use std::collections::VecDeque;
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::wire::nmt;
+use od_runtime::{Frame, Instant, NodeId};
+
+use super::statement::{Action, Power, Shaft, Statement, When};
+use super::{Host, Origin, Pattern, Reason, Script, Stop, Summary};
+use crate::sim::bus::{Bus, Sent};
+use crate::sim::{VirtualDevice, values};
+
+/// What stops a line.
+pub(super) type Result<T> = core::result::Result<T, Reason>;
+
+pub(super) fn impossible<T>(why: impl Into<String>) -> Result<T> {
+    Err(Reason::Impossible(why.into()))
+}
+
+pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> Result<T> {
+    Err(Reason::Failed {
+        expected: expected.into(),
+        got: got.into(),
+    })
+}
+
+/// The bench while a script runs.
+pub(super) struct Runner<'h> {
+    host: &'h mut dyn Host,
+    pub(super) bus: Bus,
+    labels: Vec<Option<String>>,
+    current: usize,
+    /// Frames that the devices sent and no line has expected yet.
+    pub(super) pending: VecDeque<Sent>,
+    ignored: Vec<Pattern>,
+    pub(super) held: usize,
+    frames: u64,
+}
+
+/// Runs a script from its first line to its last, or to the first that does not hold.
+///
+/// # Errors
+/// [`Stop`] says which line, and why.
+pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary, Box<Stop>> {
+    let mut runner = Runner {
+        host,
+        bus: Bus::new(),
+        labels: Vec::new(),
+        current: 0,
+        pending: VecDeque::new(),
+        ignored: Vec::new(),
+        held: 0,
+        frames: 0,
+    };
+    for statement in &script.statements {
+        if let Err(reason) = runner.statement(statement) {
+            return Err(Box::new(Stop {
+                line: statement.line,
+                text: statement.text.clone(),
+                at: runner.bus.now(),
+                reason,
+            }));
+        }
+    }
+    Ok(Summary {
+        held: runner.held,
+        frames: runner.frames,
+        end: runner.bus.now(),
+    })
+}
+
+impl Runner<'_> {
+    fn statement(&mut self, statement: &Statement) -> Result<()> {
+        let now = self.bus.now();
+        let names_device = matches!(statement.action, Action::Device { .. });
+        if self.labels.is_empty() && !names_device {
+            self.add(None, None, None, true)?;
+        }
+        match statement.when {
+            When::Next => {}
+            When::At(at) if at < now => {
+                return impossible(format!("it is {now:?} s already; time runs forward only"));
+            }
+            When::At(at) => self.advance(at),
+            When::After(micros) => self.advance(now.plus_micros(micros)),
+        }
+        self.act(&statement.action)
+    }
+
+    fn act(&mut self, action: &Action) -> Result<()> {
+        match action {
+            Action::Device {
+                name,
+                node,
+                label,
+                powered,
+            } => {
+                self.add(Some(name), *node, label.clone(), *powered)?;
+            }
+            Action::Use(label) => {
+                match self.labels.iter().position(|l| l.as_ref() == Some(label)) {
+                    Some(device) => self.current = device,
+                    None => {
+                        return impossible(format!("no `device … as {label}` line stands above"));
+                    }
+                }
+            }
+            Action::Send {
+                frame,
+                times,
+                every,
+            } => {
+                for turn in 0..*times {
+                    if turn > 0 {
+                        self.advance(self.bus.now().plus_micros(*every));
+                    }
+                    self.send(frame);
+                }
+            }
+            Action::Shaft(shaft) => self.shaft(*shaft)?,
+            Action::Power(power) => self.power(*power),
+            Action::SwitchNode(number) => {
+                self.with(|device, now| device.set_node_switch(*number, now))
+            }
+            Action::SwitchBitrate(number) => {
+                self.with(|device, now| device.set_bitrate_switch(*number, now));
+            }
+            Action::Fault { name, on } => {
+                if !self.with(|device, now| device.set_fault(name, *on, now)) {
+                    return impossible(format!("this device has no fault `{name}`"));
+                }
+            }
+            Action::Wait => {}
+            Action::Nmt { command, node } => {
+                let node = node.unwrap_or_else(|| self.device().node_id().raw());
+                let repr = nmt::Repr {
+                    command: *command,
+                    node,
+                };
+                self.send(&Frame::standard(0, &repr.emit()));
+            }
+            Action::Read { object, outcome } => self.read(object, outcome)?,
+            Action::Write {
+                object,
+                value,
+                type_name,
+                outcome,
+            } => {
+                self.write(object, value, type_name.as_deref(), outcome)?;
+            }
+            Action::Ignore(pattern) => {
+                self.pending.retain(|sent| !pattern.matches(&sent.frame));
+                self.ignored.push(pattern.clone());
+            }
+            Action::IgnoreNothing => self.ignored.clear(),
+            Action::Skip => self.pending.clear(),
+            Action::Expect(expect) => self.expect(expect)?,
+        }
+        Ok(())
+    }
+
+    fn add(
+        &mut self,
+        name: Option<&str>,
+        node: Option<NodeId>,
+        label: Option<String>,
+        powered: bool,
+    ) -> Result<()> {
+        let device = self.host.device(name, node).or_else(impossible)?;
+        self.current = self.bus.add(device);
+        self.labels.push(label);
+        if powered {
+            self.power(Power::On);
+        }
+        Ok(())
+    }
+
+    /// The device that lines of the world outside are about.
+    pub(super) fn device(&self) -> &VirtualDevice {
+        // `statement` adds a device before anything asks for one.
+        &self.bus.devices()[self.current]
+    }
+
+    fn with<R>(&mut self, act: impl FnOnce(&mut VirtualDevice, Instant) -> R) -> R {
+        // As above: there is a current device.
+        let result = self
+            .bus
+            .with(self.current, act)
+            .expect("a device was added first");
+        self.collect();
+        result
+    }
+
+    /// Puts a frame on the bus.
+    pub(super) fn send(&mut self, frame: &Frame) {
+        self.host.frame(self.bus.now(), Origin::Script, frame);
+        self.bus.receive(frame);
+        self.collect();
+    }
+
+    /// Lets time pass.
+    pub(super) fn advance(&mut self, to: Instant) {
+        while self.bus.advance_until_sent(to) {
+            self.collect();
+        }
+    }
+
+    /// Lets time pass until a frame comes that is not ignored, or until `to`.
+    pub(super) fn advance_until_pending(&mut self, to: Instant) {
+        while self.pending.is_empty() && self.bus.advance_until_sent(to) {
+            self.collect();
+        }
+    }
+
+    fn collect(&mut self) {
+        while let Some(sent) = self.bus.poll() {
+            self.frames += 1;
+            self.host
+                .frame(sent.at, Origin::Device(sent.device), &sent.frame);
+            if !self
+                .ignored
+                .iter()
+                .any(|pattern| pattern.matches(&sent.frame))
+            {
+                self.pending.push_back(sent);
+            }
+        }
+    }
+
+    fn shaft(&mut self, shaft: Shaft) -> Result<()> {
+        let turned = self.with(|device, now| match shaft {
+            Shaft::At(raw) => device.set_position(raw, now),
+            Shaft::Turn(turns) => device.turn(turns, now),
+            Shaft::Rpm(rpm) => device.set_rpm(rpm, now),
+        });
+        if turned {
+            Ok(())
+        } else {
+            impossible("this device has no shaft")
+        }
+    }
+
+    fn power(&mut self, power: Power) {
+        match power {
+            Power::On => self.with(|device, now| device.power_on(now)),
+            Power::Off => self.with(|device, now| device.power_off(now)),
+            Power::Cycle(micros) => {
+                self.with(|device, now| device.power_off(now));
+                self.advance(self.bus.now().plus_micros(micros));
+                self.with(|device, now| device.power_on(now));
+            }
+        }
+    }
+
+    /// A value as the current device has it now, in words and bytes.
+    pub(super) fn value(&mut self, object: &str) -> Result<(od_model::DataType, Vec<u8>)> {
+        let found = values::find(self.device().dictionary(), object);
+        let (address, data_type) = match found {
+            Ok(entry) => (entry.address, entry.data_type),
+            Err(why) => return impossible(why),
+        };
+        Ok((
+            data_type,
+            self.with(|device, now| device.read(address, now)),
+        ))
+    }
+}

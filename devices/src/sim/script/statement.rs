@@ -1,0 +1,138 @@
+//! What the lines of a script say.
+
+use std::prelude::v1::*;
+
+use od_runtime::wire::nmt::Command;
+use od_runtime::{AbortCode, Frame, Instant, NodeId};
+
+use super::Pattern;
+use crate::sim::Led;
+
+/// When a line acts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum When {
+    /// When the line before it is done.
+    Next,
+    /// At a moment.
+    At(Instant),
+    /// So many microseconds after the line before it.
+    After(u64),
+}
+
+/// Which direction and how far.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Shaft {
+    /// To a raw position.
+    At(u64),
+    /// By turns, backwards if negative.
+    Turn(f64),
+    /// Turns from now on, revolutions a minute.
+    Rpm(f64),
+}
+
+/// What happens to the supply.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Power {
+    On,
+    Off,
+    /// Off for so many microseconds, then on.
+    Cycle(u64),
+}
+
+/// When an expected frame has to come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Timing {
+    /// It is there already.
+    Now,
+    /// Within so many microseconds.
+    Within(u64),
+    /// After exactly so many microseconds.
+    After(u64),
+    /// Each after exactly so many microseconds from the one before.
+    Every(u64),
+}
+
+/// What has to hold.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Expect {
+    Frame {
+        pattern: Pattern,
+        times: u32,
+        timing: Timing,
+    },
+    Abort {
+        code: AbortCode,
+        timing: Timing,
+    },
+    Silence(u64),
+    State(String),
+    Value {
+        object: String,
+        value: String,
+    },
+    Led {
+        green: bool,
+        led: Led,
+    },
+}
+
+/// How an SDO transfer has to end.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Outcome {
+    Done,
+    Value(String),
+    Aborts(AbortCode),
+}
+
+/// What a line does.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Action {
+    Device {
+        name: String,
+        node: Option<NodeId>,
+        label: Option<String>,
+        powered: bool,
+    },
+    Use(String),
+    Send {
+        frame: Frame,
+        times: u32,
+        every: u64,
+    },
+    Shaft(Shaft),
+    Power(Power),
+    SwitchNode(u8),
+    SwitchBitrate(u8),
+    Fault {
+        name: String,
+        on: bool,
+    },
+    Wait,
+    Nmt {
+        command: Command,
+        node: Option<u8>,
+    },
+    Read {
+        object: String,
+        outcome: Outcome,
+    },
+    Write {
+        object: String,
+        value: String,
+        type_name: Option<String>,
+        outcome: Outcome,
+    },
+    Ignore(Pattern),
+    IgnoreNothing,
+    Skip,
+    Expect(Expect),
+}
+
+/// One line with its place in the text.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Statement {
+    pub(super) line: u32,
+    pub(super) text: String,
+    pub(super) when: When,
+    pub(super) action: Action,
+}

@@ -1,0 +1,148 @@
+//! The world around a device: its shaft, its switches, what breaks.
+
+use od_runtime::Instant;
+use od_runtime::encoder::{Angle, Encoder};
+
+use super::device::{Behaviour, VirtualDevice};
+use super::faults;
+
+/// 2³², the fractions of a revolution.
+const REVOLUTION: f64 = 4_294_967_296.0;
+
+/// Where a shaft is and how fast it turns.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ShaftView {
+    /// Revolutions from the sensor's zero point.
+    pub turns: f64,
+    /// Revolutions a minute, positive clockwise.
+    pub rpm: f64,
+    /// The sensor's position in steps.
+    pub raw: u64,
+}
+
+impl VirtualDevice {
+    fn encoder(&mut self) -> Option<&mut Encoder> {
+        match &mut self.behaviour {
+            Behaviour::Encoder(encoder) => Some(encoder),
+            Behaviour::Nothing(_) => None,
+        }
+    }
+
+    /// Changes something outside, and lets the device notice. Answers whether there is an
+    /// encoder at all.
+    fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder)) -> bool {
+        let Some(encoder) = self.encoder() else {
+            return false;
+        };
+        act(encoder);
+        self.noticed(now);
+        true
+    }
+
+    /// Where the shaft is, if the device has one.
+    pub fn shaft(&self, now: Instant) -> Option<ShaftView> {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return None;
+        };
+        Some(ShaftView {
+            turns: encoder.angle(now).fractions() as f64 / REVOLUTION,
+            rpm: f64::from(encoder.shaft.milli_rpm()) / 1000.0,
+            raw: encoder.raw_position(now),
+        })
+    }
+
+    /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether
+    /// there is a shaft, as the next three do.
+    pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
+        self.change(now, |encoder| encoder.set_raw_position(now, raw))
+    }
+
+    /// Turns the shaft by so many revolutions; its speed stays.
+    pub fn turn(&mut self, turns: f64, now: Instant) -> bool {
+        let by = Angle::from_fractions((turns * REVOLUTION) as i64);
+        self.change(now, |encoder| encoder.shaft.turn(now, by))
+    }
+
+    /// Turns the shaft to so many revolutions from the sensor's zero point; its speed stays.
+    pub fn turn_to(&mut self, turns: f64, now: Instant) -> bool {
+        let to = Angle::from_fractions((turns * REVOLUTION) as i64);
+        self.change(now, |encoder| {
+            let by = to.minus(encoder.angle(now));
+            encoder.shaft.turn(now, by);
+        })
+    }
+
+    /// Lets the shaft turn with this speed from now on; positive is clockwise.
+    pub fn set_rpm(&mut self, rpm: f64, now: Instant) -> bool {
+        // `as` keeps what is too fast in the range, and makes 0 of what is no number.
+        self.change(now, |encoder| {
+            encoder.shaft.set_milli_rpm(now, (rpm * 1000.0) as i32)
+        })
+    }
+
+    /// Sets the rotary switches of the node ID, 0–99; 0 leaves it to the EEPROM. They are
+    /// read at the next start.
+    pub fn set_node_switch(&mut self, number: u8, now: Instant) {
+        self.change(now, |encoder| {
+            let mut switches = encoder.switches();
+            switches.node_id = number.min(99);
+            encoder.set_switches(switches);
+        });
+    }
+
+    /// Sets the DIP switches of the bit rate, 0–7. They are read at the next start, and only
+    /// where the rotary switches are not 0.
+    pub fn set_bitrate_switch(&mut self, number: u8, now: Instant) {
+        self.change(now, |encoder| {
+            let mut switches = encoder.switches();
+            switches.bit_rate = number & 7;
+            encoder.set_switches(switches);
+        });
+    }
+
+    /// The switches: node ID and bit rate.
+    pub fn switches(&self) -> (u8, u8) {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                (encoder.switches().node_id, encoder.switches().bit_rate)
+            }
+            Behaviour::Nothing(_) => (0, 0),
+        }
+    }
+
+    /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether there is
+    /// such a fault.
+    pub fn set_fault(&mut self, name: &str, broken: bool, now: Instant) -> bool {
+        match faults::from_name(name) {
+            Some(fault) => self.change(now, |encoder| encoder.set_fault(fault, broken)),
+            None => false,
+        }
+    }
+
+    /// Is this broken?
+    pub fn is_broken(&self, name: &str) -> bool {
+        match (&self.behaviour, faults::from_name(name)) {
+            (Behaviour::Encoder(encoder), Some(fault)) => encoder.is_broken(fault),
+            _ => false,
+        }
+    }
+
+    /// The bit rate since the last start in kbit/s, where the device has one of its own.
+    pub fn bit_rate(&self) -> Option<u16> {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => encoder.bit_rate(),
+            Behaviour::Nothing(_) => None,
+        }
+    }
+
+    /// While a shaft turns, a device whose PDOs follow their values looks at it every
+    /// millisecond.
+    pub(super) fn watches_shaft(&self) -> bool {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                encoder.shaft.milli_rpm() != 0 && self.profile.pdo.event_on_change
+            }
+            Behaviour::Nothing(_) => false,
+        }
+    }
+}
