@@ -131,6 +131,12 @@ pub trait Application {
         let _ = (cx, address);
     }
 
+    /// Bytes 3–7 of an EMCY frame that a service sends of its own accord.
+    fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
+        let _ = store;
+        [0; 5]
+    }
+
     /// The moment that the last call asked for has come, or the world outside changed.
     /// Answers with the next moment, if there is one.
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {

@@ -71,6 +71,9 @@ pub struct Profile {
     pub pdo: PdoProfile,
     /// Store and restore.
     pub store: StoreProfile,
+    /// Object and bits that switch from heartbeat to node guarding; `None`: CiA 301, where
+    /// 1017h decides.
+    pub guarding_switch: Option<(u16, u32)>,
     /// Duration of NMT reset node until boot-up, in microseconds.
     pub reset_node_us: u32,
     /// Duration of NMT reset communication until boot-up, in microseconds.
@@ -101,6 +104,7 @@ impl Profile {
             restore: Restore::AfterReset,
             failed: AbortCode::Hardware,
         },
+        guarding_switch: None,
         reset_node_us: 0,
         reset_communication_us: 0,
     };

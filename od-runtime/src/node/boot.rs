@@ -51,6 +51,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.sdo.reset();
         self.stop_pdos();
         self.heartbeat.stop();
+        self.monitor.reset();
+        self.reset_due = false;
         self.tick_at = None;
         self.state = State::Initialising;
         if reset != Reset::Communication {
@@ -108,7 +110,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.out.push(Frame::new(self.node_id.plus(0x700), &[0]));
         self.state = State::PreOperational;
         self.events.push(Event::State(self.state));
-        self.heartbeat.configure(&objects.store, now);
+        self.heartbeat
+            .configure(&objects.store, objects.profile, now);
+        self.monitor.configure(&objects.store, objects.profile);
         self.tick_at = objects.application(|application, context| application.tick(context));
         self.finish(&mut objects);
     }

@@ -4,7 +4,7 @@ use super::{Core, Event};
 use crate::objects::{Device, Effect, Objects, Outbox};
 use crate::pdo::Received;
 use crate::wire::nmt::{self, Command, State};
-use crate::{Error, ErrorChange, Frame, Instant, Reset, emcy};
+use crate::{Error, ErrorChange, Frame, Instant, Reset, emcy, error_control};
 
 /// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 const PDO_LENGTH: u16 = 0x8210;
@@ -29,13 +29,17 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             }
             return;
         }
-        if self.state == State::Stopped {
+        let is_error_control = id.raw() & 0x780 == 0x700 && !id.is_extended();
+        if self.state == State::Stopped && !is_error_control {
             return;
         }
         let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
             return;
         };
-        if frame.is_remote() {
+        if is_error_control {
+            self.handle_error_control(frame, now);
+            self.poll_monitor(&mut objects);
+        } else if frame.is_remote() {
             self.handle_remote(&mut objects, frame);
         } else if id == self.node_id.plus(0x600) {
             if let Some(answer) = self.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
@@ -51,6 +55,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             return;
         }
         self.finish(&mut objects);
+        self.reset_if_due(device, outbox, now);
     }
 
     #[inline]
@@ -77,6 +82,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
             return;
         };
+        self.monitor.handle_timeout(now);
+        self.poll_monitor(&mut objects);
         if self.tick_at.is_some_and(|at| at <= now) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
@@ -87,6 +94,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             }
         }
         self.finish(&mut objects);
+        self.reset_if_due(device, outbox, now);
     }
 
     pub(super) fn handle_change(
@@ -137,6 +145,29 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         };
         if let Some(mut objects) = device.objects(self.node_id, now, outbox) {
             self.enter(&mut objects, state);
+            if state == State::Operational && self.monitor.is_lost() {
+                self.react(&mut objects);
+            }
+        }
+    }
+
+    /// 701h–77Fh: a master guards this node, or another node is alive.
+    fn handle_error_control(&mut self, frame: &Frame, now: Instant) {
+        let node = (frame.id().raw() & 0x7F) as u8;
+        if !frame.is_remote() {
+            self.monitor.heartbeat(node, now);
+        } else if node == self.node_id.raw() {
+            if let Some(answer) = self.monitor.guard(self.state, now) {
+                self.out.push(Frame::new(frame.id(), &[answer]));
+            }
+        }
+    }
+
+    /// The error behaviour asked for NMT reset node.
+    #[inline]
+    fn reset_if_due(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) {
+        if self.reset_due {
+            self.reset(device, outbox, now, Reset::Node);
         }
     }
 
@@ -222,10 +253,12 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         let mut communication =
             core::mem::take(&mut objects.outbox.signals.reconfigure) || overflow;
         let mut heartbeat = overflow;
+        let mut monitor = overflow;
         while let Some(effect) = objects.outbox.effects.pop() {
             self.events.push(match effect {
                 Effect::Written(address) => {
-                    heartbeat |= address.index == 0x1017;
+                    heartbeat |= address.index == 0x1017 || switches(objects, address.index);
+                    monitor |= error_control::is_configuration(address.index, objects.profile);
                     communication |= is_configuration(objects, address.index);
                     Event::Written(address)
                 }
@@ -234,17 +267,31 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                     let at_once = objects.profile.store.restore == crate::Restore::AtOnce;
                     communication |= at_once;
                     heartbeat |= at_once;
+                    monitor |= at_once;
                     Event::Restored(sub)
                 }
             });
         }
         if heartbeat {
-            self.heartbeat.configure(&objects.store, objects.now);
+            self.heartbeat
+                .configure(&objects.store, objects.profile, objects.now);
+        }
+        if monitor {
+            self.monitor.configure(&objects.store, objects.profile);
+            self.poll_monitor(objects);
         }
         if communication {
             self.configure(objects);
         }
     }
+}
+
+/// Is it the object that switches from heartbeat to guarding?
+fn switches(objects: &Objects<'_>, index: u16) -> bool {
+    objects
+        .profile
+        .guarding_switch
+        .is_some_and(|(switch, _)| switch == index)
 }
 
 /// Is it an object that SYNC or a PDO takes its configuration from?

@@ -9,13 +9,14 @@
 //! frame. Everything is a function of the inputs and their order; nothing else.
 
 mod boot;
+mod errors;
 mod event;
 mod input;
 
 use crate::fifo::Fifo;
 use crate::objects::{Device, Objects, Outbox};
 use crate::wire::nmt::State;
-use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, heartbeat, pdo, sdo};
+use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, error_control, pdo, sdo};
 
 pub use event::Event;
 
@@ -45,7 +46,10 @@ struct Core<const PDO: usize, const SDO: usize> {
     out: Fifo<Frame, 8>,
     events: Fifo<Event, 16>,
     sdo: sdo::Server<SDO>,
-    heartbeat: heartbeat::Producer,
+    heartbeat: error_control::Producer,
+    monitor: error_control::Monitor,
+    /// The error behaviour wants a reset when the call is over.
+    reset_due: bool,
     emcy: emcy::Producer,
     tpdo: [pdo::Tpdo; PDO],
     tpdo_count: usize,
@@ -144,7 +148,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             out: Fifo::new(Frame::remote(CanId::standard(0), 0)),
             events: Fifo::new(Event::StorageDamaged),
             sdo: sdo::Server::new(),
-            heartbeat: heartbeat::Producer::new(),
+            heartbeat: error_control::Producer::new(),
+            monitor: error_control::Monitor::new(),
+            reset_due: false,
             emcy: emcy::Producer::new(),
             tpdo: [pdo::Tpdo::NONE; PDO],
             tpdo_count: 0,
@@ -221,6 +227,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         consider(self.boot_at);
         consider(self.tick_at);
         consider(self.heartbeat.deadline());
+        consider(self.monitor.deadline());
         consider(self.sdo.deadline());
         if self.state != State::Stopped {
             consider(self.emcy.deadline());

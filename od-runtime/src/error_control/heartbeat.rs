@@ -1,6 +1,6 @@
 //! Heartbeat producer (CiA 301, chapter 7.2.8.2.2, object 1017h).
 
-use crate::{Instant, Store};
+use crate::{Instant, Profile, Store};
 
 /// When the next heartbeat is due.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +18,13 @@ impl Producer {
     }
 
     /// 1017h was written, or the device boots: the first heartbeat is one period from now.
-    pub(crate) fn configure(&mut self, store: &Store<'_>, now: Instant) {
-        self.period_us = store.unsigned(0x1017, 0) * 1000;
+    pub(crate) fn configure(&mut self, store: &Store<'_>, profile: &Profile, now: Instant) {
+        let guards = super::guards(store, profile);
+        self.period_us = if guards {
+            0
+        } else {
+            store.unsigned(0x1017, 0) * 1000
+        };
         self.next = (self.period_us > 0).then(|| now.plus_micros(self.period_us));
     }
 

@@ -1,0 +1,98 @@
+//! Heartbeat consumer (CiA 301, chapter 7.2.8.2.2; object 1016h).
+
+use crate::{Instant, NodeId, Store};
+
+/// How many nodes can be watched; entries of 1016h past that are not.
+const WATCHED: usize = 8;
+
+/// One entry of 1016h. Watching begins with the first heartbeat that is heard.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Watch {
+    node: u8,
+    period_us: u64,
+    deadline: Option<Instant>,
+    lost: bool,
+}
+
+const NOBODY: Watch = Watch {
+    node: 0,
+    period_us: 0,
+    deadline: None,
+    lost: false,
+};
+
+/// The nodes that are watched.
+#[derive(Debug)]
+pub(super) struct Consumer {
+    watches: [Watch; WATCHED],
+    count: usize,
+}
+
+impl Consumer {
+    pub(super) const fn new() -> Self {
+        Self {
+            watches: [NOBODY; WATCHED],
+            count: 0,
+        }
+    }
+
+    /// Reads 1016h: bits 0–15 the time in ms, bits 16–23 the node ID. An entry that did
+    /// not change goes on.
+    pub(super) fn configure(&mut self, store: &Store<'_>) {
+        self.count = 0;
+        for (sub, watch) in (1..).zip(&mut self.watches) {
+            let Some(raw) = store.try_unsigned(0x1016, sub) else {
+                break;
+            };
+            let (node, period_us) = ((raw >> 16) as u8, (raw & 0xFFFF) * 1000);
+            let active = period_us > 0 && NodeId::new(node).is_some();
+            let (node, period_us) = if active { (node, period_us) } else { (0, 0) };
+            if (node, period_us) != (watch.node, watch.period_us) {
+                *watch = Watch {
+                    node,
+                    period_us,
+                    ..NOBODY
+                };
+            }
+            self.count += 1;
+        }
+    }
+
+    fn watches(&mut self) -> impl Iterator<Item = &mut Watch> {
+        self.watches
+            .iter_mut()
+            .take(self.count)
+            .filter(|watch| watch.period_us > 0)
+    }
+
+    pub(super) fn heartbeat(&mut self, node: u8, now: Instant) {
+        for watch in self.watches().filter(|watch| watch.node == node) {
+            watch.lost = false;
+            watch.deadline = Some(now.plus_micros(watch.period_us));
+        }
+    }
+
+    #[inline]
+    pub(super) fn handle_timeout(&mut self, now: Instant) {
+        for watch in self.watches() {
+            if watch.deadline.is_some_and(|at| at <= now) {
+                watch.deadline = None;
+                watch.lost = true;
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn is_lost(&self) -> bool {
+        self.watches.iter().take(self.count).any(|watch| watch.lost)
+    }
+
+    #[inline]
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.watches
+            .iter()
+            .take(self.count)
+            .filter_map(|watch| watch.deadline)
+            .min()
+    }
+}

@@ -1,0 +1,67 @@
+//! Node and life guarding (CiA 301, chapter 7.2.8.2.1; objects 100Ch and 100Dh).
+
+use crate::wire::nmt::State;
+use crate::{Instant, Store};
+
+/// The slave's side: a toggling answer to each remote frame, and the life time of the master.
+#[derive(Debug)]
+pub(super) struct Guard {
+    enabled: bool,
+    toggle: bool,
+    /// Guard time × life time factor; 0: the master is not watched.
+    life_us: u64,
+    /// The master is lost then; set by its first request.
+    deadline: Option<Instant>,
+    lost: bool,
+}
+
+impl Guard {
+    pub(super) const fn new() -> Self {
+        Self {
+            enabled: false,
+            toggle: false,
+            life_us: 0,
+            deadline: None,
+            lost: false,
+        }
+    }
+
+    pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
+        let life_us = store.unsigned(0x100C, 0) * store.unsigned(0x100D, 0) * 1000;
+        if !enabled || life_us == 0 {
+            self.deadline = None;
+            self.lost = false;
+        }
+        self.enabled = enabled;
+        self.life_us = life_us;
+    }
+
+    pub(super) fn request(&mut self, state: State, now: Instant) -> Option<u8> {
+        if !self.enabled {
+            return None;
+        }
+        self.lost = false;
+        self.deadline = (self.life_us > 0).then(|| now.plus_micros(self.life_us));
+        let answer = state as u8 | u8::from(self.toggle) << 7;
+        self.toggle = !self.toggle;
+        Some(answer)
+    }
+
+    #[inline]
+    pub(super) fn handle_timeout(&mut self, now: Instant) {
+        if self.deadline.is_some_and(|at| at <= now) {
+            self.deadline = None;
+            self.lost = true;
+        }
+    }
+
+    #[inline]
+    pub(super) fn is_lost(&self) -> bool {
+        self.lost
+    }
+
+    #[inline]
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.deadline
+    }
+}

@@ -1,0 +1,103 @@
+//! Error control (CiA 301, chapter 7.2.8): heartbeat producer and consumer, node and life guarding.
+//!
+//! [`Monitor`] watches the other side (a master that guards, nodes that send
+//! heartbeats) and says when it is lost and when it is back; what follows from
+//! that is the node's business.
+
+mod consumer;
+mod guarding;
+mod heartbeat;
+
+pub(crate) use heartbeat::Producer;
+
+use crate::wire::nmt::State;
+use crate::{Instant, Profile, Store};
+
+/// Is node guarding in force, and heartbeat not?
+///
+/// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead.
+pub(crate) fn guards(store: &Store<'_>, profile: &Profile) -> bool {
+    match profile.guarding_switch {
+        Some((index, mask)) => store.unsigned(index, 0) & u64::from(mask) != 0,
+        None => store.unsigned(0x1017, 0) == 0 && store.try_unsigned(0x100C, 0).is_some(),
+    }
+}
+
+/// Does writing this object change how errors are watched for?
+pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
+    matches!(index, 0x100C | 0x100D | 0x1016 | 0x1017)
+        || profile
+            .guarding_switch
+            .is_some_and(|(switch, _)| switch == index)
+}
+
+/// Who watches the others.
+#[derive(Debug)]
+pub(crate) struct Monitor {
+    guard: guarding::Guard,
+    consumer: consumer::Consumer,
+    /// What the node was told last.
+    lost: bool,
+}
+
+impl Monitor {
+    pub(crate) const fn new() -> Self {
+        Self {
+            guard: guarding::Guard::new(),
+            consumer: consumer::Consumer::new(),
+            lost: false,
+        }
+    }
+
+    /// Boot-up: nobody is watched yet, nothing is lost.
+    pub(crate) fn reset(&mut self) {
+        *self = Self::new();
+    }
+
+    /// Reads 100Ch, 100Dh and 1016h again.
+    pub(crate) fn configure(&mut self, store: &Store<'_>, profile: &Profile) {
+        self.guard.configure(store, guards(store, profile));
+        self.consumer.configure(store);
+    }
+
+    /// A master guards this node: the byte of the answer, if guarding is in force.
+    pub(crate) fn guard(&mut self, state: State, now: Instant) -> Option<u8> {
+        self.guard.request(state, now)
+    }
+
+    /// A heartbeat, or boot-up message, of another node.
+    pub(crate) fn heartbeat(&mut self, node: u8, now: Instant) {
+        self.consumer.heartbeat(node, now);
+    }
+
+    /// Time has passed.
+    #[inline]
+    pub(crate) fn handle_timeout(&mut self, now: Instant) {
+        self.guard.handle_timeout(now);
+        self.consumer.handle_timeout(now);
+    }
+
+    /// `Some(true)` when somebody was lost and nobody before, `Some(false)` when
+    /// everybody is back.
+    #[inline]
+    pub(crate) fn poll(&mut self) -> Option<bool> {
+        let lost = self.guard.is_lost() || self.consumer.is_lost();
+        let changed = lost != self.lost;
+        self.lost = lost;
+        changed.then_some(lost)
+    }
+
+    /// Is somebody lost?
+    pub(crate) const fn is_lost(&self) -> bool {
+        self.lost
+    }
+
+    /// When somebody is lost unless heard of.
+    #[inline]
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        match (self.guard.deadline(), self.consumer.deadline()) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (a, b) => a.or(b),
+        }
+    }
+}
