@@ -6,8 +6,8 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::place;
 use super::rules::{self, Rule};
+use super::{named, place};
 use crate::{
     Address, DataType, Description, Diagnostic, EntryDescription, ObjectCode, ObjectDescription,
 };
@@ -34,7 +34,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     .with_address(address)
                     .with_help(format!("write a section [{index:04X}]")),
             ),
-            Some(object) if index == 0x1018 => identity(object, findings),
+            Some(object) if index == 0x1018 => identity(description, object, findings),
             Some(object) => {
                 let (data_type, rule) = match index {
                     0x1000 => (DataType::Unsigned32, rules::E0604),
@@ -42,14 +42,21 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 };
                 code(rule, address, object, &[ObjectCode::Var], findings);
                 if let (false, Some(value)) = (object.code.has_members(), object.entries.get(&0)) {
-                    entry(rule, address, value, data_type, findings);
+                    entry(
+                        rule,
+                        &named(description, address),
+                        address,
+                        value,
+                        data_type,
+                        findings,
+                    );
                 }
             }
         }
     }
 }
 
-fn identity(object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn identity(description: &Description, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
     let address = Address::new(0x1018, 0);
     let codes = [ObjectCode::Record, ObjectCode::Array];
     code(rules::E0606, address, object, &codes, findings);
@@ -66,7 +73,14 @@ fn identity(object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
     }
     for (sub, value) in object.entries.range(1..=4) {
         let address = Address::new(0x1018, *sub);
-        entry(rules::E0606, address, value, DataType::Unsigned32, findings);
+        entry(
+            rules::E0606,
+            &named(description, address),
+            address,
+            value,
+            DataType::Unsigned32,
+            findings,
+        );
     }
 }
 
@@ -85,7 +99,7 @@ fn code(
     findings.push(
         rule.at(
             place(&[object.code.span, object.span]),
-            format!("{index:04X}h is a {right}, not a {}", *object.code),
+            format!("{index:04X}h must be a {right}, but is a {}", *object.code),
         )
         .with_address(address)
         .with_help(format!("write `ObjectType=0x{:X}`", right.code())),
@@ -94,6 +108,7 @@ fn code(
 
 fn entry(
     rule: Rule,
+    shown: &str,
     address: Address,
     entry: &EntryDescription,
     data_type: DataType,
@@ -103,7 +118,7 @@ fn entry(
         findings.push(
             rule.at(
                 place(&[given.span, entry.span]),
-                format!("{address} is {data_type}, not {}", *given),
+                format!("{shown} must be {data_type}, but is {}", *given),
             )
             .with_address(address)
             .with_help(format!("write `DataType=0x{:04X}`", data_type.code())),
@@ -113,7 +128,7 @@ fn entry(
         findings.push(
             rule.at(
                 place(&[entry.access.span, entry.span]),
-                format!("{address} is read only, not {}", *entry.access),
+                format!("{shown} must be read only, but is {}", *entry.access),
             )
             .with_address(address)
             .with_help("write `AccessType=ro`"),

@@ -16,6 +16,10 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         }
         let address = Address::new(*index, 0);
         if object.entries.is_empty() {
+            if object.extra.iter().any(|(key, _)| key == "CompactSubObj") {
+                // It was to have some; the reader could not tell how many, and said so.
+                continue;
+            }
             findings.push(
                 rules::W0306
                     .at(object.span, format!("the {} has no members", *object.code))
@@ -33,8 +37,9 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     .at(
                         place(&[number.span, object.span]),
                         format!(
-                            "SubNumber is {}, but there are {count} sub-indices",
-                            number.value
+                            "SubNumber is {}, but the object has {count} sub-ind{}",
+                            number.value,
+                            if count == 1 { "ex" } else { "ices" }
                         ),
                     )
                     .with_address(address)

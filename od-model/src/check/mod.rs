@@ -5,6 +5,8 @@
 //! generated code unsound or a master fail; what many shipped files have is a
 //! warning.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::{Address, Description, Diagnostic, EntryDescription, Span, Spanned, Value};
@@ -64,6 +66,16 @@ fn place(spans: &[Span]) -> Span {
         .copied()
         .find(|span| span.line != 0)
         .unwrap_or_default()
+}
+
+/// An address in a message: without sub-index where the object has no members.
+fn named(description: &Description, address: Address) -> String {
+    match description.objects.get(&address.index) {
+        Some(object) if !object.code.has_members() && address.sub == 0 => {
+            format!("{:04X}h", address.index)
+        }
+        _ => format!("{address}"),
+    }
 }
 
 /// The value that an entry starts with: a DCF's ParameterValue, else the default.

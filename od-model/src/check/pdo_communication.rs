@@ -59,7 +59,7 @@ fn communication(
                 rules::E0509
                     .at(
                         place(&[given.span, entry.span]),
-                        format!("the {what} is {data_type}, not {}", *given),
+                        format!("the {what} must be {data_type}, but is {}", *given),
                     )
                     .with_address(address)
                     .with_help(format!("write `DataType=0x{:04X}`", data_type.code())),

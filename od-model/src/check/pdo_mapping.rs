@@ -8,7 +8,7 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::{place, rules, start_number};
+use super::{named, place, rules, start_number};
 use crate::eds::number;
 use crate::{Address, DataType, Description, Diagnostic, ObjectDescription, Spanned};
 
@@ -59,7 +59,7 @@ fn mapping(
                 rules::E0510
                     .at(
                         place(&[given.span, entry.span]),
-                        format!("a mapping entry is UNSIGNED32, not {}", *given),
+                        format!("a mapping entry must be UNSIGNED32, but is {}", *given),
                     )
                     .with_address(address)
                     .with_help("write `DataType=0x0007`"),
@@ -122,16 +122,17 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
         );
     };
     let name = &entry.name.value;
+    let shown = named(description, *target);
     if !*entry.mappable {
         return Some(
             rules::E0502
-                .at(span, format!("{target} \"{name}\" is not mappable"))
+                .at(span, format!("{shown} \"{name}\" is not mappable"))
                 .with_label(
                     place(&[entry.mappable.span, entry.span]),
                     "the object is here",
                 )
                 .with_help(format!(
-                    "write `PDOMapping=1` for {target}, or map another object"
+                    "write `PDOMapping=1` for {shown}, or map another object"
                 )),
         );
     }
@@ -148,7 +149,7 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
             rules::E0503
                 .at(
                     span,
-                    format!("{target} \"{name}\" is {} and not for {pdo}", *entry.access),
+                    format!("{shown} \"{name}\" is {} and not for {pdo}", *entry.access),
                 )
                 .with_label(
                     place(&[entry.access.span, entry.span]),
@@ -160,24 +161,31 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
     let data_type = entry.data_type?;
     match data_type.bits() {
         Some(right) if right != **bits => Some(
-            wrong_length(mapped, right)
+            wrong_length(mapped, &shown, right)
                 .with_label(data_type.span, format!("{} is declared here", *data_type)),
         ),
         _ => None,
     }
 }
 
-fn wrong_length(mapped: &Mapped, right: u8) -> Diagnostic {
+fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Diagnostic {
     let Mapped { target, bits, .. } = mapped;
-    rules::E0504
-        .at(
-            bits.span,
-            format!("{target} has {right} bits, not {}", bits.value),
-        )
-        .with_help(format!(
-            "write `0x{:04X}{:02X}{right:02X}`",
-            target.index, target.sub
-        ))
+    let rule = match (right, **bits) {
+        (1, 8) => rules::W0513,
+        _ => rules::E0504,
+    };
+    rule.at(
+        bits.span,
+        format!(
+            "{shown} has {right} bit{}, but is mapped with {}",
+            if right == 1 { "" } else { "s" },
+            bits.value
+        ),
+    )
+    .with_help(format!(
+        "write `0x{:04X}{:02X}{right:02X}`",
+        target.index, target.sub
+    ))
 }
 
 /// A data type as a placeholder for bits that the device ignores.
@@ -197,7 +205,8 @@ fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
     if let Some(right) = DataType::from_code(index).and_then(DataType::bits)
         && right != **bits
     {
-        return Some(wrong_length(mapped, right));
+        let shown = format!("{index:04X}h");
+        return Some(wrong_length(mapped, &shown, right));
     }
     let key = format!("Dummy{index:04X}");
     let allowed = description

@@ -37,7 +37,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 rules::E0309
                     .at(
                         place(&[data_type.span, count.span]),
-                        format!("sub-index 0 is UNSIGNED8, not {}", data_type.name()),
+                        format!("sub-index 0 must be UNSIGNED8, but is {}", data_type.name()),
                     )
                     .with_address(address)
                     .with_help("write `DataType=0x0005`"),
@@ -47,6 +47,10 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         let Some(number) = start_number(description, address) else {
             continue;
         };
+        if counts_in_use(*index) && matches!(number.value, 254 | 255) {
+            // A multiplexed PDO: it counts nothing.
+            continue;
+        }
         let highest = object
             .entries
             .range(..255)

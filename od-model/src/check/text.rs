@@ -32,7 +32,10 @@ pub(crate) fn no_value(
         .with_label(data_type.span, format!("{name} is declared here"))
         .with_help(match formula {
             true => "write `$NODEID+` and a number".into(),
-            false => format!("write {}", form(*data_type)),
+            false => match key.ends_with("Limit") {
+                true => format!("write {}, or leave it empty", form(*data_type)),
+                false => format!("write {}", form(*data_type)),
+            },
         })
 }
 

@@ -122,7 +122,7 @@ fn give(
         Compact::Value => {
             let mut unread = core::mem::take(&mut entry.extra);
             unread.retain(|(key, _)| key != "ParameterValue");
-            entry.parameter = reader.typed("ParameterValue", value, entry.data_type);
+            entry.parameter = reader.typed("ParameterValue", value, entry.data_type, None);
             if entry.parameter.is_none() {
                 unread.push(("ParameterValue".into(), value.value.clone()));
             }

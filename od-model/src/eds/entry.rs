@@ -69,16 +69,20 @@ impl Reader<'_> {
         };
         let access = self.access(fields, &mut unread);
         let mappable = self.mappable(fields, &mut unread);
-        let mut value = |key| self.value(fields, key, data_type, &mut unread);
+        let mut value = |key, low| self.value(fields, key, data_type, low, &mut unread);
+        let default = value("DefaultValue", None);
+        let low = value("LowLimit", None);
+        let high = value("HighLimit", low.as_ref().map(|low| &low.value));
+        let parameter = value("ParameterValue", None);
         let entry = EntryDescription {
             name,
             data_type,
             access,
             mappable,
-            default: value("DefaultValue"),
-            low: value("LowLimit"),
-            high: value("HighLimit"),
-            parameter: value("ParameterValue"),
+            default,
+            low,
+            high,
+            parameter,
             group: fields.group,
             flags: self.flags(fields, &mut unread),
             extra: Vec::new(),
@@ -190,28 +194,38 @@ impl Reader<'_> {
         fields: &mut Fields,
         key: &'static str,
         data_type: Option<Spanned<DataType>>,
+        low: Option<&Value>,
         unread: &mut Unread,
     ) -> Option<Spanned<Value>> {
         let given = fields.take(key)?;
-        let value = self.typed(key, &given, data_type);
+        let value = self.typed(key, &given, data_type, low);
         if value.is_none() {
             unread.push((key.into(), given.value));
         }
         value
     }
 
-    /// The value of a key by its type; named if it is none of it.
+    /// The value of a key by its type; named if it is none of it. A HighLimit comes
+    /// with the LowLimit: between 0 and FFh of an INTEGER8, FFh is not -1.
     pub(super) fn typed(
         &mut self,
         key: &str,
         given: &Spanned<String>,
         data_type: Option<Spanned<DataType>>,
+        low: Option<&Value>,
     ) -> Option<Spanned<Value>> {
         // Without a type there are no values; that was named, or the checks will.
         let data_type = data_type.filter(|t| t.kind() != Kind::Record)?;
         let mut notes = Vec::new();
         match values::value(given, *data_type, &mut notes) {
-            Some(value) => {
+            Some(mut value) => {
+                if let (Some(Value::Signed(low @ 0..)), Value::Signed(high)) = (low, &value)
+                    && high < low
+                    && notes.contains(&Note::TwosComplement)
+                {
+                    notes.retain(|note| *note != Note::TwosComplement);
+                    value = values::pattern(given)?;
+                }
                 let canonical = || values::text(&value, Some(*data_type));
                 self.notes(&notes, key, given, canonical);
                 Some(Spanned::new(value, given.span))
@@ -234,7 +248,11 @@ impl Reader<'_> {
     ) {
         for note in notes {
             let finding = note_finding(*note, given, given.span);
-            self.report(finding.with_help(format!("write `{key}={}`", canonical())));
+            let mended = match note {
+                Note::Comment => number::without_comment(given, &mut Vec::new()).into(),
+                _ => canonical(),
+            };
+            self.report(finding.with_help(format!("write `{key}={mended}`")));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::ini::Placed;
@@ -116,7 +117,16 @@ fn entries(
         let span = count.map_or(placed.header, |count| count.span);
         log.push(
             rules::W0204
-                .at(span, format!("the list has {found} entries"))
+                .at(
+                    span,
+                    match count {
+                        Some(count) => format!(
+                            "SupportedObjects is {}, but the list has {found} entries",
+                            count.value
+                        ),
+                        None => "there is no SupportedObjects".to_string(),
+                    },
+                )
                 .with_help(format!("write `SupportedObjects={found}`")),
         );
     }

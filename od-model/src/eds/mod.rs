@@ -2,7 +2,7 @@
 //!
 //! [`parse`] never fails: it returns what it understood, and a diagnostic for
 //! everything else, each with its place in the text. What it cannot make a value
-//! of, it keeps as text in `extra`, so that [`write`] loses nothing.
+//! of, it keeps as text in `extra`, so that [`write()`] loses nothing.
 //!
 //! ```
 //! use od_model::{Address, Value, eds};

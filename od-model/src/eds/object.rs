@@ -77,6 +77,7 @@ pub(super) fn object(
         (Some(count), _) => Spanned::new(counted, count.span),
         (None, SubNumber::Given(given)) => given,
         (None, SubNumber::Unread) => Spanned::from(counted),
+        (None, SubNumber::Missing) if counted == 0 => Spanned::from(counted),
         (None, SubNumber::Missing) => {
             let span = fields.header;
             reader.report(

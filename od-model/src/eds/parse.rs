@@ -152,3 +152,88 @@ fn twice(first: &Placed, second: &Placed, address: Address) -> Diagnostic {
         .with_label(first.header, "this one counts")
         .with_help("remove one of the sections")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{DataType, Group, ObjectCode, Value};
+
+    fn codes(parsed: &Parsed) -> Vec<&'static str> {
+        parsed.diagnostics.iter().map(|d| d.code).collect()
+    }
+
+    #[test]
+    fn an_object_with_members() {
+        let parsed = parse(
+            "[OptionalObjects]\nSupportedObjects=1\n1=0x1018\n\
+             [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\nObjFlags=1\n\
+             [1018sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+             [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nOwn=kept\n",
+        );
+        assert_eq!(codes(&parsed), ["W0206"]);
+        let object = &parsed.description.objects[&0x1018];
+        assert_eq!(*object.code, ObjectCode::Record);
+        assert_eq!((object.span.line, object.flags), (4, 1));
+        let vendor = &object.entries[&1];
+        assert_eq!(vendor.extra, [("Own".into(), "kept".into())]);
+        assert_eq!(vendor.data_type.unwrap().span.line, 16);
+        assert_eq!(vendor.span.line, 14);
+        assert_eq!(vendor.default, None);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_kept_as_text() {
+        let parsed =
+            parse("[2000]\nParameterName=x\nDataType=0x99\nAccessType=any\nDefaultValue=5");
+        assert_eq!(codes(&parsed), ["E0402", "E0405", "W0203"]);
+        let entry = &parsed.description.objects[&0x2000].entries[&0];
+        let kept = [
+            ("AccessType".into(), "any".into()),
+            ("DataType".into(), "0x99".into()),
+            ("DefaultValue".into(), "5".into()),
+        ];
+        assert_eq!(entry.extra, kept);
+        assert_eq!(entry.data_type, None);
+    }
+
+    #[test]
+    fn members_are_stored_where_their_object_is() {
+        let parsed = parse(
+            "[2000]\n;StorageLocation=PERSIST_APP\nObjectType=8\n[2000sub0]\nDataType=5\n\
+             [2000sub1]\n;StorageLocation=RAM\nDataType=5\n",
+        );
+        let entries = &parsed.description.objects[&0x2000].entries;
+        assert_eq!(entries[&0].group.map(|g| g.value), Some(Group::Application));
+        assert_eq!(entries[&1].group.map(|g| g.value), Some(Group::None));
+    }
+
+    #[test]
+    fn compact_members_get_names_and_values() {
+        let parsed = parse(
+            "\u{FEFF}[2000]\nParameterName=Gain\nObjectType=8\nDataType=5\nAccessType=rw\n\
+             CompactSubObj=3\n[2000Value]\n2=7\n[2000Name]\n3=Last\n[2000Denotation]\n1=D\n",
+        );
+        let entries = &parsed.description.objects[&0x2000].entries;
+        assert_eq!(entries.len(), 4);
+        assert_eq!(*entries[&1].name, "Gain1");
+        assert_eq!(*entries[&3].name, "Last");
+        let value = entries[&2].parameter.clone().unwrap();
+        assert_eq!((value.value, value.span.line), (Value::Unsigned(7), 8));
+        assert_eq!(entries[&1].extra, [("Denotation".into(), "D".into())]);
+        assert_eq!(*entries[&0].data_type.unwrap(), DataType::Unsigned8);
+    }
+
+    #[test]
+    fn sections_without_objects_are_kept_as_they_are() {
+        let parsed = parse("[FileInfo]\nA=1\n[2000Name]\n1=x\n[Tool]\na=2\nA=3\n");
+        let names: Vec<_> = parsed
+            .description
+            .sections
+            .iter()
+            .map(|s| &s.name.value)
+            .collect();
+        assert_eq!(names, ["FileInfo", "2000Name", "Tool"]);
+        assert_eq!(parsed.description.sections[2].pairs.len(), 2);
+        assert_eq!(codes(&parsed), ["W0209", "W0107"]);
+    }
+}

@@ -79,6 +79,16 @@ fn integer(number: Number, data_type: DataType, notes: &mut Vec<Note>) -> Option
     u64::try_from(value).ok().map(Value::Unsigned)
 }
 
+/// A number as it is written, even in a signed type.
+pub(super) fn pattern(text: &str) -> Option<Value> {
+    let text = number::without_comment(text, &mut Vec::new());
+    let number = number::integer(text, &mut Vec::new())?.value;
+    match i64::try_from(number) {
+        Ok(number) => Some(Value::Signed(number)),
+        Err(_) => u64::try_from(number).ok().map(Value::Unsigned),
+    }
+}
+
 /// The negative number that a bit pattern stands for: one as wide as the type, or
 /// one that was sign extended to 32 or 64 bits.
 fn twos_complement(pattern: i128, data_type: DataType) -> Option<i64> {

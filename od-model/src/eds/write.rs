@@ -154,3 +154,51 @@ impl Text {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eds;
+
+    #[test]
+    fn the_canonical_text() {
+        let text = "[FileInfo]\nfilename : x.eds\n[2000]\nparametername=Gain\nobjecttype=8\n\
+            datatype=7\naccesstype=RW\ndefaultvalue=0x180+$nodeid\ncompactsubobj=1\n[2001]\n\
+            ;StorageLocation=PERSIST_APP\nParameterName=Speed\nDataType=3\nHighLimit=0x7F\n\
+            LowLimit=0xFF80\nAccessType=rww\nPDOMapping=1\nDefaultValue=red\nMine=1\n[1000]\n";
+        let written = write(&eds::parse(text).description);
+        let expected = "[FileInfo]\nfilename=x.eds\n\n\
+            [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\n\
+            [1000]\nParameterName=\nObjectType=0x7\nAccessType=ro\nPDOMapping=0\n\n\
+            [OptionalObjects]\nSupportedObjects=0\n\n\
+            [ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\n\
+            [2000]\nParameterName=Gain\nObjectType=0x8\nSubNumber=2\n\n\
+            [2000sub0]\nParameterName=NrOfObjects\nObjectType=0x7\nDataType=0x0005\n\
+            AccessType=ro\nDefaultValue=1\nPDOMapping=0\n\n\
+            [2000sub1]\nParameterName=Gain1\nObjectType=0x7\nDataType=0x0007\n\
+            AccessType=rw\nDefaultValue=$NODEID+0x180\nPDOMapping=0\n\n\
+            [2001]\nParameterName=Speed\nObjectType=0x7\n;StorageLocation=PERSIST_APP\n\
+            DataType=0x0003\nLowLimit=-128\nHighLimit=127\nAccessType=rww\nPDOMapping=1\n\
+            Mine=1\nDefaultValue=red\n";
+        assert_eq!(written, expected);
+        assert_eq!(
+            eds::parse(&written).description,
+            eds::parse(text).description
+        );
+    }
+
+    #[test]
+    fn line_ends_of_a_patch_do_not_break_the_text() {
+        let mut description = Description::default();
+        let mut entry = EntryDescription::new("two\nlines", crate::DataType::VisibleString);
+        entry.default = Some(Spanned::from(Value::Text("a\r\n[b]".into())));
+        description
+            .objects
+            .insert(0x2000, ObjectDescription::var(entry));
+        let again = eds::parse(&write(&description)).description;
+        let entry = &again.objects[&0x2000].entries[&0];
+        assert_eq!(entry.name.value, "two lines");
+        let text = Value::Text("a  [b]".into());
+        assert_eq!(entry.default, Some(Spanned::from(text)));
+    }
+}

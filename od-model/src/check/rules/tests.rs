@@ -1,0 +1,69 @@
+//! The table against itself and against the sources.
+
+use std::fs;
+use std::path::Path;
+use std::vec::Vec;
+
+use super::*;
+
+#[test]
+fn codes_are_unique_ascending_and_tell_their_severity() {
+    for pair in RULES.windows(2) {
+        assert!(pair[0].code[1..] < pair[1].code[1..], "{}", pair[1].code);
+    }
+    for r in RULES {
+        let letter = match r.severity {
+            Severity::Error => 'E',
+            Severity::Warning => 'W',
+            Severity::Info => 'I',
+        };
+        assert!(r.code.starts_with(letter), "{}", r.code);
+        assert_eq!(r.code.len(), 5);
+        assert!(!r.title.is_empty() && !r.why.is_empty() && !r.source.is_empty());
+    }
+    assert_eq!(rule("e0412").map(|r| r.code), Some("E0412"));
+    assert_eq!(rule("E9999"), None);
+}
+
+/// Whatever code stands anywhere in this crate's sources is in the table, and
+/// what is in the table is used somewhere besides.
+#[test]
+fn every_code_in_the_sources_is_a_rule() {
+    let mut sources = Vec::new();
+    read(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
+        &mut sources,
+    );
+    let mut used = Vec::new();
+    for source in &sources {
+        let bytes = source.as_bytes();
+        for at in 0..bytes.len().saturating_sub(5) {
+            let code = &bytes[at..at + 5];
+            if matches!(code[0], b'E' | b'W' | b'I')
+                && code[1] == b'0'
+                && code[2..].iter().all(u8::is_ascii_digit)
+                && !bytes[at - 1].is_ascii_alphanumeric()
+                && !bytes[at + 5].is_ascii_alphanumeric()
+            {
+                used.push(&source[at..at + 5]);
+            }
+        }
+    }
+    for code in &used {
+        assert!(rule(code).is_some(), "{code} is in no table");
+    }
+    for r in RULES {
+        assert!(used.contains(&r.code), "{} is never found", r.code);
+    }
+}
+
+fn read(folder: &Path, sources: &mut Vec<String>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            read(&path, sources);
+        } else if !path.ends_with("rules.rs") && !path.ends_with("rules/tests.rs") {
+            sources.push(fs::read_to_string(path).unwrap());
+        }
+    }
+}

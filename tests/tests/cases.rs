@@ -1,0 +1,301 @@
+//! EDS in, diagnostics out: one folder of `tests/cases` is one case.
+//!
+//! `ODKIT_ACCEPT=1` writes what is found into `diagnostics.txt`; read it before
+//! committing it. The corpus is any folder of EDS and DCF files: `ODKIT_CORPUS`,
+//! or `shared/corpus` beside the workspace; where there is none, nothing is tested.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use od_model::eds::{self, Parsed};
+use od_model::{Severity, Tables, check};
+
+#[test]
+fn diagnostics_are_as_accepted() {
+    let mut wrong = Vec::new();
+    let cases = cases();
+    for case in &cases {
+        let found = rendered(&case.text);
+        let path = case.folder.join("diagnostics.txt");
+        if env::var_os("ODKIT_ACCEPT").is_some() {
+            fs::write(&path, &found).expect("the case's folder is writable");
+            continue;
+        }
+        let accepted = fs::read_to_string(&path).unwrap_or_default();
+        if accepted.replace("\r\n", "\n") != found {
+            wrong.push(format!("{}:\n{}", case.name, difference(&accepted, &found)));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{}\n`ODKIT_ACCEPT=1 cargo test -p od-tests --test cases` accepts them",
+        wrong.join("\n")
+    );
+    assert!(cases.len() >= 25, "{} cases", cases.len());
+}
+
+#[test]
+fn every_case_comes_back_from_its_own_text() {
+    for case in cases() {
+        if let Err(fault) = round_trip(&case.text) {
+            panic!("{}: {fault}", case.name);
+        }
+    }
+}
+
+/// A rule that no case shows is a rule that nobody has seen work.
+#[test]
+fn every_rule_of_text_and_checks_has_a_case() {
+    let mut seen = BTreeMap::new();
+    for case in cases() {
+        for finding in eds::load(&case.text).diagnostics {
+            seen.entry(finding.code).or_insert(case.name.clone());
+        }
+    }
+    for rule in check::RULES {
+        // E07xx are about edits, which no EDS holds.
+        if !rule.code.starts_with("E07") {
+            assert!(seen.contains_key(rule.code), "no case for {}", rule.code);
+        }
+    }
+}
+
+#[test]
+fn the_corpus_loads_and_comes_back() {
+    let Some(corpus) = corpus() else {
+        println!("no corpus: set ODKIT_CORPUS to a folder of EDS files");
+        return;
+    };
+    let mut files = Vec::new();
+    eds_files(&corpus, &mut files);
+    let mut by_code: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+    for file in &files {
+        let bytes = fs::read(file).expect("a file of the corpus is readable");
+        let text = eds::decode(&bytes);
+        let name = file.display();
+        let loaded = round_trip(&text).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+        assert!(!loaded.description.objects.is_empty(), "{name}: no objects");
+        let mut codes = BTreeMap::new();
+        for finding in &loaded.diagnostics {
+            *codes.entry(finding.code).or_insert(0) += 1;
+        }
+        if env::var_os("ODKIT_VERBOSE").is_some() {
+            let entries = loaded.description.entries().count();
+            println!("{name}: {entries} entries {codes:?}");
+        }
+        for (code, count) in codes {
+            let (files, findings) = by_code.entry(code).or_default();
+            *files += 1;
+            *findings += count;
+        }
+    }
+    println!("{} files; by code: files, findings", files.len());
+    for (code, (files, findings)) in by_code {
+        println!("{code} {files:4} {findings:6}");
+    }
+}
+
+/// Flipped bytes, cut and doubled lines: never a panic, and what is read comes back.
+#[test]
+fn broken_texts_are_read_too() {
+    let texts: Vec<String> = cases().into_iter().map(|case| case.text).collect();
+    let mut random = Xorshift(0x9E37_79B9_7F4A_7C15);
+    for round in 0..4000 {
+        let mut bytes = texts[random.below(texts.len())].clone().into_bytes();
+        for _ in 0..=random.below(6) {
+            mutate(&mut bytes, &texts, &mut random);
+        }
+        let text = eds::decode(&bytes);
+        if let Err(fault) = round_trip(&text) {
+            panic!("round {round}: {fault}\n{text}");
+        }
+    }
+}
+
+/// Bytes that mean something to some reader of such files.
+const ODD: &[u8] = b"=[];#\\:$-+0x19AF\r\n \"\xFF";
+
+fn mutate(bytes: &mut Vec<u8>, texts: &[String], random: &mut Xorshift) {
+    if bytes.is_empty() {
+        bytes.push(b'[');
+    }
+    let at = random.below(bytes.len());
+    let line = |at: usize, bytes: &[u8]| {
+        let start = bytes[..at].iter().rposition(|b| *b == b'\n');
+        let end = bytes[at..].iter().position(|b| *b == b'\n');
+        start.map_or(0, |s| s + 1)..end.map_or(bytes.len(), |e| at + e + 1)
+    };
+    match random.below(7) {
+        0 => bytes[at] ^= 1 << random.below(8),
+        1 => bytes[at] = ODD[random.below(ODD.len())],
+        2 => {
+            let range = line(at, bytes);
+            bytes.drain(range);
+        }
+        3 => {
+            let copy = bytes[line(at, bytes)].to_vec();
+            bytes.splice(at..at, copy);
+        }
+        4 => {
+            let range = line(at, bytes);
+            let copy = bytes[range.clone()].to_vec();
+            bytes.splice(range.start..range.start, copy);
+        }
+        5 => bytes.truncate(at),
+        _ => {
+            let other = texts[random.below(texts.len())].as_bytes();
+            if !other.is_empty() {
+                let copy = other[line(random.below(other.len()), other)].to_vec();
+                let start = line(at, bytes).start;
+                bytes.splice(start..start, copy);
+            }
+        }
+    }
+}
+
+struct Xorshift(u64);
+
+impl Xorshift {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % end as u64) as usize
+    }
+}
+
+/// Reads, writes and reads again; looks at everything that must hold of any text.
+fn round_trip(text: &str) -> Result<Parsed, String> {
+    let loaded = eds::load(text);
+    let written = eds::write(&loaded.description);
+    let again = eds::parse(&written).description;
+    if again != loaded.description {
+        return Err(format!(
+            "read again, the text differs:\n{}",
+            difference(
+                &format!("{:#?}", loaded.description),
+                &format!("{again:#?}")
+            )
+        ));
+    }
+    let tables = Tables::new(&loaded.description);
+    let dictionary = tables.dictionary();
+    for entry in dictionary.entries() {
+        if dictionary.find(entry.address) != Ok(entry) {
+            return Err(format!("{} is not found", entry.address));
+        }
+    }
+    let mut line = 0;
+    for finding in &loaded.diagnostics {
+        if check::rule(finding.code).is_none_or(|rule| rule.severity != finding.severity) {
+            return Err(format!("{} is no rule", finding.code));
+        }
+        if finding.message.is_empty() || finding.help.is_empty() {
+            return Err(format!("{} says too little", finding.code));
+        }
+        let spans = finding.labels.iter().map(|label| label.span);
+        for span in finding.span.into_iter().chain(spans) {
+            let range = span.start as usize..span.end as usize;
+            if text.get(range).is_none() || span.line == 0 || span.column == 0 {
+                return Err(format!("{} points nowhere: {span:?}", finding.code));
+            }
+        }
+        let at = finding.span.map_or(u32::MAX, |span| span.line);
+        if at < line {
+            return Err(format!("{} is not in file order", finding.code));
+        }
+        line = at;
+    }
+    Ok(loaded)
+}
+
+fn rendered(text: &str) -> String {
+    let mut out = String::new();
+    for finding in eds::load(text).diagnostics {
+        let place = match finding.span {
+            Some(span) => format!("{}:{}", span.line, span.column),
+            None => "-".into(),
+        };
+        let severity = match finding.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Info => "info",
+        };
+        let address = finding.address.map(|a| format!(" {a}")).unwrap_or_default();
+        let code = finding.code;
+        let _ = writeln!(
+            out,
+            "{place}: {code} {severity}{address} {}",
+            finding.message
+        );
+        for label in finding.labels {
+            let (line, column) = (label.span.line, label.span.column);
+            let _ = writeln!(out, "    {line}:{column}: {}", label.text);
+        }
+        let _ = writeln!(out, "    help: {}", finding.help);
+    }
+    out
+}
+
+/// The lines that are only in one of two texts.
+fn difference(accepted: &str, found: &str) -> String {
+    let mut out = String::new();
+    for (sign, a, b) in [('-', accepted, found), ('+', found, accepted)] {
+        let other: Vec<&str> = b.lines().collect();
+        for line in a.lines().filter(|line| !other.contains(line)) {
+            let _ = writeln!(out, "{sign}{line}");
+        }
+    }
+    out
+}
+
+struct Case {
+    name: String,
+    folder: PathBuf,
+    text: String,
+}
+
+/// Every folder of `tests/cases` with an `input.eds`, by name.
+fn cases() -> Vec<Case> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
+    let mut cases = Vec::new();
+    for entry in fs::read_dir(root).expect("tests/cases is there") {
+        let folder = entry.expect("a folder can be listed").path();
+        let Ok(bytes) = fs::read(folder.join("input.eds")) else {
+            continue;
+        };
+        cases.push(Case {
+            name: folder.file_name().unwrap_or_default().display().to_string(),
+            folder,
+            text: eds::decode(&bytes).into_owned(),
+        });
+    }
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    cases
+}
+
+fn corpus() -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
+    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
+    folder.is_dir().then_some(folder)
+}
+
+fn eds_files(folder: &Path, files: &mut Vec<PathBuf>) {
+    let mut entries: Vec<_> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        let extension = path.extension().unwrap_or_default();
+        if path.is_dir() {
+            eds_files(&path, files);
+        } else if extension.eq_ignore_ascii_case("eds") || extension.eq_ignore_ascii_case("dcf") {
+            files.push(path);
+        }
+    }
+}
