@@ -24,21 +24,35 @@ fn hand_written_match() -> String {
         write!(
             text,
             "
-impl Find for Values<{size}> {{
+impl Find for Values<{}> {{
     #[inline]
-    fn find(&mut self, index: u16, sub: u8) -> Option<&mut u32> {{
-        Some(match (index, sub) {{
-"
+    fn find(&mut self, index: u16, sub: u8) -> Option<Place<'_>> {{
+        Some(Place::Value(match (index, sub) {{
+",
+            objects::values(size)
         )
         .expect("a String takes all text");
-        for (place, index) in objects::indices(size).into_iter().enumerate() {
-            writeln!(
-                text,
-                "            ({index:#06x}, 0) => &mut self.0[{place}],"
-            )
-            .expect("a String takes all text");
+        let mut place = 0;
+        for object in objects::objects(size) {
+            let index = object.index;
+            if object.is_record {
+                let count = objects::MEMBERS;
+                writeln!(
+                    text,
+                    "            ({index:#06x}, 0) => return Some(Place::Count({count})),"
+                )
+                .expect("a String takes all text");
+            }
+            for sub in object.subs() {
+                writeln!(
+                    text,
+                    "            ({index:#06x}, {sub}) => &mut self.0[{place}],"
+                )
+                .expect("a String takes all text");
+                place += 1;
+            }
         }
-        text.push_str("            _ => return None,\n        })\n    }\n}\n");
+        text.push_str("            _ => return None,\n        }))\n    }\n}\n");
     }
     text
 }

@@ -6,6 +6,9 @@ use crate::objects::{self, Random};
 
 /// A node that answers SDO uploads.
 pub trait Upload {
+    /// Knows sub-index 0 of a record from a U32; the loop without a node does not.
+    const HAS_RECORDS: bool = true;
+
     /// Takes the payload of a request to 601h, returns that of the answer on 581h.
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8];
 }
@@ -16,23 +19,29 @@ pub trait Pdo {
     fn sync(&mut self) -> (u16, [u8; 4]);
 }
 
-/// The request for sub-index 0 of `index`.
+/// The request for an address.
 #[inline]
-pub fn request(index: u16) -> [u8; 8] {
+pub fn request((index, sub): (u16, u8)) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
-    [0x40, low, high, 0, 0, 0, 0, 0]
+    [0x40, low, high, sub, 0, 0, 0, 0]
 }
 
 /// The one right answer to [`request`]: expedited, size indicated, four bytes.
-pub fn answer(index: u16) -> [u8; 8] {
+pub fn answer((index, sub): (u16, u8)) -> [u8; 8] {
     let [low, high] = index.to_le_bytes();
-    let [a, b, c, d] = objects::value(index).to_le_bytes();
-    [0x43, low, high, 0, a, b, c, d]
+    let [a, b, c, d] = objects::value(index, sub).to_le_bytes();
+    [0x43, low, high, sub, a, b, c, d]
+}
+
+/// The one right answer for sub-index 0 of a record: expedited, one byte.
+fn count(index: u16) -> [u8; 8] {
+    let [low, high] = index.to_le_bytes();
+    [0x4F, low, high, 0, objects::MEMBERS, 0, 0, 0]
 }
 
 /// The one right answer to a SYNC, from a dictionary of `size` objects.
 pub fn tpdo(size: usize) -> (u16, [u8; 4]) {
-    let value = objects::value(objects::mapped(size));
+    let value = objects::value(objects::mapped(size), 0);
     (0x180 + u16::from(objects::NODE_ID), value.to_le_bytes())
 }
 
@@ -48,7 +57,8 @@ pub trait Subject {
 #[derive(Debug)]
 pub struct Uploads<C> {
     contender: C,
-    indices: Vec<u16>,
+    size: usize,
+    addresses: Vec<(u16, u8)>,
     random: Random,
 }
 
@@ -57,7 +67,8 @@ impl<C: Upload> Uploads<C> {
     pub fn new(contender: C, size: usize) -> Self {
         Self {
             contender,
-            indices: objects::indices(size),
+            size,
+            addresses: objects::addresses(size),
             random: Random::new(1),
         }
     }
@@ -65,19 +76,27 @@ impl<C: Upload> Uploads<C> {
 
 impl<C: Upload> Subject for Uploads<C> {
     fn verify(&mut self) {
-        for &index in &self.indices {
+        for &address in &self.addresses {
+            let (index, sub) = address;
             assert_eq!(
-                self.contender.upload(&request(index)),
-                answer(index),
-                "{index:04X}h"
+                self.contender.upload(&request(address)),
+                answer(address),
+                "{index:04X}h:{sub:02X}"
             );
+        }
+        if C::HAS_RECORDS {
+            let objects = objects::objects(self.size).into_iter();
+            for index in objects.filter(|o| o.is_record).map(|o| o.index) {
+                let answer = self.contender.upload(&request((index, 0)));
+                assert_eq!(answer, count(index), "{index:04X}h:00");
+            }
         }
     }
 
     fn run(&mut self, count: u64) {
         for _ in 0..count {
-            let index = self.indices[self.random.below(self.indices.len())];
-            black_box(self.contender.upload(&black_box(request(index))));
+            let address = self.addresses[self.random.below(self.addresses.len())];
+            black_box(self.contender.upload(&black_box(request(address))));
         }
     }
 }
@@ -107,7 +126,9 @@ impl<C: Pdo> Subject for Cycles<C> {
 pub struct Nothing;
 
 impl Upload for Nothing {
+    const HAS_RECORDS: bool = false;
+
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8] {
-        answer(u16::from_le_bytes([request[1], request[2]]))
+        answer((u16::from_le_bytes([request[1], request[2]]), request[3]))
     }
 }

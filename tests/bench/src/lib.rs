@@ -8,6 +8,7 @@
 pub mod callgrind;
 pub mod contender;
 pub mod objects;
+pub mod odkit;
 pub mod peers;
 pub mod results;
 pub mod roster;

@@ -5,8 +5,8 @@
 
 /// The dictionary sizes, in application objects.
 ///
-/// The objects a stack brings along itself (1000h, 1001h, 1017h, 1018h, PDO
-/// parameters) come on top.
+/// Every fourth is a record, so there are more than twice as many values. The objects
+/// a stack brings along itself (1000h, 1001h, 1017h, 1018h, PDO parameters) come on top.
 pub const SIZES: [usize; 4] = [16, 120, 1_000, 5_000];
 
 /// The dictionary size of the PDO benchmark.
@@ -18,35 +18,76 @@ pub const NODE_ID: u8 = 1;
 /// The first application object.
 const FIRST: u16 = 0x2000;
 
-/// The indices of the `size` application objects, ascending.
+/// One object in this many is a record.
+const RECORD_EVERY: usize = 4;
+
+/// What sub-index 0 of a record says: members 1 to 5, each a U32.
+pub const MEMBERS: u8 = 5;
+
+/// An application object.
+#[derive(Clone, Copy, Debug)]
+pub struct Object {
+    /// Where it stands.
+    pub index: u16,
+    /// A VAR of type U32, or a record of [`MEMBERS`] of them?
+    pub is_record: bool,
+}
+
+impl Object {
+    /// The sub-indices of its U32 values: 0 of a VAR, 1 to 5 of a record.
+    pub fn subs(self) -> std::ops::RangeInclusive<u8> {
+        if self.is_record { 1..=MEMBERS } else { 0..=0 }
+    }
+}
+
+/// The `size` application objects, ascending.
 ///
 /// Neighbours are 1 to 3 apart: dense enough for a jump table, as real
 /// dictionaries are, and too uneven for an index computed from the address.
 /// zencan-node keeps 5000h for itself, so the last one stays below.
-pub fn indices(size: usize) -> Vec<u16> {
+pub fn objects(size: usize) -> Vec<Object> {
     let mut random = Random::new(2_024);
     let mut next = FIRST;
-    let indices: Vec<u16> = (0..size)
-        .map(|_| {
+    let objects: Vec<Object> = (0..size)
+        .map(|number| {
             let index = next;
             next += 1 + u16::try_from(random.below(3)).expect("below 3");
-            index
+            let is_record = number % RECORD_EVERY == RECORD_EVERY - 1;
+            Object { index, is_record }
         })
         .collect();
     assert!(next < 0x5000, "the dictionary runs into 5000h");
-    indices
+    objects
 }
 
-/// The value of the object at `index`: four bytes that follow from the index,
-/// so that an answer from the wrong object is seen.
-pub fn value(index: u16) -> u32 {
-    u32::from(index).wrapping_mul(0x9E37_79B1) ^ 0x5A5A_5A5A
+/// The addresses of all U32 values of `size` objects, ascending.
+pub fn addresses(size: usize) -> Vec<(u16, u8)> {
+    let subs = |object: Object| object.subs().map(move |sub| (object.index, sub));
+    objects(size).into_iter().flat_map(subs).collect()
 }
 
-/// The object that the PDO benchmark maps: in the middle, where a linear search
+/// How many U32 values `size` objects have.
+pub const fn values(size: usize) -> usize {
+    size + records(size) * (MEMBERS as usize - 1)
+}
+
+/// How many of `size` objects are records; each has its sub-index 0 besides its values.
+pub const fn records(size: usize) -> usize {
+    size / RECORD_EVERY
+}
+
+/// The value at an address: four bytes that follow from it, so that an answer from
+/// the wrong place is seen.
+pub fn value(index: u16, sub: u8) -> u32 {
+    (u32::from(index) << 8 | u32::from(sub)).wrapping_mul(0x9E37_79B1) ^ 0x5A5A_5A5A
+}
+
+/// The VAR that the PDO benchmark maps: in the middle, where a linear search
 /// meets its average.
 pub fn mapped(size: usize) -> u16 {
-    indices(size)[size / 2]
+    let middle = &objects(size)[size / 2];
+    assert!(!middle.is_record, "a VAR");
+    middle.index
 }
 
 /// A fixed pseudo-random sequence (a 64-bit LCG, upper half used).

@@ -5,8 +5,9 @@ use std::num::ParseIntError;
 use std::str::FromStr;
 
 use crate::contender::{Cycles, Nothing, Subject, Uploads};
-use crate::objects::{PDO_SIZE, SIZES};
-use crate::peers::canopen_rs::{CanopenRs, OWN};
+use crate::objects::{PDO_SIZE, SIZES, values};
+use crate::odkit::{Odkit, Seconds};
+use crate::peers::canopen_rs::{CanopenRs, room};
 use crate::peers::canopen_sdo::CanopenSdo;
 use crate::peers::zencan::Zencan;
 
@@ -78,7 +79,7 @@ pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
     let mut subject = match discipline {
         Discipline::Upload(size) => upload(name, size)?,
         Discipline::Pdo => pdo(name)?,
-        Discipline::Simulation => return None,
+        Discipline::Simulation => simulation(name)?,
     };
     subject.verify();
     Some(subject)
@@ -94,25 +95,34 @@ macro_rules! uploads {
 fn upload(name: &str, size: usize) -> Option<Box<dyn Subject>> {
     match (name, size) {
         (NOTHING, _) => uploads!(Nothing, size),
+        (ODKIT, _) => uploads!(Odkit::new(size), size),
         (ZENCAN_BUILT, _) => uploads!(Zencan::new(size)?, size),
-        (CANOPEN_RS, 16) => uploads!(CanopenRs::<{ 16 + OWN }>::new(size), size),
-        (CANOPEN_RS, 120) => uploads!(CanopenRs::<{ 120 + OWN }>::new(size), size),
-        (CANOPEN_RS, 1_000) => uploads!(CanopenRs::<{ 1_000 + OWN }>::new(size), size),
-        (CANOPEN_RS, 5_000) => uploads!(CanopenRs::<{ 5_000 + OWN }>::new(size), size),
-        (CANOPEN_SDO, 16) => uploads!(CanopenSdo::<16>::new(), size),
-        (CANOPEN_SDO, 120) => uploads!(CanopenSdo::<120>::new(), size),
-        (CANOPEN_SDO, 1_000) => uploads!(CanopenSdo::<1_000>::new(), size),
-        (CANOPEN_SDO, 5_000) => uploads!(CanopenSdo::<5_000>::new(), size),
+        (CANOPEN_RS, 16) => uploads!(CanopenRs::<{ room(16) }>::new(size), size),
+        (CANOPEN_RS, 120) => uploads!(CanopenRs::<{ room(120) }>::new(size), size),
+        (CANOPEN_RS, 1_000) => uploads!(CanopenRs::<{ room(1_000) }>::new(size), size),
+        (CANOPEN_RS, 5_000) => uploads!(CanopenRs::<{ room(5_000) }>::new(size), size),
+        (CANOPEN_SDO, 16) => uploads!(CanopenSdo::<{ values(16) }>::new(size), size),
+        (CANOPEN_SDO, 120) => uploads!(CanopenSdo::<{ values(120) }>::new(size), size),
+        (CANOPEN_SDO, 1_000) => uploads!(CanopenSdo::<{ values(1_000) }>::new(size), size),
+        (CANOPEN_SDO, 5_000) => uploads!(CanopenSdo::<{ values(5_000) }>::new(size), size),
         _ => None,
     }
 }
 
 fn pdo(name: &str) -> Option<Box<dyn Subject>> {
     match name {
-        CANOPEN_RS => Some(Box::new(Cycles(CanopenRs::<{ PDO_SIZE + OWN }>::new(
+        ODKIT => Some(Box::new(Cycles(Odkit::new(PDO_SIZE)))),
+        CANOPEN_RS => Some(Box::new(Cycles(CanopenRs::<{ room(PDO_SIZE) }>::new(
             PDO_SIZE,
         )))),
         ZENCAN_BUILT => Some(Box::new(Cycles(Zencan::new(PDO_SIZE)?))),
+        _ => None,
+    }
+}
+
+fn simulation(name: &str) -> Option<Box<dyn Subject>> {
+    match name {
+        ODKIT => Some(Box::new(Seconds::new())),
         _ => None,
     }
 }

@@ -68,22 +68,41 @@ transmission_type = 1
 mappings = [{{ index = {mapped:#x}, sub = 0, size = 32 }}]
 "#
     );
-    for index in objects::indices(size) {
-        let value = objects::value(index);
+    for object in objects::objects(size) {
+        let index = object.index;
+        let kind = if object.is_record { "record" } else { "var" };
         write!(
             text,
             r#"
 [[objects]]
 index = {index:#x}
 parameter_name = "Object {index:x}"
-object_type = "var"
-data_type = "uint32"
+object_type = "{kind}"
+"#
+        )
+        .expect("a String takes all text");
+        for sub in object.subs() {
+            if object.is_record {
+                write!(
+                    text,
+                    r#"[[objects.subs]]
+sub_index = {sub}
+parameter_name = "Member {sub}"
+"#
+                )
+                .expect("a String takes all text");
+            }
+            let value = objects::value(index, sub);
+            write!(
+                text,
+                r#"data_type = "uint32"
 access_type = "rw"
 default_value = {value}
 pdo_mapping = "tpdo"
 "#
-        )
-        .expect("a String takes all text");
+            )
+            .expect("a String takes all text");
+        }
     }
     text
 }

@@ -7,8 +7,11 @@ use ::canopen_rs::{Address, Entry, NodeId, ObjectDictionary, Value};
 use crate::contender::{Pdo, Upload};
 use crate::objects;
 
-/// 1000h, 1001h, 1017h and the five sub-indices of 1018h.
-pub const OWN: usize = 8;
+/// Room for the entries of `size` objects, and for 1000h, 1001h, 1017h and the five
+/// sub-indices of 1018h.
+pub const fn room(size: usize) -> usize {
+    8 + objects::values(size) + objects::records(size)
+}
 
 /// The node, with room for `N` entries.
 #[derive(Debug)]
@@ -30,12 +33,16 @@ impl<const N: usize> CanopenRs<N> {
         for sub in 1..=4 {
             insert(0x1018, sub, Entry::constant(Value::Unsigned32(sub.into())));
         }
-        for index in objects::indices(size) {
-            insert(
-                index,
-                0,
-                Entry::rw(Value::Unsigned32(objects::value(index))),
-            );
+        for object in objects::objects(size) {
+            let index = object.index;
+            if object.is_record {
+                let count = Value::Unsigned8(objects::MEMBERS);
+                insert(index, 0, Entry::constant(count));
+            }
+            for sub in object.subs() {
+                let value = Value::Unsigned32(objects::value(index, sub));
+                insert(index, sub, Entry::rw(value));
+            }
         }
         let id = NodeId::new(objects::NODE_ID).expect("a node-ID");
         let mut node = Box::new(Node::new(id, dictionary));

@@ -7,14 +7,23 @@ use crate::objects;
 
 include!(concat!(env!("OUT_DIR"), "/match.rs"));
 
-/// The values of `N` objects, in the order of their indices.
+/// `N` values, in the order of their addresses.
 #[derive(Debug)]
 pub struct Values<const N: usize>([u32; N]);
 
+/// What is at an address.
+#[derive(Debug)]
+pub enum Place<'a> {
+    /// A U32.
+    Value(&'a mut u32),
+    /// Sub-index 0 of a record.
+    Count(u8),
+}
+
 /// The `match` itself, one per size, in `match.rs`.
 pub trait Find {
-    /// The place of the value at an address.
-    fn find(&mut self, index: u16, sub: u8) -> Option<&mut u32>;
+    /// What is at an address.
+    fn find(&mut self, index: u16, sub: u8) -> Option<Place<'_>>;
 }
 
 impl<const N: usize> ObjectDictionary for Values<N>
@@ -23,17 +32,25 @@ where
 {
     #[inline]
     fn read(&mut self, index: u16, sub: u8, buf: &mut [u8]) -> Result<usize, SdoAbortCode> {
-        let value = self
-            .find(index, sub)
-            .ok_or(SdoAbortCode::ObjectDoesNotExist)?;
-        buf[..4].copy_from_slice(&value.to_le_bytes());
-        Ok(4)
+        match self.find(index, sub) {
+            Some(Place::Value(value)) => {
+                buf[..4].copy_from_slice(&value.to_le_bytes());
+                Ok(4)
+            }
+            Some(Place::Count(count)) => {
+                buf[0] = count;
+                Ok(1)
+            }
+            None => Err(SdoAbortCode::ObjectDoesNotExist),
+        }
     }
 
     fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
-        let value = self
-            .find(index, sub)
-            .ok_or(SdoAbortCode::ObjectDoesNotExist)?;
+        let value = match self.find(index, sub) {
+            Some(Place::Value(value)) => value,
+            Some(Place::Count(_)) => return Err(SdoAbortCode::WriteReadOnly),
+            None => return Err(SdoAbortCode::ObjectDoesNotExist),
+        };
         let data = data
             .try_into()
             .map_err(|_| SdoAbortCode::DataTypeLengthMismatch)?;
@@ -53,22 +70,16 @@ pub struct CanopenSdo<const N: usize> {
 }
 
 impl<const N: usize> CanopenSdo<N> {
-    /// A server for `N` objects.
-    pub fn new() -> Self {
+    /// A server for `size` objects, which have `N` values.
+    pub fn new(size: usize) -> Self {
         let mut values = [0; N];
-        for (value, index) in values.iter_mut().zip(objects::indices(N)) {
-            *value = objects::value(index);
+        for (value, (index, sub)) in values.iter_mut().zip(objects::addresses(size)) {
+            *value = objects::value(index, sub);
         }
         Self {
             server: SdoServer::new(ServerConfig::new(objects::NODE_ID)),
             values: Values(values),
         }
-    }
-}
-
-impl<const N: usize> Default for CanopenSdo<N> {
-    fn default() -> Self {
-        Self::new()
     }
 }
 
