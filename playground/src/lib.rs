@@ -1,1 +1,292 @@
-//! odkit.
+//! The odkit virtual encoder for JavaScript: a CAN bus with CANopen devices on it, in
+//! virtual time.
+//!
+//! ```js
+//! import init, { Bus } from 'od-playground';
+//! await init();
+//! const bus = new Bus();
+//! bus.addDevice('gxmm', 1);
+//! bus.advance(10_000, 100);                       // 10 ms pass
+//! bus.send(0x601, new Uint8Array([0x40, 4, 0x60, 0, 0, 0, 0, 0]), false, false);
+//! for (const frame of frames(bus.drain())) console.log(frame);
+//! ```
+//!
+//! Only numbers, strings, byte arrays and plain records cross the boundary; frames
+//! cross in bulk, packed. Nothing here reads a clock: time passes when
+//! [`Bus::advance`] says so.
+
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod packed;
+mod record;
+mod types;
+mod values;
+
+use od_devices::sim::words::{self, Service, Words};
+use od_devices::sim::{self, EdsOptions, VirtualDevice};
+use od_model::{Address, Diagnostic, Severity};
+use od_runtime::wire::nmt::State;
+use od_runtime::{Instant, NodeId};
+use wasm_bindgen::prelude::*;
+
+use record::Record;
+
+/// A CAN bus with CANopen devices on it, in virtual time.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Bus {
+    bus: sim::Bus,
+    batch: Vec<u8>,
+}
+
+#[wasm_bindgen]
+impl Bus {
+    /// A bus without devices; its time is `micros`, 0 if not given.
+    #[wasm_bindgen(constructor)]
+    pub fn new(micros: Option<f64>) -> Bus {
+        let mut bus = Self::default();
+        bus.bus.advance(Instant::from_micros(micros.unwrap_or(0.0) as u64));
+        bus
+    }
+
+    /// Puts a device of ours on the bus and gives it power; answers with its number.
+    /// `builtinDevices` lists the names.
+    ///
+    /// # Errors
+    /// Where there is no such device, or the node ID is not 1 to 127.
+    #[wasm_bindgen(js_name = addDevice)]
+    pub fn add_device(&mut self, name: &str, node_id: u8) -> Result<usize, JsError> {
+        let node_id = valid(node_id)?;
+        let kind = od_devices::find(name)
+            .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
+        Ok(self.put(VirtualDevice::new(kind, node_id)))
+    }
+
+    /// Puts the device that an EDS or DCF text describes on the bus and gives it power.
+    /// The answer has its number, or `null` and what is wrong with the text.
+    ///
+    /// # Errors
+    /// Where the node ID is not 1 to 127.
+    #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
+    pub fn add_eds(&mut self, text: &str, node_id: u8) -> Result<JsValue, JsError> {
+        let options = EdsOptions { node_id: Some(valid(node_id)?), ..EdsOptions::default() };
+        let (device, found) = match VirtualDevice::from_eds(text, options) {
+            Ok(device) => {
+                let found = od_model::eds::load(text).diagnostics;
+                (JsValue::from_f64(self.put(device) as f64), found)
+            }
+            Err(found) => (JsValue::NULL, found),
+        };
+        Ok(Record::new().with("device", device).with("diagnostics", diagnostics(&found)).done())
+    }
+
+    /// Sends a frame from outside at the present moment. Of a remote frame only the
+    /// number of bytes counts.
+    pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
+        let frame = packed::make(id, data, extended, remote);
+        packed::push(&mut self.batch, self.bus.now(), None, &frame);
+        self.bus.receive(&frame);
+        self.collect();
+    }
+
+    /// Lets `micros` pass, or less if `max_frames` are sent before; answers with what passed.
+    pub fn advance(&mut self, micros: f64, max_frames: usize) -> f64 {
+        let start = self.bus.now();
+        let end = start.plus_micros(micros.max(0.0) as u64);
+        let full = self.batch.len() + max_frames.max(1) * packed::LEN;
+        while self.batch.len() < full && self.bus.advance_until_sent(end) {
+            self.collect();
+        }
+        self.bus.now().micros_since(start) as f64
+    }
+
+    /// Virtual microseconds.
+    pub fn now(&self) -> f64 {
+        self.bus.now().as_micros() as f64
+    }
+
+    /// Number of frames that wait to be drained.
+    pub fn pending(&self) -> usize {
+        self.batch.len() / packed::LEN
+    }
+
+    /// All frames since the last call, own and others', 24 bytes each.
+    pub fn drain(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.batch)
+    }
+
+    /// One packed frame in plain words, with the names of the objects.
+    pub fn describe(&self, frame: &[u8]) -> String {
+        packed::frame(frame)
+            .map(|frame| sentence(words::explain(self.bus.devices(), &frame)))
+            .unwrap_or_default()
+    }
+
+    /// The object dictionary of a device, one row for each value.
+    #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
+    pub fn dictionary(&self, device: usize) -> Vec<JsValue> {
+        let Some(device) = self.bus.devices().get(device) else { return Vec::new() };
+        values::dictionary(device.dictionary(), device.node_id().raw())
+    }
+
+    /// The value of an object as a master would read it now, without a frame on the bus;
+    /// `null` where there is none.
+    #[wasm_bindgen(unchecked_return_type = "Value")]
+    pub fn read(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
+        let address = Address::new(index, sub);
+        let value = self.bus.with(device, |device, now| {
+            let data_type = device.dictionary().find(address).ok()?.data_type;
+            device.is_powered().then(|| values::value(data_type, &device.read(address, now)))
+        });
+        value.flatten().unwrap_or(JsValue::NULL)
+    }
+
+    /// A name for people.
+    pub fn title(&self, device: usize) -> String {
+        self.bus.devices().get(device).map(|device| device.title().into()).unwrap_or_default()
+    }
+
+    /// The active node ID.
+    #[wasm_bindgen(js_name = nodeId)]
+    pub fn node_id(&self, device: usize) -> u8 {
+        self.bus.devices().get(device).map_or(0, |device| device.node_id().raw())
+    }
+
+    /// The NMT state, or `off`.
+    #[wasm_bindgen(unchecked_return_type = "Nmt")]
+    pub fn nmt(&self, device: usize) -> String {
+        let Some(device) = self.bus.devices().get(device).filter(|device| device.is_powered())
+        else {
+            return "off".into();
+        };
+        match device.state() {
+            State::Initialising => "initialising",
+            State::PreOperational => "pre-operational",
+            State::Operational => "operational",
+            State::Stopped => "stopped",
+        }
+        .into()
+    }
+
+    /// What the two lamps do.
+    #[wasm_bindgen(unchecked_return_type = "Leds")]
+    pub fn leds(&self, device: usize) -> JsValue {
+        let (green, red) = self
+            .bus
+            .devices()
+            .get(device)
+            .map_or(("off", "off"), |device| {
+                let (green, red) = device.leds();
+                (green.name(), red.name())
+            });
+        Record::new().with("green", green).with("red", red).done()
+    }
+
+    /// Is there power?
+    pub fn powered(&self, device: usize) -> bool {
+        self.bus.devices().get(device).is_some_and(VirtualDevice::is_powered)
+    }
+
+    /// Switches the power.
+    #[wasm_bindgen(js_name = setPower)]
+    pub fn set_power(&mut self, device: usize, on: bool) {
+        self.bus.with(device, |device, now| {
+            if on { device.power_on(now) } else { device.power_off(now) }
+        });
+        self.collect();
+    }
+
+    /// Where the shaft is, or `null` where there is none.
+    #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
+    pub fn shaft(&mut self, device: usize) -> JsValue {
+        let shaft = self.bus.with(device, |device, now| device.shaft(now)).flatten();
+        shaft.map_or(JsValue::NULL, |shaft| {
+            Record::new()
+                .with("turns", shaft.turns)
+                .with("rpm", shaft.rpm)
+                .with("raw", shaft.raw as f64)
+                .done()
+        })
+    }
+
+    /// Lets the shaft run.
+    #[wasm_bindgen(js_name = setRpm)]
+    pub fn set_rpm(&mut self, device: usize, rpm: f64) {
+        self.bus.with(device, |device, now| device.set_rpm(rpm, now));
+        self.collect();
+    }
+
+    /// Brings the shaft to a number of revolutions from the sensor's zero point, at once.
+    #[wasm_bindgen(js_name = turnTo)]
+    pub fn turn_to(&mut self, device: usize, turns: f64) {
+        self.bus.with(device, |device, now| device.turn_to(turns, now));
+        self.collect();
+    }
+
+    fn put(&mut self, mut device: VirtualDevice) -> usize {
+        device.power_on(self.bus.now());
+        let number = self.bus.add(device);
+        self.collect();
+        number
+    }
+
+    fn collect(&mut self) {
+        while let Some(sent) = self.bus.poll() {
+            packed::push(&mut self.batch, sent.at, Some(sent.device), &sent.frame);
+        }
+    }
+}
+
+/// The devices that `Bus.addDevice` knows.
+#[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
+pub fn builtin_devices() -> Vec<JsValue> {
+    let record = |kind: &od_devices::DeviceKind| {
+        Record::new().with("name", kind.name).with("title", kind.title).done()
+    };
+    od_devices::DEVICES.iter().map(record).collect()
+}
+
+/// What there is to say about an EDS or DCF text.
+#[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
+pub fn check_eds(text: &str) -> Vec<JsValue> {
+    od_model::eds::load(text).diagnostics.iter().map(diagnostic).collect()
+}
+
+/// What a frame says, with its node where the identifier alone does not tell.
+fn sentence(words: Words) -> String {
+    let mut text = match (words.service, words.node) {
+        (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),
+        (Service::Nmt, None) => format!("{} all nodes", words.text),
+        (Service::ErrorControl | Service::Emcy, Some(node)) => format!("node {node}: {}", words.text),
+        _ => words.text,
+    };
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
+}
+
+fn valid(node_id: u8) -> Result<NodeId, JsError> {
+    NodeId::new(node_id).ok_or_else(|| JsError::new("a node ID is 1 to 127"))
+}
+
+fn diagnostics(found: &[Diagnostic]) -> JsValue {
+    record::list(found.iter().map(diagnostic))
+}
+
+fn diagnostic(one: &Diagnostic) -> JsValue {
+    let span = one.span.unwrap_or_default();
+    Record::new()
+        .with("code", one.code)
+        .with("severity", match one.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Info => "info",
+        })
+        .with("message", one.message.as_str())
+        .with("help", one.help.as_str())
+        .with("line", span.line)
+        .with("column", span.column)
+        .with("object", one.address.map(|address| address.to_string()).unwrap_or_default())
+        .done()
+}

@@ -39,7 +39,7 @@ class Chain extends View {
       <div class="chain-step">
         <span class="chain-name">PDO1</span>
         <span class="chain-value num bytes" aria-label="Last PDO1">${pdo ? Array.from(pdo.data, (byte) => html`<span>${hexByte(byte)}</span>`) : html`<span>–</span>`}</span>
-        <span class="chain-note">${pdo ? 'low byte first' : 'runs when Operational'}</span>
+        <span class="chain-note">${pdo ? 'low byte first' : 'when Operational'}</span>
       </div>
     </div>`;
   }

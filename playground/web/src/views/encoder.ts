@@ -30,7 +30,7 @@ class Encoder extends View {
         <h2>Encoder</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label="NMT state">${STATES[nmtState]}</span>
         <div class="spacer"></div>
-        <button class="small" title="NMT reset node" ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} Reset<span class="wide">node</span></button>
+        <button class="small" aria-label="Reset node" title="Reset node (NMT command 81h)" ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} Reset</button>
         <button class="switch" role="switch" aria-checked=${isOn} aria-label="Power" title=${isOn ? 'Power off' : 'Power on'} @click=${() => setPower(!isOn)}>
           ${icons.power}<span class="switch-track"><span class="switch-thumb"></span></span>
         </button>
@@ -73,7 +73,7 @@ class Angle extends View {
     const degrees = (turns - whole) * 360;
     return html`<div class="angle"><dl>
       <div><dt>Turn</dt><dd class="num" aria-label="Turns">${grouped(whole)}</dd></div>
-      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2).padStart(6, '\u2007')}°</dd></div></dl>
+      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2)}°</dd></div></dl>
       <button class="small quiet" title="Turn the shaft to its zero point" @click=${() => turnTo(0)}>To zero</button>
     </div>`;
   }

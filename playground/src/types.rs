@@ -1,0 +1,71 @@
+//! The TypeScript side of the records.
+
+use wasm_bindgen::prelude::*;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** A value: 64-bit integers that a number cannot hold come as bigint. */
+export type Value = number | bigint | string | boolean | Uint8Array | null;
+
+/** One value of the object dictionary. */
+export interface ObjectRecord {
+  index: number;
+  sub: number;
+  /** The name of the object, or of the member of a record or array. */
+  name: string;
+  /** The name of the record or array, for its members. */
+  parent: string | null;
+  /** `UNSIGNED32`, `VISIBLE_STRING`, as in CiA 301. */
+  type: string;
+  /** Length in bits; 0 where it varies. */
+  bits: number;
+  access: 'ro' | 'wo' | 'rw' | 'rwr' | 'rww' | 'const';
+  /** May stand in a PDO. */
+  mappable: boolean;
+  default: Value;
+  low: Value;
+  high: Value;
+}
+
+/** Something to say about an EDS text. */
+export interface Diagnostic {
+  /** Stable, such as `E0412`. */
+  code: string;
+  severity: 'error' | 'warning' | 'info';
+  message: string;
+  /** How to mend it; empty if the message says so. */
+  help: string;
+  /** Counted from 1; 0 where something is missing altogether. */
+  line: number;
+  column: number;
+  /** The object it is about, such as `6004h`, or empty. */
+  object: string;
+}
+
+export interface EdsResult {
+  device: number | null;
+  diagnostics: Diagnostic[];
+}
+
+export type Nmt = 'off' | 'initialising' | 'pre-operational' | 'operational' | 'stopped';
+
+export type Lamp = 'off' | 'on' | 'flashing';
+
+export interface Leds {
+  green: Lamp;
+  red: Lamp;
+}
+
+export interface Shaft {
+  /** Revolutions from the sensor's zero point, with the fraction. */
+  turns: number;
+  rpm: number;
+  /** What the sensor delivers, before scaling. */
+  raw: number;
+}
+
+export interface Builtin {
+  name: string;
+  title: string;
+}
+"#;
