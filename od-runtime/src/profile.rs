@@ -3,6 +3,8 @@
 //! The standard leaves room and manuals use it; the services ask here instead
 //! of asking who they are.
 
+use od_model::Address;
+
 use crate::AbortCode;
 
 /// What a device does with an SDO download whose length is not the object's.
@@ -62,6 +64,28 @@ pub struct StoreProfile {
     pub failed: AbortCode,
 }
 
+/// LSS slave (CiA 305).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct LssProfile {
+    /// LSS is there in NMT state Stopped alone.
+    pub stopped_only: bool,
+    /// Object of the node ID that the device starts with.
+    pub node_id: Address,
+    /// Object of the bit rate that the device starts with.
+    pub bit_rate: Address,
+    /// What `bit_rate` is for each index of the LSS bit timing table (0: 1000 kbit/s …
+    /// 8: 10 kbit/s); `None`: the device does not have it.
+    pub bit_rates: &'static [Option<u8>],
+    /// Identify remote slave by ranges (46h–4Bh).
+    pub identify_remote: bool,
+    /// Identify non-configured remote slave (4Ch).
+    pub non_configured: bool,
+    /// Fastscan (51h).
+    pub fastscan: bool,
+    /// Inquire node ID (5Eh).
+    pub inquire_node_id: bool,
+}
+
 /// What the services of a node need to know of its family.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Profile {
@@ -71,6 +95,8 @@ pub struct Profile {
     pub pdo: PdoProfile,
     /// Store and restore.
     pub store: StoreProfile,
+    /// LSS slave; `None`: the device has none.
+    pub lss: Option<LssProfile>,
     /// Object and bits that switch from heartbeat to node guarding; `None`: CiA 301, where
     /// 1017h decides.
     pub guarding_switch: Option<(u16, u32)>,
@@ -104,6 +130,7 @@ impl Profile {
             restore: Restore::AfterReset,
             failed: AbortCode::Hardware,
         },
+        lss: None,
         guarding_switch: None,
         reset_node_us: 0,
         reset_communication_us: 0,

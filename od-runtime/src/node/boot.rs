@@ -4,7 +4,7 @@ use super::{Core, Event};
 use crate::objects::{Device, Objects, Outbox};
 use crate::storage::image::{self, Loaded};
 use crate::wire::nmt::State;
-use crate::{CobId, Frame, Instant, Reset, StoreTooSmall, pdo};
+use crate::{CobId, Frame, Instant, Reset, StoreTooSmall, lss, pdo};
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// See [`Node::power_on`](super::Node::power_on).
@@ -52,6 +52,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();
+        self.lss = lss::Slave::new();
+        self.mute = None;
         self.reset_due = false;
         self.tick_at = None;
         self.state = State::Initialising;

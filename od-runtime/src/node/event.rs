@@ -18,6 +18,8 @@ pub enum Event {
     Saved(u8),
     /// 1011h: the groups of this sub-index were restored, at once or at the next reset.
     Restored(u8),
+    /// LSS activated this bit rate; the number is the device's own (2100h).
+    BitRate(u8),
     /// What storage held was damaged or written by another version; defaults were taken.
     StorageDamaged,
     /// An error came.

@@ -1,10 +1,11 @@
 //! What comes in: frames and the passing of time.
 
 use super::{Core, Event};
+use crate::lss::Action;
 use crate::objects::{Device, Effect, Objects, Outbox};
 use crate::pdo::Received;
 use crate::wire::nmt::{self, Command, State};
-use crate::{Error, ErrorChange, Frame, Instant, Reset, emcy, error_control};
+use crate::{CanId, Error, ErrorChange, Frame, Instant, Reset, emcy, error_control, wire};
 
 /// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 const PDO_LENGTH: u16 = 0x8210;
@@ -19,7 +20,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         frame: &Frame,
     ) {
         let now = self.advance(now);
-        if !self.powered || self.state == State::Initialising {
+        if !self.powered || self.state == State::Initialising || self.mute.is_some() {
             return;
         }
         let id = frame.id();
@@ -30,6 +31,10 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             return;
         }
         let is_error_control = id.raw() & 0x780 == 0x700 && !id.is_extended();
+        if id == CanId::standard(wire::lss::MASTER) {
+            self.handle_lss(device, outbox, frame);
+            return;
+        }
         if self.state == State::Stopped && !is_error_control {
             return;
         }
@@ -71,6 +76,10 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
         if self.boot_at.is_some_and(|at| at <= now) {
             self.boot_up(device, outbox, now);
+        }
+        if let Some((_, bit_rate)) = self.mute.filter(|(until, _)| *until <= now) {
+            self.mute = None;
+            self.events.push(Event::BitRate(bit_rate));
         }
         if self.heartbeat.handle_timeout(now) {
             self.out
@@ -149,6 +158,33 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 self.react(&mut objects);
             }
         }
+    }
+
+    /// 7E5h: LSS, where the device has it and the state allows it.
+    #[cold]
+    fn handle_lss(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, frame: &Frame) {
+        let Some(profile) = device.profile.lss else {
+            return;
+        };
+        if frame.is_remote() || profile.stopped_only && self.state != State::Stopped {
+            return;
+        }
+        let Some(mut objects) = device.objects(self.node_id, self.now, outbox) else {
+            return;
+        };
+        match self.lss.handle(&mut objects, &profile, frame.data()) {
+            Action::Answer(None) => {}
+            Action::Answer(Some(answer)) => {
+                self.out.push(Frame::full(
+                    CanId::standard(wire::lss::SLAVE),
+                    answer.emit(),
+                ));
+            }
+            Action::Activate { delay_ms, bit_rate } => {
+                self.mute = Some((self.now.plus_millis(delay_ms.into()), bit_rate));
+            }
+        }
+        self.finish(&mut objects);
     }
 
     /// 701h–77Fh: a master guards this node, or another node is alive.

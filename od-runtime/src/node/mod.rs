@@ -16,7 +16,7 @@ mod input;
 use crate::fifo::Fifo;
 use crate::objects::{Device, Objects, Outbox};
 use crate::wire::nmt::State;
-use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, error_control, pdo, sdo};
+use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, error_control, lss, pdo, sdo};
 
 pub use event::Event;
 
@@ -48,6 +48,9 @@ struct Core<const PDO: usize, const SDO: usize> {
     sdo: sdo::Server<SDO>,
     heartbeat: error_control::Producer,
     monitor: error_control::Monitor,
+    lss: lss::Slave,
+    /// LSS activates a bit rate: nothing is sent or received until then.
+    mute: Option<(Instant, u8)>,
     /// The error behaviour wants a reset when the call is over.
     reset_due: bool,
     emcy: emcy::Producer,
@@ -150,6 +153,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             sdo: sdo::Server::new(),
             heartbeat: error_control::Producer::new(),
             monitor: error_control::Monitor::new(),
+            lss: lss::Slave::new(),
+            mute: None,
             reset_due: false,
             emcy: emcy::Producer::new(),
             tpdo: [pdo::Tpdo::NONE; PDO],
@@ -167,6 +172,10 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         outbox: &mut Outbox,
         now: Instant,
     ) -> Option<Frame> {
+        if self.mute.is_some() {
+            self.out.clear();
+            return None;
+        }
         if let Some(frame) = self.out.pop() {
             return Some(frame);
         }
@@ -228,6 +237,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         consider(self.tick_at);
         consider(self.heartbeat.deadline());
         consider(self.monitor.deadline());
+        consider(self.mute.map(|(until, _)| until));
         consider(self.sdo.deadline());
         if self.state != State::Stopped {
             consider(self.emcy.deadline());
@@ -243,6 +253,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     fn enter(&mut self, objects: &mut Objects<'_>, state: State) {
         if self.state == state {
             return;
+        }
+        if self.state == State::Stopped && objects.profile.lss.is_some_and(|lss| lss.stopped_only) {
+            self.lss.leave();
         }
         self.state = state;
         self.events.push(Event::State(state));

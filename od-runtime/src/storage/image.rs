@@ -152,6 +152,23 @@ pub fn save(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(),
     })
 }
 
+/// Saves the values that `which` names, whatever their group; all others stay as they
+/// are saved. LSS stores node ID and bit rate so.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_only(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    which: &dyn Fn(&Entry) -> bool,
+) -> Result<(), StorageError> {
+    let banks = Banks::survey(storage)?;
+    merge::write(storage, store, &banks, &|_, entry| match entry {
+        Some(entry) if which(entry) => Fate::Store,
+        _ => Fate::Keep,
+    })
+}
+
 /// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
 /// power-on finds the defaults; the other groups' saved values stay.
 ///

@@ -1,0 +1,174 @@
+//! Who is meant: selective switching, identification by ranges, fastscan.
+
+/// Steps that have to come in order, each about this slave.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sequence {
+    next: u8,
+}
+
+impl Sequence {
+    pub(super) const fn new() -> Self {
+        Self { next: 0 }
+    }
+
+    /// Answers whether this step, the `last` one, completes the sequence.
+    pub(super) fn step(&mut self, step: u8, last: u8, matches: bool) -> bool {
+        // Step 0 begins anew, whatever came before.
+        let in_order = step == 0 || step == self.next;
+        self.next = if in_order && matches { step + 1 } else { 0 };
+        let complete = self.next > last;
+        if complete {
+            self.next = 0;
+        }
+        complete
+    }
+}
+
+/// Steps 0–5 of identify remote slave: vendor, product, lowest and highest revision,
+/// lowest and highest serial number.
+pub(super) fn in_range(
+    step: u8,
+    value: u32,
+    [vendor, product, revision, serial]: [u32; 4],
+) -> bool {
+    match step {
+        0 => vendor == value,
+        1 => product == value,
+        2 => revision >= value,
+        3 => revision <= value,
+        4 => serial >= value,
+        5 => serial <= value,
+        _ => false,
+    }
+}
+
+/// What a step of fastscan found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Seen {
+    /// Another slave is meant.
+    Other,
+    /// This slave may be meant.
+    Match,
+    /// All four numbers are this slave's.
+    Complete,
+}
+
+/// Where a scan stands: which of the four numbers is looked for now.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fastscan {
+    part: u8,
+}
+
+impl Fastscan {
+    /// `bit` of the request that asks whether anybody is there, and begins a scan.
+    const BEGIN: u8 = 0x80;
+
+    pub(super) const fn new() -> Self {
+        Self { part: 0 }
+    }
+
+    /// One step (CiA 305, chapter 6.3.6): are bits 31 to `bit` of this number as asked?
+    ///
+    /// The scan is complete only with the last number, all of its bits, after the
+    /// other three.
+    pub(super) fn step(
+        &mut self,
+        number: u32,
+        bit: u8,
+        part: u8,
+        next: u8,
+        address: [u32; 4],
+    ) -> Seen {
+        if bit == Self::BEGIN {
+            self.part = 0;
+            return Seen::Match;
+        }
+        let Some(own) = address.get(usize::from(part)) else {
+            return Seen::Other;
+        };
+        if bit > 31 || next > 3 || part != self.part || (own ^ number) >> bit != 0 {
+            return Seen::Other;
+        }
+        if bit > 0 {
+            return Seen::Match;
+        }
+        match (part, next) {
+            (3, 0) => {
+                self.part = 0;
+                Seen::Complete
+            }
+            // A number is confirmed: on to the next, which no master may leave out.
+            (part, next) if next == part + 1 => {
+                self.part = next;
+                Seen::Match
+            }
+            (part, next) if next == part => Seen::Match,
+            _ => Seen::Other,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ADDRESS: [u32; 4] = [0xEC, 0x0A, 0x0001_0000, 0x8000_0001];
+
+    /// A master that scans, as CiA 305 draws it.
+    fn scan(slave: &mut Fastscan, address: [u32; 4]) -> Option<[u32; 4]> {
+        assert_eq!(slave.step(0, 0x80, 0, 0, address), Seen::Match);
+        let mut found = [0; 4];
+        for part in 0..4u8 {
+            for bit in (0..32).rev() {
+                let number = found[usize::from(part)];
+                if slave.step(number, bit, part, part, address) == Seen::Other {
+                    found[usize::from(part)] |= 1 << bit;
+                }
+            }
+            let next = (part + 1) % 4;
+            let seen = slave.step(found[usize::from(part)], 0, part, next, address);
+            let wanted = if next == 0 {
+                Seen::Complete
+            } else {
+                Seen::Match
+            };
+            if seen != wanted {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    #[test]
+    fn a_scan_finds_the_address() {
+        assert_eq!(scan(&mut Fastscan::new(), ADDRESS), Some(ADDRESS));
+        assert_eq!(scan(&mut Fastscan::new(), [0; 4]), Some([0; 4]));
+        assert_eq!(
+            scan(&mut Fastscan::new(), [u32::MAX; 4]),
+            Some([u32::MAX; 4])
+        );
+    }
+
+    #[test]
+    fn no_scan_is_complete_before_its_end() {
+        let mut slave = Fastscan::new();
+        slave.step(0, 0x80, 0, 0, ADDRESS);
+        // A master that jumps over numbers, or back, finds nobody.
+        assert_eq!(slave.step(ADDRESS[3], 0, 3, 0, ADDRESS), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[0], 0, 0, 3, ADDRESS), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[0], 0, 0, 1, ADDRESS), Seen::Match);
+        assert_eq!(slave.step(ADDRESS[1], 0, 1, 0, ADDRESS), Seen::Other);
+        assert_eq!(slave.step(ADDRESS[1], 32, 1, 2, ADDRESS), Seen::Other);
+        assert_eq!(slave.step(0, 0, 200, 1, ADDRESS), Seen::Other);
+    }
+
+    #[test]
+    fn steps_out_of_order_begin_anew() {
+        let mut sequence = Sequence::new();
+        assert!(!sequence.step(0, 3, true) && !sequence.step(1, 3, true));
+        assert!(!sequence.step(3, 3, true), "2 was left out");
+        assert!(!sequence.step(0, 3, true) && !sequence.step(1, 3, true));
+        assert!(!sequence.step(2, 3, true) && sequence.step(3, 3, true));
+        assert!(!sequence.step(3, 3, true), "once is once");
+    }
+}
