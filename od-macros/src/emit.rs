@@ -72,15 +72,22 @@ fn about(source: &Source, family: &Family) -> String {
     text
 }
 
+/// The tokens of what was written here: escaped strings and checked identifiers.
 fn lex(text: &str) -> TokenStream {
-    // The text is made here, from escaped strings and checked identifiers.
-    match text.parse() {
-        Ok(tokens) => tokens,
-        Err(error) => {
-            let message = format!("odkit made code that does not lex, please report this: {error}");
-            quote! { ::core::compile_error!(#message); }
-        }
-    }
+    // `proc_macro2` lexes twice, to be safe from input that this is not.
+    let tokens = match proc_macro::is_available() {
+        true => text
+            .parse::<proc_macro::TokenStream>()
+            .map(TokenStream::from)
+            .map_err(|error| error.to_string()),
+        false => text
+            .parse::<TokenStream>()
+            .map_err(|error| error.to_string()),
+    };
+    tokens.unwrap_or_else(|error| {
+        let message = format!("odkit made code that does not lex, please report this: {error}");
+        quote! { ::core::compile_error!(#message); }
+    })
 }
 
 /// Everything in the module of one device; what `family` has alike, a variant hands on.
