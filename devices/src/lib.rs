@@ -1,2 +1,72 @@
-//! odkit.
+//! Virtual CANopen absolute encoders: dictionaries and what their families do differently.
+//!
+//! Each family is one module, made from one EDS file; [`DEVICES`] lists what there is.
+//! Everything here is `const` data for `od-runtime` to work with.
+//!
+//! ```
+//! use od_devices::find;
+//!
+//! let gxmm = find("gxmm").unwrap();
+//! let position = gxmm.dictionary.entry(0x6004, 0).unwrap();
+//! assert!(position.maps_to_tpdo());
+//! ```
 #![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "sim")]
+extern crate std;
+
+pub mod bus_cover;
+#[cfg(feature = "sim")]
+pub mod sim;
+
+use od_model::Dictionary;
+use od_runtime::Profile;
+use od_runtime::encoder::{Encoder, EncoderProfile};
+
+/// A device that can be simulated.
+#[derive(Clone, Copy, Debug)]
+pub struct DeviceKind {
+    /// Its name on a command line, in lower case.
+    pub name: &'static str,
+    /// What it is.
+    pub title: &'static str,
+    /// Its object dictionary.
+    pub dictionary: Dictionary<'static>,
+    /// What its family does differently from CiA 301.
+    pub profile: &'static Profile,
+    /// What its family does differently from CiA 406.
+    pub encoder: &'static EncoderProfile,
+}
+
+impl DeviceKind {
+    /// What is behind its dictionary: an encoder at angle 0, nothing broken.
+    pub fn new_encoder(&self) -> Encoder {
+        Encoder::new(self.encoder).with_sensor_of(self.dictionary)
+    }
+}
+
+/// Every device, by family.
+pub const DEVICES: &[DeviceKind] = &[
+    DeviceKind {
+        name: "gxmm",
+        title: "GXMM, multivo multiturn",
+        dictionary: bus_cover::gxmm::DICTIONARY,
+        profile: &bus_cover::PROFILE,
+        encoder: &bus_cover::ENCODER,
+    },
+    DeviceKind {
+        name: "gxam",
+        title: "GXAM, multivo singleturn",
+        dictionary: bus_cover::gxmm::gxam::DICTIONARY,
+        profile: &bus_cover::PROFILE,
+        encoder: &bus_cover::ENCODER,
+    },
+];
+
+/// The device with this name, in any case.
+pub fn find(name: &str) -> Option<&'static DeviceKind> {
+    DEVICES
+        .iter()
+        .find(|kind| kind.name.eq_ignore_ascii_case(name))
+}

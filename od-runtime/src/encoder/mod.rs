@@ -96,18 +96,22 @@ impl Encoder {
             ..EncoderProfile::CIA406
         };
         dictionary.entry(0x6004, 0)?;
-        let number = |index| {
-            let entry = dictionary.entry(index, 0)?;
-            u64::try_from(entry.default.integer(1)?).ok()
-        };
+        let number = default_of(dictionary);
         let in_steps = number(0x6502).is_some_and(|total| number(0x6002) == Some(total));
-        let mut encoder = Self::new(if in_steps {
+        let profile = if in_steps {
             &STEPS
         } else {
             &EncoderProfile::CIA406
-        });
-        encoder.sensor = encoder.sensor_of(number);
-        Some(encoder)
+        };
+        Some(Self::new(profile).with_sensor_of(dictionary))
+    }
+
+    /// With the sensor that a dictionary's defaults describe, where the profile has none:
+    /// [`set_raw_position`](Self::set_raw_position) can be used before the first power-on.
+    #[must_use]
+    pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
+        self.sensor = self.sensor_of(default_of(dictionary));
+        self
     }
 
     /// What its family does differently.
@@ -122,7 +126,8 @@ impl Encoder {
         self
     }
 
-    /// What its sensor tells apart; known after the first power-on.
+    /// What its sensor tells apart; known after [`with_sensor_of`](Self::with_sensor_of) or the
+    /// first power-on.
     pub const fn sensor(&self) -> Sensor {
         self.sensor
     }
@@ -152,7 +157,7 @@ impl Encoder {
 
     /// Puts the shaft where the sensor begins to say `raw`; it goes on with its speed.
     ///
-    /// The sensor is the profile's, or known after the first power-on.
+    /// It has to be known what the [`sensor`](Self::sensor) is.
     pub fn set_raw_position(&mut self, now: Instant, raw: u64) {
         self.unseen = Angle::ZERO;
         self.shaft.set_angle(now, self.sensor.angle(raw));
@@ -270,6 +275,14 @@ impl Encoder {
             .with_offset(offset);
         let shown = operating & u64::from(self.profile.operating_bits);
         store.set_unsigned(Address::new(0x6500, 0), shown);
+    }
+}
+
+/// Default values by index.
+fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
+    move |index| {
+        let entry = dictionary.entry(index, 0)?;
+        u64::try_from(entry.default.integer(1)?).ok()
     }
 }
 

@@ -1,0 +1,141 @@
+//! Encoders with a bus cover: multivo (and, on the same pattern, magtivo, activo, multivoPlus).
+//!
+//! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches);
+//! `DECISIONS.md`, parts A and E, where it contradicts itself or is silent. The
+//! dictionary says what the objects are; the two profiles here say what the manual has
+//! the family do differently from CiA 301 and CiA 406.
+
+use od_model::Address;
+use od_runtime::encoder::{EncoderProfile, Fault, Options, Report, Total};
+use od_runtime::{AbortCode, LengthRule, PdoProfile, Profile, Restore, SdoProfile, StoreProfile};
+
+od_macros::object_dictionary! {
+    /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
+    ///
+    /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
+    /// (`Encoder::with_serial_number`).
+    pub mod gxmm {
+        eds = "../eds/GXMM.eds";
+        profile = cia406;
+
+        /// `GXAM`, multivo singleturn: 13 bits a revolution. It has no battery.
+        variant gxam {
+            modify 0x1000 { default = 0x0001_0196 }
+            modify 0x1008 { default = "GXAM" }
+            modify 0x1018sub2 { default = 0x0B }
+            modify 0x6002 { default = 0x2000; high = 0x2000 }
+            modify 0x6502 { default = 0x2000 }
+            modify 0x6506 { default = 0x0004 }
+        }
+    }
+}
+
+/// What the services do differently: chapters 4.3.3 to 4.3.6, objects 1010h to 2801h.
+pub static PROFILE: Profile = Profile {
+    sdo: SdoProfile {
+        // Requests without their unused bytes are answered too (C-GX-15).
+        min_dlc: 4,
+        length: LengthRule {
+            // The list of abort codes has none for lengths: too much data counts with its
+            // low bytes (C-GX-13, C-GX-14), too little is a general error.
+            too_long: None,
+            too_short: AbortCode::General,
+        },
+        // The list of commands has the expedited ones alone.
+        segmented: false,
+        block: false,
+        // Of the two codes for values, the one that is not "too great" (U-05).
+        below_limit: AbortCode::ValueRange,
+        // An entry of 1003h without an error reads 0 (U-10).
+        unused_error: None,
+    },
+    pdo: PdoProfile {
+        // 1800h:02: every n-th SYNC, or cyclic by the event timer.
+        tpdo_types: &[(1, 240), (254, 254)],
+        event_on_change: false,
+        // A new COB-ID acts at once (U-18).
+        direct_cob_id: true,
+        repeat_counter: Some(0x2800),
+    },
+    store: StoreProfile {
+        // 1011h overwrites RAM and makes the EEPROM invalid (C-GX-22).
+        restore: Restore::AtOnce,
+        failed: AbortCode::LocalControl,
+    },
+    // 2110h bit 5: node guarding takes the place of heartbeat.
+    guarding_switch: Some((0x2110, 1 << 5)),
+    // The manual gives no durations (C-X-20).
+    reset_node_us: 0,
+    reset_communication_us: 0,
+};
+
+/// How the encoder works: chapters 4.3.5, 4.4.2 and 7.2.
+pub static ENCODER: EncoderProfile = EncoderProfile {
+    // 6501h and 6502h describe the sensor; 6502h is in steps, not revolutions.
+    sensor: None,
+    total: Total::Steps,
+    // 6509h is 0 to the current range − 1 (C-GX-53, U-07).
+    signed_offset: false,
+    zero_is_full: false,
+    // 6000h: sense of rotation and scaling.
+    operating_bits: 0x0005,
+    below_limit: AbortCode::ValueRange,
+    // What happens after a communication error (C-GX-23).
+    lists: &[(Address::new(0x1029, 1), &[0, 1, 2, 3])],
+    options: Some(Options {
+        index: 0x2110,
+        keep_offset: 1 << 9,
+        delay_timer: 1 << 8,
+        delay_ms: 2,
+    }),
+    node_id: Some(0x2101),
+    bit_rate: Some(0x2100),
+    bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
+    // Chapter 7.2.2: not the codes of 2100h, there is no 100 kbit/s (C-GX-35).
+    switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
+    seconds: Some(Address::new(0x2201, 2)),
+    operating_time: true,
+    // Bits of 1001h: U-08.
+    reports: &[
+        Report {
+            fault: Fault::Position,
+            code: 0x7320,
+            register: 0x81,
+            alarm: 0x0001,
+            warning: 0,
+            counter: Some(Address::new(0x2201, 1)),
+        },
+        Report {
+            fault: Fault::Internal,
+            code: 0x7510,
+            register: 0x81,
+            alarm: 0,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Memory,
+            code: 0x5530,
+            register: 0x01,
+            alarm: 0,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Watchdog,
+            code: 0x6010,
+            register: 0x01,
+            alarm: 0,
+            warning: 0x0004,
+            counter: Some(Address::new(0x2201, 3)),
+        },
+        Report {
+            fault: Fault::Battery,
+            code: 0xFF00,
+            register: 0x81,
+            alarm: 0,
+            warning: 0x0010,
+            counter: None,
+        },
+    ],
+};
