@@ -7,7 +7,9 @@
 
 use od_model::Address;
 use od_runtime::encoder::{EncoderProfile, Fault, Options, Report, Total};
-use od_runtime::{AbortCode, LengthRule, PdoProfile, Profile, Restore, SdoProfile, StoreProfile};
+use od_runtime::{
+    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+};
 
 od_macros::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
@@ -62,6 +64,27 @@ pub static PROFILE: Profile = Profile {
         restore: Restore::AtOnce,
         failed: AbortCode::LocalControl,
     },
+    // Chapter 4.3.7; the table runs opposite to the codes of 2100h (C-GX-36).
+    lss: Some(LssProfile {
+        stopped_only: true,
+        node_id: Address::new(0x2101, 0),
+        bit_rate: Address::new(0x2100, 0),
+        bit_rates: &[
+            Some(8),
+            Some(7),
+            Some(6),
+            Some(5),
+            Some(4),
+            Some(3),
+            Some(2),
+            Some(1),
+            Some(0),
+        ],
+        identify_remote: true,
+        non_configured: false,
+        fastscan: false,
+        inquire_node_id: false,
+    }),
     // 2110h bit 5: node guarding takes the place of heartbeat.
     guarding_switch: Some((0x2110, 1 << 5)),
     // The manual gives no durations (C-X-20).

@@ -178,10 +178,10 @@ impl Slave {
             (profile.bit_rate, self.bit_rate),
         ];
         for (address, value) in pending {
-            if let Some(value) = value {
-                if !objects.store.set_unsigned(address, value.into()) {
-                    return error::NOT_SUPPORTED;
-                }
+            if let Some(value) = value
+                && !objects.store.set_unsigned(address, value.into())
+            {
+                return error::NOT_SUPPORTED;
             }
         }
         let ours = |entry: &od_model::Entry| {

@@ -192,10 +192,10 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         let node = (frame.id().raw() & 0x7F) as u8;
         if !frame.is_remote() {
             self.monitor.heartbeat(node, now);
-        } else if node == self.node_id.raw() {
-            if let Some(answer) = self.monitor.guard(self.state, now) {
-                self.out.push(Frame::new(frame.id(), &[answer]));
-            }
+        } else if node == self.node_id.raw()
+            && let Some(answer) = self.monitor.guard(self.state, now)
+        {
+            self.out.push(Frame::new(frame.id(), &[answer]));
         }
     }
 
