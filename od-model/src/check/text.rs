@@ -39,6 +39,22 @@ pub(crate) fn no_value(
         })
 }
 
+/// The finding that a limit stands where there can be none.
+pub(crate) fn no_limit(
+    key: &str,
+    given: &Spanned<String>,
+    data_type: Spanned<DataType>,
+) -> Diagnostic {
+    let name = data_type.name();
+    rules::W0416
+        .at(
+            given.span,
+            format!("{key} `{}`: a {name} has no limits", given.value),
+        )
+        .with_label(data_type.span, format!("{name} is declared here"))
+        .with_help(format!("write `{key}=`, or leave the line out"))
+}
+
 /// The finding that a formula stands where the node ID cannot be.
 pub(crate) fn no_formula(
     key: &str,

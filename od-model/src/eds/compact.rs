@@ -10,7 +10,7 @@ use super::ini::Placed;
 use super::number;
 use super::sections::Compact;
 use crate::check::rules;
-use crate::{Address, DataType, Diagnostic, EntryDescription, Span, Spanned, Value};
+use crate::{Access, Address, DataType, Diagnostic, EntryDescription, Span, Spanned, Value};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
 pub(super) type CompactSections = BTreeMap<Compact, Placed>;
@@ -60,7 +60,7 @@ pub(super) fn expand(
     log: &mut Vec<Diagnostic>,
 ) -> BTreeMap<u8, EntryDescription> {
     let (template, unread) = template;
-    let mut entries = BTreeMap::from([(0, highest(count))]);
+    let mut entries = BTreeMap::from([(0, highest(address.index, count))]);
     for sub in 1..=count.value {
         let name = format!("{}{sub}", template.name.value);
         entries.insert(
@@ -131,13 +131,16 @@ fn give(
     }
 }
 
-/// Sub-index 0, which CompactSubObj implies.
-fn highest(count: &Spanned<u8>) -> EntryDescription {
+/// Sub-index 0, which CompactSubObj implies. That of 1003h counts the errors that
+/// there are, not the room for them, and a master writes 0 to it.
+fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
+    let (number, access) = match index {
+        0x1003 => (0, Access::Rw),
+        _ => (count.value, Access::Ro),
+    };
     EntryDescription {
-        default: Some(Spanned::new(
-            Value::Unsigned(u64::from(count.value)),
-            count.span,
-        )),
+        default: Some(Spanned::new(Value::Unsigned(u64::from(number)), count.span)),
+        access: Spanned::new(access, count.span),
         span: count.span,
         ..EntryDescription::new("NrOfObjects", DataType::Unsigned8)
     }

@@ -198,6 +198,15 @@ impl Reader<'_> {
         unread: &mut Unread,
     ) -> Option<Spanned<Value>> {
         let given = fields.take(key)?;
+        if let Some(data_type) = data_type
+            && matches!(data_type.kind(), Kind::Text | Kind::Bytes)
+            && matches!(key, "LowLimit" | "HighLimit")
+        {
+            let finding = text::no_limit(key, &given, data_type);
+            self.report(finding);
+            unread.push((key.into(), given.value));
+            return None;
+        }
         let value = self.typed(key, &given, data_type, low);
         if value.is_none() {
             unread.push((key.into(), given.value));
