@@ -127,6 +127,10 @@ impl Application for Encoder {
         }
     }
 
+    fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
+        super::faults::info(store)
+    }
+
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         self.faults.report(cx, self.profile.reports);
         self.profile.seconds?;

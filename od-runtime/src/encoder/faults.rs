@@ -3,10 +3,17 @@
 use od_model::Address;
 
 use super::profile::{Fault, Report};
-use crate::{Context, Error};
+use crate::{Context, Error, Store};
 
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);
+
+/// Bytes 3–7 of an EMCY: 6503h, 6505h, nothing (manual 000, chapter 4.3.5).
+pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
+    let [alarm_low, alarm_high] = (store.unsigned(ALARMS.index, 0) as u16).to_le_bytes();
+    let [low, high] = (store.unsigned(WARNINGS.index, 0) as u16).to_le_bytes();
+    [alarm_low, alarm_high, low, high, 0]
+}
 
 /// Sets of [`Fault`]s, a bit each.
 #[derive(Clone, Copy, Debug)]
@@ -73,9 +80,7 @@ impl Faults {
             self.reported ^= bit(report.fault);
             change(cx, ALARMS, report.alarm, active);
             change(cx, WARNINGS, report.warning, active);
-            let [alarm_low, alarm_high] = (cx.store.unsigned(ALARMS.index, 0) as u16).to_le_bytes();
-            let [low, high] = (cx.store.unsigned(WARNINGS.index, 0) as u16).to_le_bytes();
-            let info = [alarm_low, alarm_high, low, high, 0];
+            let info = info(cx.store);
             if active {
                 if let Some(counter) = report.counter {
                     let count = &mut self.counts[report.fault as usize];
