@@ -77,7 +77,9 @@ pub struct VirtualDevice {
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
-        let behaviour = Behaviour::Encoder(Box::new(Encoder::new(kind.encoder)));
+        let behaviour = Behaviour::Encoder(Box::new(
+            Encoder::new(kind.encoder).with_sensor_of(kind.dictionary),
+        ));
         let source = Source::Compiled(kind.dictionary);
         Self::build(kind.title.into(), source, behaviour, kind.profile, node_id)
     }

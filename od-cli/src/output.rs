@@ -1,0 +1,58 @@
+//! Output to a terminal, a file, or a pipe that may close.
+
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
+
+use crate::Failure;
+
+/// Standard output, buffered. Whoever reads may go away: that is no failure of ours.
+pub(crate) struct Output(BufWriter<io::StdoutLock<'static>>);
+
+impl Output {
+    pub(crate) fn new() -> Self {
+        Self(BufWriter::new(io::stdout().lock()))
+    }
+
+    /// Writes a line. Answers whether anybody still reads.
+    pub(crate) fn line(&mut self, line: &str) -> Result<bool, Failure> {
+        open(writeln!(self.0, "{line}"))
+    }
+
+    /// Whatever is left goes out.
+    pub(crate) fn flush(&mut self) -> Result<bool, Failure> {
+        open(self.0.flush())
+    }
+}
+
+fn open(result: io::Result<()>) -> Result<bool, Failure> {
+    match result {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(error) => Err(Failure::Failed(format!("standard output: {error}"))),
+    }
+}
+
+/// Prints a message of the argument parser where it belongs.
+pub(crate) fn print_or_ignore(error: &clap::Error) {
+    // If nobody listens there is nobody to tell.
+    let _ = error.print();
+}
+
+/// One line on standard error.
+pub(crate) fn error(message: &str) {
+    let _ = writeln!(io::stderr(), "odkit: {message}");
+}
+
+/// May what goes to standard output be coloured?
+pub(crate) fn colours() -> bool {
+    io::stdout().is_terminal() && allowed()
+}
+
+/// May what goes to standard error be coloured?
+pub(crate) fn error_colours() -> bool {
+    io::stderr().is_terminal() && allowed()
+}
+
+fn allowed() -> bool {
+    let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+}

@@ -1,0 +1,116 @@
+//! Diagnostics with their source line and a caret.
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use od_model::{Diagnostic, Severity, Span};
+
+/// A file's diagnostics as text, an empty line behind each.
+pub(crate) fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours: bool) -> String {
+    let renderer = if colours {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    };
+    let renderer = renderer.decor_style(DecorStyle::Ascii);
+    let mut out = String::new();
+    for diagnostic in diagnostics {
+        out.push_str(&renderer.render(&[group(path, text, diagnostic)]));
+        out.push_str("\n\n");
+    }
+    out
+}
+
+fn group<'a>(path: &'a str, text: &'a str, diagnostic: &'a Diagnostic) -> Group<'a> {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Info => Level::INFO,
+    };
+    let mut group = level
+        .primary_title(diagnostic.message.as_str())
+        .id(diagnostic.code)
+        .elements(snippet(path, text, diagnostic));
+    if diagnostic.span.is_none() {
+        group = group.element(annotate_snippets::Origin::path(path));
+    }
+    if let Some(address) = diagnostic.address {
+        group = group.element(Level::NOTE.message(format!("object {address}")));
+    }
+    if !diagnostic.help.is_empty() {
+        group = group.element(Level::HELP.message(diagnostic.help.as_str()));
+    }
+    group
+}
+
+/// The lines that the diagnostic is about, and no more of the file.
+fn snippet<'a>(
+    path: &'a str,
+    text: &'a str,
+    diagnostic: &'a Diagnostic,
+) -> Option<Snippet<'a, annotate_snippets::Annotation<'a>>> {
+    let main = diagnostic.span?;
+    let labels = diagnostic.labels.iter();
+    let first = labels
+        .clone()
+        .map(|label| label.span)
+        .chain([main])
+        .min_by_key(|s| s.start)?;
+    let end = labels
+        .clone()
+        .map(|label| label.span.end)
+        .chain([main.end])
+        .max()?;
+    let bytes = text.as_bytes();
+    let line_end = |byte: &u8| matches!(*byte, b'\n' | b'\r');
+    let start = bytes
+        .get(..first.start as usize)?
+        .iter()
+        .rposition(line_end)
+        .map_or(0, |at| at + 1);
+    let rest = bytes.get(end as usize..)?;
+    let end = end as usize + rest.iter().position(line_end).unwrap_or(rest.len());
+    let shown = text.get(start..end)?;
+    let range = |span: Span| {
+        let from = (span.start as usize).saturating_sub(start).min(shown.len());
+        from..(span.end as usize)
+            .saturating_sub(start)
+            .clamp(from, shown.len())
+    };
+    let snippet = Snippet::source(shown)
+        .line_start(first.line as usize)
+        .path(path)
+        .annotation(AnnotationKind::Primary.span(range(main)));
+    Some(snippet.annotations(diagnostic.labels.iter().map(|label| {
+        AnnotationKind::Context
+            .span(range(label.span))
+            .label(label.text.as_str())
+    })))
+}
+
+/// `1 error, 3 warnings`; `None` where there is nothing to say.
+pub(crate) fn count<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> Option<String> {
+    let mut counts = [0usize; 3];
+    for diagnostic in diagnostics {
+        counts[match diagnostic.severity {
+            Severity::Error => 0,
+            Severity::Warning => 1,
+            Severity::Info => 2,
+        }] += 1;
+    }
+    let parts: Vec<_> = counts
+        .into_iter()
+        .zip(["error", "warning", "remark"])
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| plural(count, what))
+        .collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// `1 file`, `2 files`.
+pub(crate) fn plural(count: usize, what: &str) -> String {
+    if count == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{count} {what}s")
+    }
+}

@@ -1,0 +1,141 @@
+//! `odkit run`: a script on a device in virtual time.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use od_devices::sim::VirtualDevice;
+use od_devices::sim::candump::format_line;
+use od_devices::sim::script::{self, Host, Origin, Reason, Script};
+use od_runtime::{Frame, Instant, NodeId};
+
+use crate::output::{self, Output};
+use crate::source::{self, Source};
+use crate::{Failure, report};
+
+/// Run a script in virtual time: candump lines in, candump lines out
+///
+/// Exit code 0: every expectation held; 1: one did not, and it is shown with what came
+/// instead; 2: the script cannot be read or carried out. Same script, same output.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The script, or `-` for standard input
+    script: String,
+    /// Built-in device or EDS file for a script that names none
+    #[arg(long, default_value = "gxmm", value_name = "DEVICE|FILE")]
+    device: String,
+    /// Node ID of that device
+    #[arg(long, value_name = "N", value_parser = source::node_id)]
+    node_id: Option<NodeId>,
+    /// Print the frames that the script sends, too
+    #[arg(long)]
+    echo: bool,
+}
+
+struct Terminal<'a> {
+    args: &'a Args,
+    folder: PathBuf,
+    output: Output,
+    /// Standard output could not be written to.
+    broken: Option<Failure>,
+}
+
+impl Host for Terminal<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let source = match name {
+            Some(name) => Source::find_in(name, &self.folder),
+            None => Source::find(&self.args.device),
+        };
+        let node_id = node_id.or(if name.is_none() {
+            self.args.node_id
+        } else {
+            None
+        });
+        source
+            .and_then(|source| source.device(node_id))
+            .map_err(|failure| match failure {
+                Failure::Usage(message) | Failure::Failed(message) => message,
+                Failure::Reported => String::from("the device cannot be made"),
+            })
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        if self.broken.is_some() || (origin == Origin::Script && !self.args.echo) {
+            return;
+        }
+        match self.output.line(&format_line(at, "can0", frame)) {
+            Ok(true) => {}
+            // Nobody reads any more; the expectations still count.
+            Ok(false) => self.broken = Some(Failure::Reported),
+            Err(failure) => self.broken = Some(failure),
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let text = read(&args.script)?;
+    let script = Script::parse(&text).map_err(|problems| {
+        for problem in &problems {
+            eprintln!("{}:{problem}", args.script);
+        }
+        let count = report::plural(problems.len(), "line");
+        Failure::Usage(format!(
+            "{}: {count} cannot be read; see SCRIPTS.md",
+            args.script
+        ))
+    })?;
+    let folder = Path::new(&args.script)
+        .parent()
+        .map(Path::to_path_buf)
+        .unwrap_or_default();
+    let mut host = Terminal {
+        args,
+        folder,
+        output: Output::new(),
+        broken: None,
+    };
+    let result = script::run(&script, &mut host);
+    host.output.flush()?;
+    if let Some(Failure::Failed(message)) = host.broken {
+        return Err(Failure::Failed(message));
+    }
+    match result {
+        Ok(summary) => {
+            if summary.held > 0 {
+                let count = report::plural(summary.held, "expectation");
+                eprintln!("{count} held, {:?} s", summary.end);
+            }
+            Ok(())
+        }
+        Err(stop) => {
+            let message = format!("{}: {stop}", args.script);
+            output::error(&message);
+            match stop.reason {
+                Reason::Failed { .. } => Err(Failure::Reported),
+                Reason::Impossible(_) => {
+                    Err(Failure::Usage(String::from("the script stops there")))
+                }
+            }
+        }
+    }
+}
+
+fn read(path: &str) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    let result = match path {
+        "-" => io::stdin().lock().read_to_end(&mut bytes).map(|_| ()),
+        path => fs::read(path).map(|read| bytes = read),
+    };
+    match result {
+        Ok(()) => String::from_utf8(bytes)
+            .map_err(|_| Failure::Usage(format!("{path}: a script is UTF-8 text"))),
+        Err(error) => Err(Failure::Usage(format!(
+            "{path}: {}",
+            source::read_error(&error)
+        ))),
+    }
+}

@@ -1,0 +1,286 @@
+//! The serial line CAN protocol, as adapters and hosts speak it (Lawicel; can-utils; python-can).
+//!
+//! A client's line ends with CR. It is answered with CR, or with BEL if it was wrong.
+//! Frames go out as `t1232AABB`, `T0000012321122`, `r1230`, `R000001230`.
+
+use od_runtime::{CanId, Frame};
+
+/// The answer to what was right.
+const OK: &[u8] = b"\r";
+/// The answer to what was wrong.
+const BELL: &[u8] = b"\x07";
+
+/// The longest line that means anything is `T` with 8 bytes: 26 characters, and 4 of a
+/// time stamp that some hosts send.
+const LONGEST: usize = 64;
+
+/// What one client's adapter stands at.
+#[derive(Debug, Default)]
+pub(super) struct Channel {
+    line: Vec<u8>,
+    too_long: bool,
+    open: bool,
+    listen_only: bool,
+    time_stamps: bool,
+}
+
+impl Channel {
+    /// Do frames of the bus go to this client?
+    pub(super) fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Bytes from the client: what is answered goes to `reply`, frames go to `frame`.
+    pub(super) fn receive(
+        &mut self,
+        bytes: &[u8],
+        reply: &mut Vec<u8>,
+        mut frame: impl FnMut(Frame, &mut Vec<u8>),
+    ) {
+        for byte in bytes {
+            match byte {
+                b'\r' => {
+                    let line = std::mem::take(&mut self.line);
+                    if std::mem::take(&mut self.too_long) {
+                        reply.extend_from_slice(BELL);
+                    } else if let Some(sent) = self.command(&line, reply) {
+                        frame(sent, reply);
+                    }
+                    self.line = line;
+                    self.line.clear();
+                }
+                // Terminals send it along; no line contains one.
+                b'\n' => {}
+                _ if self.line.len() < LONGEST => self.line.push(*byte),
+                _ => self.too_long = true,
+            }
+        }
+    }
+
+    /// A frame of the bus, as this client gets it; nothing while the channel is closed.
+    pub(super) fn encode(&self, frame: &Frame, millis: u64, out: &mut Vec<u8>) {
+        if !self.open {
+            return;
+        }
+        let id = frame.id();
+        let kind = match (frame.is_remote(), id.is_extended()) {
+            (false, false) => 't',
+            (false, true) => 'T',
+            (true, false) => 'r',
+            (true, true) => 'R',
+        };
+        out.extend_from_slice(format!("{kind}{id}{}", frame.dlc()).as_bytes());
+        for byte in frame.data() {
+            out.extend_from_slice(format!("{byte:02X}").as_bytes());
+        }
+        if self.time_stamps {
+            out.extend_from_slice(format!("{:04X}", millis % 60_000).as_bytes());
+        }
+        out.extend_from_slice(OK);
+    }
+
+    /// One line without its CR.
+    fn command(&mut self, line: &[u8], reply: &mut Vec<u8>) -> Option<Frame> {
+        let answer = match line {
+            // Hosts send empty lines to clear a half line of somebody before them.
+            [] => OK,
+            // Opening what is open and closing what is closed: hosts do it to be sure.
+            [b'C'] => {
+                self.open = false;
+                OK
+            }
+            [b'O'] => {
+                (self.open, self.listen_only) = (true, false);
+                OK
+            }
+            [b'L'] => {
+                (self.open, self.listen_only) = (true, true);
+                OK
+            }
+            // Bit rates, filters, polling, UART rate: taken, and without meaning here.
+            [b'S', b'0'..=b'9'] => OK,
+            [b's', rest @ ..] if matches!(rest.len(), 4 | 6) && is_hex(rest) => OK,
+            [b'M' | b'm', rest @ ..] if rest.len() == 8 && is_hex(rest) => OK,
+            [b'W', b'0'..=b'2'] | [b'X', b'0' | b'1'] | [b'U', b'0'..=b'6'] => OK,
+            [b'Q', b'0'..=b'2'] | [b'P' | b'A'] => OK,
+            [b'Z', on @ (b'0' | b'1')] => {
+                self.time_stamps = *on == b'1';
+                OK
+            }
+            [b'V'] => b"V1013\r",
+            [b'v'] => b"v0100\r",
+            [b'N'] => b"NODKT\r",
+            // No overrun, no error passive, no bus-off on this bus.
+            [b'F'] => b"F00\r",
+            [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => {
+                let frame = parse_frame(*kind, rest).filter(|_| self.open && !self.listen_only);
+                reply.extend_from_slice(match (frame, kind) {
+                    (None, _) => BELL,
+                    (Some(_), b't' | b'r') => b"z\r",
+                    (Some(_), _) => b"Z\r",
+                });
+                return frame;
+            }
+            _ => BELL,
+        };
+        reply.extend_from_slice(answer);
+        None
+    }
+}
+
+fn is_hex(text: &[u8]) -> bool {
+    text.iter().all(u8::is_ascii_hexdigit)
+}
+
+/// What stands behind the letter: identifier, length, data, perhaps a time stamp.
+fn parse_frame(kind: u8, text: &[u8]) -> Option<Frame> {
+    let extended = kind.is_ascii_uppercase();
+    let (id, rest) = text.split_at_checked(if extended { 8 } else { 3 })?;
+    let id = hex(id)?;
+    let id = match extended {
+        true if id <= 0x1FFF_FFFF => CanId::extended(id),
+        false if id <= 0x7FF => CanId::standard(id as u16),
+        _ => return None,
+    };
+    let (length, rest) = rest.split_first()?;
+    let dlc = length.checked_sub(b'0').filter(|dlc| *dlc <= 8)?;
+    if kind.eq_ignore_ascii_case(&b'r') {
+        return (rest.is_empty() || is_stamp(rest)).then(|| Frame::remote(id, dlc));
+    }
+    let (data, rest) = rest.split_at_checked(2 * usize::from(dlc))?;
+    if !rest.is_empty() && !is_stamp(rest) {
+        return None;
+    }
+    let mut bytes = [0; 8];
+    for (byte, digits) in bytes.iter_mut().zip(data.chunks(2)) {
+        *byte = hex(digits)? as u8;
+    }
+    Some(Frame::new(id, &bytes[..usize::from(dlc)]))
+}
+
+fn is_stamp(rest: &[u8]) -> bool {
+    rest.len() == 4 && is_hex(rest)
+}
+
+/// At most eight hex digits; a sign is none.
+fn hex(digits: &[u8]) -> Option<u32> {
+    if !is_hex(digits) {
+        return None;
+    }
+    u32::from_str_radix(std::str::from_utf8(digits).ok()?, 16).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(input: &str, reply: &str, frames: &str) {
+        let mut channel = Channel::default();
+        let (mut answered, mut seen) = (Vec::new(), Vec::new());
+        channel.receive(input.as_bytes(), &mut answered, |frame, _| {
+            seen.push(frame.to_string())
+        });
+        assert_eq!(String::from_utf8_lossy(&answered), reply, "{input:?}");
+        assert_eq!(seen.join(" "), frames, "{input:?}");
+    }
+
+    #[test]
+    fn python_can_opens_like_this() {
+        check("C\rS6\r\rO\rO\r", "\r\r\r\r\r", "");
+        check("O\rr7050\r", "\rz\r", "705#R");
+    }
+
+    #[test]
+    fn every_kind_of_frame() {
+        check(
+            "O\rt60184004600000000000\r",
+            "\rz\r",
+            "601#4004600000000000",
+        );
+        check("O\rt0800\r", "\rz\r", "080#");
+        check("O\rT1ffffff02aaBB\r", "\rZ\r", "1FFFFFF0#AABB");
+        check("O\rr7018\rR000007013\r", "\rz\rZ\r", "701#R8 00000701#R3");
+        check("O\rt0801051234\r", "\rz\r", "080#05");
+    }
+
+    #[test]
+    fn what_is_wrong_gets_a_bell_and_nothing_else() {
+        for line in [
+            "x",
+            "S",
+            "SA",
+            "S66",
+            "s12",
+            "t",
+            "t60",
+            "t601",
+            "t6018",
+            "t60190",
+            "t8000",
+            "t601140",
+            "t6011g0",
+            "t6011400",
+            "T601140",
+            "T2000000000",
+            "r701",
+            "r7019",
+            "O1",
+            "t6012+1+1",
+            "t-011aa",
+            "\u{0}",
+            "ä",
+            "d1230",
+            "V ",
+            "Z2",
+        ] {
+            let expected = match line {
+                "t601140" => "\rz\r",
+                _ => "\r\x07",
+            };
+            let frames = if line == "t601140" { "601#40" } else { "" };
+            check(&format!("O\r{line}\r"), expected, frames);
+        }
+        check("t6011\rt601140\r", "\x07\x07", "");
+        check("L\rt601140\r", "\r\x07", "");
+        check(
+            &format!("O\r{}\rV\r", "t".repeat(100_000)),
+            "\r\x07V1013\r",
+            "",
+        );
+    }
+
+    #[test]
+    fn a_closed_channel_hears_nothing() {
+        let frame = Frame::standard(0x701, &[0]);
+        let mut channel = Channel::default();
+        let mut out = Vec::new();
+        channel.encode(&frame, 0, &mut out);
+        assert!(out.is_empty());
+        channel.receive(b"Z1\rO\r", &mut Vec::new(), |_, _| {});
+        channel.encode(&frame, 61_000, &mut out);
+        assert_eq!(out, b"t70110003E8\r");
+        channel.receive(b"Z0\rC\r", &mut Vec::new(), |_, _| {});
+        out.clear();
+        channel.encode(&frame, 0, &mut out);
+        assert!(out.is_empty());
+    }
+
+    #[test]
+    fn what_goes_out_comes_back() {
+        let mut channel = Channel::default();
+        channel.receive(b"O\r", &mut Vec::new(), |_, _| {});
+        for frame in [
+            Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
+            Frame::standard(0x80, &[]),
+            Frame::new(CanId::extended(0x12345), &[1]),
+            Frame::remote(CanId::standard(0x701), 0),
+            Frame::remote(CanId::extended(0x701), 8),
+        ] {
+            let (mut out, mut seen) = (Vec::new(), None);
+            channel.encode(&frame, 0, &mut out);
+            channel.receive(&out, &mut Vec::new(), |frame, _| seen = Some(frame));
+            assert_eq!(seen, Some(frame));
+        }
+    }
+}

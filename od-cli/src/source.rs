@@ -1,0 +1,103 @@
+//! From what somebody wrote on the command line to a device.
+
+use std::fs;
+use std::path::Path;
+
+use od_devices::sim::{EdsOptions, VirtualDevice};
+use od_devices::{DEVICES, DeviceKind};
+use od_model::eds;
+use od_runtime::NodeId;
+
+use crate::{Failure, output, report};
+
+/// A built-in device, or the text of a file.
+pub(crate) enum Source {
+    BuiltIn(&'static DeviceKind),
+    File { path: String, text: String },
+}
+
+/// So many diagnostics of a file that cannot run are shown.
+const SHOWN: usize = 20;
+
+impl Source {
+    /// A name of a built-in device, or the path of an EDS or DCF file.
+    pub(crate) fn find(name: &str) -> Result<Self, Failure> {
+        Self::find_in(name, Path::new(""))
+    }
+
+    /// As [`find`](Self::find), with paths from `folder` on.
+    pub(crate) fn find_in(name: &str, folder: &Path) -> Result<Self, Failure> {
+        if let Some(kind) = od_devices::find(name) {
+            return Ok(Self::BuiltIn(kind));
+        }
+        let path = folder.join(name);
+        match fs::read(&path) {
+            Ok(bytes) => Ok(Self::File {
+                path: path.display().to_string(),
+                text: eds::decode(&bytes).into_owned(),
+            }),
+            Err(error) => {
+                let names: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
+                let error = read_error(&error);
+                Err(Failure::Failed(format!(
+                    "`{name}` is no built-in device ({}), and as a file {error}",
+                    names.join(", ")
+                )))
+            }
+        }
+    }
+
+    /// A device with power off. A text with errors is reported on standard error.
+    pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Failure> {
+        let (path, text) = match self {
+            Self::BuiltIn(kind) => {
+                return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
+            }
+            Self::File { path, text } => (path, text),
+        };
+        let options = EdsOptions {
+            node_id,
+            lenient: false,
+        };
+        VirtualDevice::from_eds(text, options).map_err(|diagnostics| {
+            let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
+            let shown = &errors[..errors.len().min(SHOWN)];
+            eprint!(
+                "{}",
+                report::render(path, text, shown, output::error_colours())
+            );
+            let count = report::plural(errors.len(), "error");
+            Failure::Failed(format!(
+                "{path} cannot run because of {count}; `odkit check {path}` shows everything"
+            ))
+        })
+    }
+}
+
+/// What the operating system says of a file, in the middle of a sentence.
+pub(crate) fn read_error(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "it does not exist".into(),
+        std::io::ErrorKind::PermissionDenied => "it may not be read".into(),
+        std::io::ErrorKind::IsADirectory => "it is a folder".into(),
+        _ => format!("it cannot be read: {error}"),
+    }
+}
+
+/// The built-in devices, for the end of `--help`.
+pub(crate) fn device_list() -> String {
+    let mut list = String::from("Built-in devices:\n");
+    for kind in DEVICES {
+        list.push_str(&format!("  {:<8} {}\n", kind.name, kind.title));
+    }
+    list.push_str("\nExit codes: 0 all is well, 1 something failed, 2 wrong usage\n");
+    list
+}
+
+/// A node ID as an argument.
+pub(crate) fn node_id(text: &str) -> Result<NodeId, String> {
+    let number = od_devices::sim::values::integer(text).and_then(|value| u8::try_from(value).ok());
+    number
+        .and_then(NodeId::new)
+        .ok_or_else(|| String::from("a node ID is a number from 1 to 127"))
+}

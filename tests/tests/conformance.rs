@@ -1,0 +1,123 @@
+//! Every script under `tests/conformance` runs, and everything it expects holds.
+//!
+//! A new case is a new file. `odkit run --echo tests/conformance/…/x.script` shows its frames.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use od_devices::sim::candump::format_line;
+use od_devices::sim::script::{Bare, Host, Origin, Script, run};
+use od_devices::sim::{EdsOptions, VirtualDevice};
+use od_model::eds;
+use od_runtime::{Frame, Instant, NodeId};
+
+/// The built-in devices, and EDS files beside the script.
+struct Bench {
+    folder: PathBuf,
+    trace: String,
+}
+
+impl Host for Bench {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let Some(file) = name.filter(|name| name.contains('.')) else {
+            return Bare.device(name, node_id);
+        };
+        let path = self.folder.join(file);
+        let bytes = fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let options = EdsOptions {
+            node_id,
+            ..EdsOptions::default()
+        };
+        VirtualDevice::from_eds(&eds::decode(&bytes), options)
+            .map_err(|diagnostics| format!("{}: {:?}", path.display(), diagnostics.first()))
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let mark = if origin == Origin::Script { "<" } else { ">" };
+        self.trace
+            .push_str(&format!("{mark} {}\n", format_line(at, "can0", frame)));
+    }
+}
+
+/// Runs a script; the answer is its trace, or what is wrong with it.
+fn check(path: &Path, text: &str) -> Result<String, String> {
+    let script = Script::parse(text).map_err(|problems| {
+        problems
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join("\n")
+    })?;
+    if script.expectations() == 0 {
+        return Err("the script expects nothing".into());
+    }
+    let comment = text.lines().next().unwrap_or_default();
+    if !comment.starts_with("# ") {
+        return Err("the first line is a comment that names the object or chapter".into());
+    }
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let mut bench = Bench {
+        folder,
+        trace: String::new(),
+    };
+    match run(&script, &mut bench) {
+        Ok(_) => Ok(bench.trace),
+        Err(stop) => {
+            let tail: Vec<_> = bench.trace.lines().rev().take(6).collect();
+            let tail: Vec<_> = tail
+                .into_iter()
+                .rev()
+                .map(|line| format!("  {line}"))
+                .collect();
+            Err(format!("{stop}\n{}", tail.join("\n")))
+        }
+    }
+}
+
+fn scripts(folder: &Path, found: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(folder).expect("the folder of the conformance scripts");
+    for entry in entries {
+        let path = entry.expect("an entry of the folder").path();
+        if path.is_dir() {
+            scripts(&path, found);
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "script")
+        {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_script_holds_twice_with_the_same_frames() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance");
+    let mut paths = Vec::new();
+    scripts(&root, &mut paths);
+    paths.sort();
+    assert!(paths.len() >= 25, "{} scripts", paths.len());
+    let mut failures = Vec::new();
+    for path in &paths {
+        let text = fs::read_to_string(path).expect("a script is UTF-8");
+        let result = check(path, &text);
+        if result != check(path, &text) {
+            failures.push(format!("{}: two runs differ", path.display()));
+        }
+        if let Err(what) = result {
+            let shown = path.strip_prefix(&root).unwrap_or(path).display();
+            failures.push(format!("tests/conformance/{shown}: {what}"));
+        }
+    }
+    let count = failures.len();
+    assert!(
+        failures.is_empty(),
+        "{count} of {} scripts:\n\n{}",
+        paths.len(),
+        failures.join("\n\n")
+    );
+    println!("{} scripts", paths.len());
+}
