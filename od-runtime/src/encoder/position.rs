@@ -62,9 +62,21 @@ pub struct Scale {
     range: u64,
     /// Where counting begins anew: `range`, or what the sensor can tell apart if that is less.
     wrap: u64,
+    /// `wrap` − 1 where `wrap` is a power of two, else 0: a mask is faster than a division.
+    mask: u64,
+    step: Step,
     reversed: bool,
     /// 0 to `range` − 1.
     offset: u64,
+}
+
+/// How a step of the sensor becomes one that is shown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Step {
+    Same,
+    /// The sensor's steps per revolution are this power of two.
+    Shift(u32),
+    Divide,
 }
 
 impl Scale {
@@ -93,11 +105,20 @@ impl Scale {
             _ => 0x1_0000_0000,
         };
         let most = steps.saturating_mul(sensor.turns as u64);
+        let wrap = if range < most { range } else { most };
         Self {
             sensor,
             steps,
             range,
-            wrap: if range < most { range } else { most },
+            wrap,
+            mask: if wrap.is_power_of_two() { wrap - 1 } else { 0 },
+            step: if steps == sensor.steps as u64 {
+                Step::Same
+            } else if sensor.steps.is_power_of_two() {
+                Step::Shift(sensor.steps.trailing_zeros())
+            } else {
+                Step::Divide
+            },
             reversed: false,
             offset: 0,
         }
@@ -142,22 +163,19 @@ impl Scale {
     pub const fn without_offset(&self, angle: Angle) -> u64 {
         let (turns, fraction) = angle.split();
         let step = self.sensor.step(fraction);
-        let most = self.sensor.steps as u64;
         // Both factors are less than 2³².
-        let step = if self.steps == most {
-            step
-        } else if most.is_power_of_two() {
-            (step * self.steps) >> most.trailing_zeros()
-        } else {
-            step * self.steps / most
+        let step = match self.step {
+            Step::Same => step,
+            Step::Shift(bits) => (step * self.steps) >> bits,
+            Step::Divide => step * self.steps / self.sensor.steps as u64,
         };
         let total = match self.sensor.turns {
             1 => step as i64,
             // At most 2³¹ revolutions of less than 2³² steps.
             _ => turns * self.steps as i64 + step as i64,
         };
-        let position = if self.wrap.is_power_of_two() {
-            total as u64 & (self.wrap - 1)
+        let position = if self.mask != 0 {
+            total as u64 & self.mask
         } else {
             total.rem_euclid(self.wrap as i64) as u64
         };
