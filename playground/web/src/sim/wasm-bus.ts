@@ -37,7 +37,7 @@ export class WasmBus implements Bus {
   openEds(text: string, nodeId: number): Opened {
     return this.replace((bus) => {
       const { device, diagnostics } = bus.addEds(text, nodeId);
-      return device === null ? diagnostics : { name: 'EDS', diagnostics };
+      return device === null ? diagnostics : { name: bus.title(DEVICE), diagnostics };
     });
   }
 

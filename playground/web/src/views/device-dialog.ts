@@ -123,11 +123,15 @@ class DeviceDialog extends View {
 
   private fault(one: Diagnostic, lines: string[]) {
     const source = lines[one.line - 1] ?? '';
+    const at = Math.max(0, one.column - 1);
     return html`<li data-severity=${one.severity}>
       <span class="num where">${one.line ? `${one.line}:${one.column}` : '–'}</span>
-      <span><span class="code">${one.code}</span> ${one.message}${one.help ? html`<span class="muted help">${one.help}</span>` : nothing}${source.trim() ? html`<code class="source">${source.slice(0, 160)}</code>` : nothing}</span>
+      <span><span class="code">${one.code}</span> ${withCode(one.message)}${source.trim() ? html`<code class="source">${source.slice(0, at)}<mark>${source.slice(at, at + 120).trimEnd()}</mark></code>` : nothing}${one.help ? html`<span class="muted help">${withCode(one.help)}</span>` : nothing}</span>
     </li>`;
   }
 }
+
+/** Text between backticks is code. */
+const withCode = (text: string): unknown[] => text.split('`').map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
 customElements.define('od-device-dialog', DeviceDialog);

@@ -24,7 +24,7 @@ class Encoder extends View {
   protected override render() {
     const isOn = state.powered.value;
     const nmtState = state.nmt.value;
-    const hasShaft = state.shaft.value !== null;
+    const hasShaft = state.shaft.value !== null || state.device.value === null;
     return html`
       <header class="panel-head">
         <h2>Encoder</h2>

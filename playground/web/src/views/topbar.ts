@@ -27,6 +27,7 @@ class Topbar extends View {
 
   protected override render() {
     const device = state.device.value;
+    const source = state.source.value;
     const isRunning = state.running.value;
     return html`<header class="topbar">
       <a class="brand" href="#" aria-label="odkit, start again" @click=${(event: Event) => { event.preventDefault(); location.hash = ''; location.reload(); }}>
@@ -35,7 +36,7 @@ class Topbar extends View {
       </a>
       <button class="device-button" aria-haspopup="dialog" @click=${() => (state.deviceDialog.value = true)}>
         <strong>${device?.name ?? 'Starting'}</strong>
-        <span class="device-title">${device?.title ?? ''}</span>
+        <span class="device-title">${source.kind === 'eds' ? source.name : (device?.title ?? '')}</span>
         <span class="badge">node ${state.nodeId.value}</span>
         ${icons.chevron}
       </button>
