@@ -48,13 +48,9 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         "",
         report,
     );
-    let mut eds = source.findings.clone();
-    eds.extend(
-        found
-            .iter()
-            .filter(|f| !source.findings.contains(f))
-            .cloned(),
-    );
+    let standing = source.findings.iter();
+    let standing = standing.filter(|finding| !mended(finding, &base, &input.statements));
+    let mut eds: Vec<Diagnostic> = standing.cloned().chain(found).collect();
     eds.sort_by_key(|finding| finding.span.map_or(0, |span| span.start));
     told.tell(&eds, &base, report);
     if let (Some(profile), false) = (&input.profile, quiet) {
@@ -83,6 +79,37 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         family.remarks = eds.iter().filter(|finding| !finding.is_error()).count();
     }
     family
+}
+
+/// Did the module's statements replace what the reader could not read? So a file that
+/// cannot be changed is mended in the call.
+fn mended(finding: &Diagnostic, base: &Description, statements: &[Statement]) -> bool {
+    let Some(address) = finding.address else {
+        return false;
+    };
+    if base.entry(address).is_none() && !base.objects.contains_key(&address.index) {
+        return true;
+    }
+    let key = [
+        ("DefaultValue", "default"),
+        ("ParameterValue", "default"),
+        ("LowLimit", "low"),
+        ("HighLimit", "high"),
+    ]
+    .into_iter()
+    .find(|(key, _)| finding.message.starts_with(key));
+    let key = match (key, finding.code) {
+        (Some((_, field)), _) => field,
+        (None, "E0402") => "type",
+        (None, "E0405") => "access",
+        (None, _) => return false,
+    };
+    statements.iter().any(|statement| match statement {
+        Statement::Edit { target, fields, .. } => {
+            target.target.address() == address && fields.iter().any(|f| f.change.key() == key)
+        }
+        Statement::Rename { .. } => false,
+    })
 }
 
 fn devices(
@@ -166,11 +193,14 @@ impl Findings<'_> {
                 Vec::new()
             };
         }
-        let known = match before.objects.is_empty() {
+        let mut known = match before.objects.is_empty() {
             true => Vec::new(),
             false => od_model::check::check(before),
         };
-        let (old, new): (Vec<_>, Vec<_>) = found.into_iter().partition(|f| known.contains(f));
+        known.retain(Diagnostic::is_error);
+        let (old, new): (Vec<_>, Vec<_>) = found
+            .into_iter()
+            .partition(|f| !f.is_error() || known.contains(f));
         let patch = findings::Patch {
             edits: &edits,
             tokens: first..report.numbers(),

@@ -60,11 +60,14 @@
 //!
 //! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
 //! mappable unless it says so. A RECORD or an ARRAY is added first and its members
-//! after it; sub-index 0 comes by itself where no `add` gives it. `none` takes a
+//! after it; sub-index 0 comes by itself where no `add` gives it, and follows where a
+//! patch adds or removes members. `none` takes a
 //! default or a limit away.
 //!
 //! The statements of the module make the base; each variant starts from it. They
-//! are strict: to edit what is not there is an error, and to add what is, too.
+//! are strict: to edit what is not there is an error, and to add what is, too. What is
+//! checked is the result, so a file with faults that cannot be changed is mended here:
+//! `modify 0x2300 { default = 1 }` where its default is nonsense.
 //!
 //! # What is made
 //!
@@ -74,7 +77,7 @@
 //! `identity_object`. What is not a letter or a digit separates words. **Names that
 //! repeat all get their index or sub-index behind**, `RESERVED_2110`, `RESERVED_2111`
 //! or `RESERVED_05`; `rename` gives better ones, and two renames that meet are an
-//! error. Every item's documentation says index, type, access, default, limits and
+//! error. A module that is called like a variant gets its index too. Every item's documentation says index, type, access, default, limits and
 //! where it stands in the EDS.
 //!
 //! A variant is a module inside: `thermometer::outdoor` has its own `DICTIONARY` and
