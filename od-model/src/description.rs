@@ -271,11 +271,8 @@ impl Description {
         let section = self
             .section("DeviceComissioning")
             .or_else(|| self.section("DeviceCommissioning"))?;
-        let text = section.get("NodeID")?.trim();
-        let id = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-            Some(hex) => u8::from_str_radix(hex, 16).ok()?,
-            None => text.parse().ok()?,
-        };
+        let id = crate::eds::number(section.get("NodeID")?)?;
+        let id = u8::try_from(id).ok()?;
         (1..=127).contains(&id).then_some(id)
     }
 }

@@ -228,3 +228,71 @@ fn slot_len(data_type: DataType, access: Access, value: Option<&Value>) -> u16 {
     };
     (2 + given.max(room)).min(u16::MAX as usize) as u16
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ObjectDescription;
+
+    fn entry(data_type: DataType, default: Value) -> EntryDescription {
+        EntryDescription {
+            default: Some(Spanned::from(default)),
+            ..EntryDescription::new("x", data_type)
+        }
+    }
+
+    #[track_caller]
+    fn check(data_type: DataType, default: Value, expected: Literal) {
+        let mut description = Description::default();
+        let object = ObjectDescription::var(entry(data_type, default));
+        description.objects.insert(0x2000, object);
+        let tables = Tables::new(&description);
+        let made = tables.dictionary().entry(0x2000, 0).map(|e| e.default);
+        assert_eq!(made, Some(expected));
+    }
+
+    #[test]
+    fn a_literal_is_one_of_its_entrys_type() {
+        use DataType::*;
+        check(Unsigned8, Value::Signed(5), Literal::Unsigned(5));
+        check(Integer8, Value::Unsigned(5), Literal::Signed(5));
+        check(Unsigned8, Value::Unsigned(256), Literal::None);
+        check(Integer8, Value::Signed(-129), Literal::None);
+        check(Unsigned32, Value::Text("x".into()), Literal::None);
+        check(VisibleString, Value::Unsigned(1), Literal::None);
+        check(Real32, Value::Real(1e39), Literal::None);
+        check(Unsigned8, Value::NodeId(0x80), Literal::NodeId(0x80));
+        check(Unsigned8, Value::NodeId(0x81), Literal::None);
+        check(Unsigned64, Value::NodeId(1), Literal::None);
+    }
+
+    #[test]
+    fn whatever_a_description_holds_there_are_tables() {
+        let mut description = Description::default();
+        let mut odd = ObjectDescription::var(entry(DataType::Identity, Value::Unsigned(1)));
+        odd.entries
+            .insert(255, entry(DataType::Unsigned8, Value::Unsigned(1)));
+        description.objects.insert(0, odd.clone());
+        odd.entries.clear();
+        description.objects.insert(0xFFFF, odd);
+        let tables = Tables::new(&description);
+        let dictionary = tables.dictionary();
+        assert_eq!(dictionary.objects().len(), 1);
+        assert_eq!(dictionary.entries().len(), 1);
+        assert!(dictionary.entry(0, 255).is_some());
+    }
+
+    #[test]
+    fn a_configured_value_is_the_default_if_it_is_one() {
+        let mut value = entry(DataType::Unsigned8, Value::Unsigned(1));
+        for (parameter, expected) in [(2, 2), (300, 1)] {
+            value.parameter = Some(Spanned::from(Value::Unsigned(parameter)));
+            let mut description = Description::default();
+            let object = ObjectDescription::var(value.clone());
+            description.objects.insert(0x2000, object);
+            let tables = Tables::new(&description);
+            let made = tables.dictionary().entry(0x2000, 0).map(|e| e.default);
+            assert_eq!(made, Some(Literal::Unsigned(expected)));
+        }
+    }
+}
