@@ -37,6 +37,8 @@ pub struct Signals {
     pub(crate) reconfigure: bool,
     /// The application's own deadline may have moved.
     pub(crate) tick: bool,
+    /// The record of the device's life is to be saved.
+    pub(crate) keep: bool,
 }
 
 impl Default for Signals {
@@ -52,13 +54,14 @@ impl Signals {
             errors: Fifo::new(emcy::NO_CHANGE),
             reconfigure: false,
             tick: false,
+            keep: false,
         }
     }
 
     /// Is there nothing to carry out?
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
-        self.errors.is_empty() && !self.reconfigure && !self.tick
+        self.errors.is_empty() && !self.reconfigure && !self.tick && !self.keep
     }
 
     /// An error came: an EMCY is sent, 1001h and 1003h follow.
@@ -77,6 +80,12 @@ impl Signals {
     /// Communication objects (1000h–1FFFh) were changed from inside; the services take them over.
     pub fn reconfigure(&mut self) {
         self.reconfigure = true;
+    }
+
+    /// What the device keeps of its own life (hours, counters) is saved, and nothing else
+    /// with it; where storage fails, the next time has to do.
+    pub fn keep(&mut self) {
+        self.keep = true;
     }
 
     /// [`Application::tick`] wants to be asked again for its deadline.

@@ -137,6 +137,17 @@ fn node_id_and_bit_rate_act_at_the_next_start_if_stored() {
 }
 
 #[test]
+fn a_node_id_that_was_not_saved_is_gone_with_the_next_reset() {
+    for reset in ["81", "82"] {
+        let mut bench = bench(ALL);
+        bench.send("000#8001");
+        bench.ask("601#2F01210005000000");
+        assert_eq!(bench.send(&format!("000#{reset}01")), ["701#00"]);
+        assert_eq!(bench.value(0x2101, 0), 1);
+    }
+}
+
+#[test]
 fn what_is_out_of_range_has_its_error_code() {
     let mut bench = bench(ALL);
     bench.send("7E5#0401000000000000");

@@ -25,6 +25,7 @@ impl Application for Encoder {
                 .map_or(0, |at| cx.store.unsigned(at.index, at.sub));
             self.seconds = self.seconds_at(cx.now).max(stored as u32);
             self.started = Some(cx.now);
+            self.kept = 0;
             self.faults.reset(cx, self.profile.reports);
             self.bit_rate = self.starting_bit_rate(cx.store);
         }
@@ -135,7 +136,15 @@ impl Application for Encoder {
         self.faults.report(cx, self.profile.reports);
         self.profile.seconds?;
         self.show_time(cx);
-        let since = self.micros(cx.now) % SIX_MINUTES;
+        let (periods, since) = (
+            self.micros(cx.now) / SIX_MINUTES,
+            self.micros(cx.now) % SIX_MINUTES,
+        );
+        // A host ticks on other occasions, too.
+        if periods > self.kept {
+            self.kept = periods;
+            cx.signals.keep();
+        }
         Some(cx.now.plus_micros(SIX_MINUTES - since))
     }
 }

@@ -51,6 +51,8 @@ pub struct Encoder {
     unseen: Angle,
     /// The last reset; `None` without power.
     started: Option<Instant>,
+    /// Periods of operation since, at whose end its time was saved.
+    kept: u64,
     /// Seconds of operation before `started`.
     seconds: u32,
     /// 6200h as it was when it last agreed with 1800h:05.
@@ -80,6 +82,7 @@ impl Encoder {
             off: None,
             unseen: Angle::ZERO,
             started: None,
+            kept: 0,
             seconds: 0,
             timer: 0,
             bit_rate: None,

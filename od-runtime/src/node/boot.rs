@@ -4,7 +4,7 @@ use super::{Core, Event};
 use crate::objects::{Device, Objects, Outbox};
 use crate::storage::image::{self, Loaded};
 use crate::wire::nmt::State;
-use crate::{CobId, Frame, Instant, Reset, StoreTooSmall, lss, pdo};
+use crate::{CobId, Frame, Instant, LssProfile, Reset, StoreTooSmall, lss, pdo};
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// See [`Node::power_on`](super::Node::power_on).
@@ -76,10 +76,17 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
                 return;
             };
-            // Reset communication takes 1000h–1FFFh back and leaves the errors that last.
+            // Reset communication takes 1000h–1FFFh back, and what the device starts on the
+            // bus with; it leaves the errors that last.
+            let lss = objects.profile.lss;
             let which = |entry: &od_model::Entry| {
-                let index = entry.address.index;
-                all || (0x1000..0x2000).contains(&index) && !matches!(index, 0x1001 | 0x1003)
+                let starts_with =
+                    |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
+                all || match entry.address.index {
+                    0x1001 | 0x1003 => false,
+                    0x1000..=0x1FFF => true,
+                    _ => lss.is_some_and(starts_with),
+                }
             };
             objects.store.reset(which);
             let loaded = image::load(objects.storage, &mut objects.store, &which);

@@ -4,8 +4,12 @@ use super::{Core, Event};
 use crate::lss::Action;
 use crate::objects::{Device, Effect, Objects, Outbox};
 use crate::pdo::Received;
+use crate::storage::image;
 use crate::wire::nmt::{self, Command, State};
 use crate::{CanId, Error, ErrorChange, Frame, Instant, Reset, emcy, error_control, wire};
+
+/// Sub-index of 1010h, were it one, under which the device saves its own record.
+const LIFE_RECORD: u8 = 0;
 
 /// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 const PDO_LENGTH: u16 = 0x8210;
@@ -272,6 +276,12 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.apply_effects(objects);
         if core::mem::take(&mut objects.outbox.signals.tick) {
             self.tick_at = objects.application(|application, context| application.tick(context));
+        }
+        if core::mem::take(&mut objects.outbox.signals.keep) {
+            objects.refresh_life_record();
+            if image::save(objects.storage, &objects.store, LIFE_RECORD).is_err() {
+                self.events.push(Event::StorageDamaged);
+            }
         }
         while let Some(change) = objects.outbox.signals.errors.pop() {
             let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();

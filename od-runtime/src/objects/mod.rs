@@ -217,6 +217,7 @@ impl<'c> Objects<'c> {
         }
         let sub = entry.address.sub;
         if entry.address.index == 0x1010 {
+            self.refresh_life_record();
             crate::storage::image::save(self.storage, &self.store, sub)
                 .map_err(|_| self.profile.store.failed)?;
             self.effect(Effect::Saved(sub));
@@ -231,6 +232,18 @@ impl<'c> Objects<'c> {
         }
         self.effect(Effect::Restored(sub));
         Ok(())
+    }
+
+    /// What the device keeps of its own life is brought up to date before it is saved.
+    pub(crate) fn refresh_life_record(&mut self) {
+        let entries = self.store.dictionary().entries();
+        for entry in entries
+            .iter()
+            .filter(|entry| crate::storage::image::is_life_record(entry))
+        {
+            // A value that cannot be had is saved as it stands.
+            let _ = self.refresh(entry.address);
+        }
     }
 
     fn effect(&mut self, effect: Effect) {
