@@ -164,6 +164,28 @@ check('pause holds the view and loses nothing', async (page) => {
   await until('the frames of the pause', async () => (await rows(page)).length >= shown + 2);
 });
 
+check('a chosen frame is shown in full and goes back to the send line', async (page) => {
+  await sendRaw(page, '601 40 08 10 00');
+  await row(page, 'the answer', (one) => one.id === '581');
+  await page.locator('.frame', { hasText: '581' }).click();
+  const detail = page.locator('.frame-detail');
+  assert.match(await detail.textContent(), /1008h/);
+  assert.match(await detail.textContent(), /GXMM/);
+  await page.locator('.frames').press('ArrowUp');
+  await until('the frame before', async () => /Read 1008h/.test(await detail.textContent()));
+  await detail.getByRole('button', { name: 'To send line' }).click();
+  const line = page.getByRole('textbox', { name: 'Frame', exact: true });
+  assert.equal(await line.inputValue(), '601#40 08 10 00');
+  await page.locator('.frames').press('Escape');
+  await until('no detail', async () => (await detail.count()) === 0);
+});
+
+check('SYNC fetches the synchronous PDO', async (page) => {
+  await nmt(page, 'Start');
+  for (let i = 0; i < 2; i++) await page.getByRole('button', { name: 'SYNC', exact: true }).click();
+  await row(page, 'PDO2', (one) => one.id === '281' && one.tag === 'PDO2');
+});
+
 check('clear empties the console', async (page) => {
   await page.getByRole('button', { name: 'Clear' }).click();
   await until('no rows', async () => (await rows(page)).length === 0 && (await captured(page)) === 0);

@@ -58,6 +58,7 @@ export function togglePause(): void {
 
 export function clearConsole(): void {
   state.ring.clear();
+  state.chosenFrame.value = null;
   if (state.pausedAt.value !== null) state.pausedAt.value = state.ring.end;
   state.captured.value = state.ring.end;
   state.cleared.value += 1;

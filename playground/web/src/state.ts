@@ -36,6 +36,11 @@ export const pausedAt = signal<number | null>(null);
 /** Counts how often the capture was cleared. */
 export const cleared = signal(0);
 
+/** Number of the frame that is shown in full. */
+export const chosenFrame = signal<number | null>(null);
+/** A frame that goes to the send line. */
+export const draft = signal<{ text: string } | null>(null);
+
 /** Live values of the watched objects, by `keyOf`. */
 export const values = signal<ReadonlyMap<number, Value>>(new Map());
 export const selected = signal<ObjectRecord | null>(null);

@@ -83,6 +83,12 @@ export function hexBytes(data: Uint8Array): string {
 export const hexId = (id: number, extended: boolean): string =>
   id.toString(16).toUpperCase().padStart(extended ? 8 : 3, '0');
 
+/** A frame as one would type it: `601#40 04 60 00`. */
+export function typedForm(frame: Frame): string {
+  const body = frame.remote ? `R${frame.dlc || ''}` : hexBytes(frame.data);
+  return `${hexId(frame.id, frame.extended)}#${body}`;
+}
+
 /** One line of a candump log: `(0.100000) can0 601#4004600000000000`. */
 export function candumpLine(frame: Frame): string {
   const seconds = Math.floor(frame.time / 1e6);

@@ -11,6 +11,7 @@ import { wordsArrived, wordsOf } from '../sim/words';
 import { icons } from './icons';
 import { Rows, setText } from './rows';
 import { View } from './view';
+import './frame-detail';
 
 const COLUMNS = ['Time', 'Delta', 'Dir', 'COB-ID', 'Type', 'Len', 'Data', 'Meaning'];
 
@@ -43,6 +44,10 @@ class Console extends View {
         row.setAttribute('role', 'row');
         row.innerHTML = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'].map((name) => `<span role="cell" class="${name}"></span>`).join('');
         row.querySelector('.tag')!.append(document.createElement('b'));
+        row.addEventListener('click', () => {
+          const number = Number(row.dataset['number']);
+          state.chosenFrame.value = state.chosenFrame.peek() === number ? null : number;
+        });
         return row;
       },
       fill: (row, index) => this.fill(row, state.ring.first + index),
@@ -62,7 +67,9 @@ class Console extends View {
       release();
     }, { passive: true });
     viewport.addEventListener('touchmove', release, { passive: true });
-    viewport.addEventListener('keydown', () => release());
+    viewport.addEventListener('keydown', (event) => {
+      if (!this.moveChoice(event, rows)) release();
+    });
     viewport.addEventListener('pointerdown', () => { if (viewport.scrollTop > 0) this.follows = false; });
     viewport.addEventListener('pointerup', release);
     viewport.addEventListener('scroll', () => {
@@ -73,6 +80,10 @@ class Console extends View {
         void state.captured.value;
         void state.pausedAt.value;
         this.settle(viewport, rows);
+      }),
+      effect(() => {
+        void state.chosenFrame.value;
+        rows.redraw();
       }),
       effect(() => {
         void wordsArrived.value;
@@ -89,6 +100,28 @@ class Console extends View {
         if (state.tab.value === 'console') requestAnimationFrame(() => this.settle(viewport, rows));
       }),
     );
+  }
+
+  /** Arrow keys go from frame to frame once one is chosen; Enter chooses the newest. */
+  private moveChoice(event: KeyboardEvent, rows: Rows): boolean {
+    const { ring, chosenFrame } = state;
+    const last = this.end() - 1;
+    const now = chosenFrame.value;
+    const moves: Record<string, number> = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 };
+    if (event.key === 'Escape') {
+      chosenFrame.value = null;
+    } else if (event.key === 'Enter' && now === null && last >= ring.first) {
+      chosenFrame.value = last;
+    } else if (now !== null && moves[event.key] !== undefined) {
+      const next = Math.max(ring.first, Math.min(last, now + moves[event.key]!));
+      chosenFrame.value = next;
+      if (next < last) this.follows = false;
+      rows.reveal(next - ring.first);
+    } else {
+      return false;
+    }
+    event.preventDefault();
+    return true;
   }
 
   private settleScheduled = 0;
@@ -108,6 +141,7 @@ class Console extends View {
   }
 
   private fill(row: HTMLElement, number: number): void {
+    row.toggleAttribute('data-chosen', state.chosenFrame.peek() === number);
     if (row.dataset['number'] === String(number)) return;
     const frame = state.ring.get(number);
     if (!frame) return;
@@ -174,6 +208,7 @@ class Console extends View {
         ${kept === 0 ? html`<p class="frames-empty">Nothing on the bus yet. Switch the power on, or send a frame.</p>` : nothing}
         ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} Latest frames</button>` : nothing}
       </div>
+      <od-frame-detail></od-frame-detail>
     `;
   }
 

@@ -40,6 +40,9 @@ class Objects extends View {
       this.lines.push({ object, heading: false });
     }
     this.watched = '';
+    this.rows?.draw();
+    const chosen = this.lines.findIndex((line) => !line.heading && line.object === state.selected.peek());
+    if (chosen >= 0) this.rows?.reveal(chosen);
     this.rows?.redraw();
   }
 

@@ -1,6 +1,7 @@
 // The dock under the frames: a raw frame, an SDO by name, and the NMT commands.
 
 import { html } from 'lit';
+import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { NMT_COMMANDS, nmt, sendFrame } from '../actions';
 import { parseFrame } from '../can/text';
@@ -23,6 +24,7 @@ class Send extends View {
           ${NMT_COMMANDS.map(
             ({ code, text, title }) => html`<button class="small" title=${title} aria-label=${`NMT ${text}`} data-active=${isState(code)} @click=${() => nmt(code)}>${text}</button>`,
           )}
+          <button class="small sync" title="Send SYNC (80h)" @click=${() => sendFrame({ id: 0x80, extended: false, remote: false, data: new Uint8Array(0), dlc: 0 })}>SYNC</button>
         </div>
       </div>
     `;
@@ -43,12 +45,28 @@ class RawFrame extends View {
   declare isTouched: boolean;
   private history: string[] = [];
   private place = 0;
+  private undraft: (() => void) | undefined;
 
   constructor() {
     super();
     this.text = '';
     this.meaning = '';
     this.isTouched = false;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.undraft = effect(() => {
+      const { value } = state.draft;
+      if (!value) return;
+      void this.onInput(value.text);
+      this.querySelector('input')?.focus();
+    });
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.undraft?.();
   }
 
   private async onInput(text: string): Promise<void> {
