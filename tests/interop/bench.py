@@ -1,0 +1,140 @@
+"""A live `odkit sim`, and python-canopen as its master."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import canopen
+
+ROOT = Path(__file__).resolve().parents[2]
+EDS = ROOT / "devices" / "eds" / "GXMM.eds"
+STRINGS = Path(__file__).with_name("strings.eds")
+
+
+def odkit():
+    """The binary: from the environment, else where cargo puts it."""
+    path = os.environ.get("ODKIT")
+    if path is None:
+        target = os.environ.get("CARGO_TARGET_DIR", ROOT / "target")
+        path = Path(target) / "debug" / "odkit"
+    return str(path)
+
+
+class Sim:
+    """A running `odkit sim` on a port of its own."""
+
+    def __init__(self, device, *args):
+        command = [odkit(), "sim", str(device), "--slcan", "127.0.0.1:0", *map(str, args)]
+        self.process = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        self.errors = []
+        self.watcher = threading.Thread(target=self._watch, daemon=True)
+        self.watcher.start()
+        line = self.process.stdout.readline()
+        found = re.search(r"127\.0\.0\.1:(\d+)", line)
+        if found is None:
+            self.process.wait(10)
+            self.watcher.join(10)
+            raise AssertionError(f"odkit said {line!r} {self.errors}")
+        self.port = int(found.group(1))
+        self.networks = []
+        self.sockets = []
+
+    def _watch(self):
+        for line in self.process.stderr:
+            self.errors.append(line.rstrip())
+
+    def network(self):
+        """A python-canopen network on the bus."""
+        network = canopen.Network()
+        network.NOTIFIER_CYCLE = 0.05  # how long `disconnect` waits for its thread
+        network.connect(
+            interface="slcan",
+            channel=f"socket://127.0.0.1:{self.port}",
+            bitrate=500000,
+            sleep_after_open=0,
+        )
+        self.networks.append(network)
+        return network
+
+    def node(self, node_id=1, eds=EDS):
+        """A remote node on a network of its own."""
+        return self.network().add_node(node_id, str(eds))
+
+    def raw(self):
+        """A plain socket that has sent nothing yet."""
+        client = socket.create_connection(("127.0.0.1", self.port), timeout=5)
+        self.sockets.append(client)
+        return client
+
+    def leave(self):
+        """Every client goes."""
+        for network in self.networks:
+            network.disconnect()
+        for client in self.sockets:
+            client.close()
+        self.networks, self.sockets = [], []
+
+    def kill(self):
+        """The process ends without a farewell."""
+        self.leave()
+        self.process.kill()
+
+    def stop(self):
+        """Ctrl-C, as a person ends it."""
+        self.leave()
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+        code = self.process.wait(10)
+        self.watcher.join(10)
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return code
+
+
+class BenchCase(unittest.TestCase):
+    """A test that starts simulators, and ends them whatever happens."""
+
+    def sim(self, device="gxmm", *args):
+        sim = Sim(device, *args)
+        self.addCleanup(sim.stop)
+        return sim
+
+    def assertAborts(self, code, act, *args):
+        with self.assertRaises(canopen.SdoAbortedError) as caught:
+            act(*args)
+        self.assertEqual(f"{caught.exception.code:08X}", f"{code:08X}")
+
+    def eventually(self, holds, seconds=5.0):
+        end = time.monotonic() + seconds
+        while not holds():
+            self.assertLess(time.monotonic(), end, "it did not come about in time")
+            time.sleep(0.01)
+
+
+class Listener:
+    """Collects what a python-canopen network hears."""
+
+    def __init__(self, network, cob_id):
+        self.frames = []
+        self.fresh = threading.Condition()
+        network.subscribe(cob_id, self._hear)
+
+    def _hear(self, cob_id, data, timestamp):
+        with self.fresh:
+            self.frames.append(bytes(data))
+            self.fresh.notify_all()
+
+    def wait(self, count, seconds=5.0):
+        """The first `count` frames."""
+        with self.fresh:
+            if not self.fresh.wait_for(lambda: len(self.frames) >= count, seconds):
+                raise AssertionError(f"{len(self.frames)} of {count} frames came")
+            return self.frames[:count]
