@@ -45,7 +45,8 @@ impl Bus {
     #[wasm_bindgen(constructor)]
     pub fn new(micros: Option<f64>) -> Bus {
         let mut bus = Self::default();
-        bus.bus.advance(Instant::from_micros(micros.unwrap_or(0.0) as u64));
+        bus.bus
+            .advance(Instant::from_micros(micros.unwrap_or(0.0) as u64));
         bus
     }
 
@@ -69,7 +70,10 @@ impl Bus {
     /// Where the node ID is not 1 to 127.
     #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
     pub fn add_eds(&mut self, text: &str, node_id: u8) -> Result<JsValue, JsError> {
-        let options = EdsOptions { node_id: Some(valid(node_id)?), ..EdsOptions::default() };
+        let options = EdsOptions {
+            node_id: Some(valid(node_id)?),
+            ..EdsOptions::default()
+        };
         let (device, found) = match VirtualDevice::from_eds(text, options) {
             Ok(device) => {
                 let found = od_model::eds::load(text).diagnostics;
@@ -77,7 +81,10 @@ impl Bus {
             }
             Err(found) => (JsValue::NULL, found),
         };
-        Ok(Record::new().with("device", device).with("diagnostics", diagnostics(&found)).done())
+        Ok(Record::new()
+            .with("device", device)
+            .with("diagnostics", diagnostics(&found))
+            .done())
     }
 
     /// Sends a frame from outside at the present moment. Of a remote frame only the
@@ -125,7 +132,9 @@ impl Bus {
     /// The object dictionary of a device, one row for each value.
     #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
     pub fn dictionary(&self, device: usize) -> Vec<JsValue> {
-        let Some(device) = self.bus.devices().get(device) else { return Vec::new() };
+        let Some(device) = self.bus.devices().get(device) else {
+            return Vec::new();
+        };
         values::dictionary(device.dictionary(), device.node_id().raw())
     }
 
@@ -136,26 +145,39 @@ impl Bus {
         let address = Address::new(index, sub);
         let value = self.bus.with(device, |device, now| {
             let data_type = device.dictionary().find(address).ok()?.data_type;
-            device.is_powered().then(|| values::value(data_type, &device.read(address, now)))
+            device
+                .is_powered()
+                .then(|| values::value(data_type, &device.read(address, now)))
         });
         value.flatten().unwrap_or(JsValue::NULL)
     }
 
     /// A name for people.
     pub fn title(&self, device: usize) -> String {
-        self.bus.devices().get(device).map(|device| device.title().into()).unwrap_or_default()
+        self.bus
+            .devices()
+            .get(device)
+            .map(|device| device.title().into())
+            .unwrap_or_default()
     }
 
     /// The active node ID.
     #[wasm_bindgen(js_name = nodeId)]
     pub fn node_id(&self, device: usize) -> u8 {
-        self.bus.devices().get(device).map_or(0, |device| device.node_id().raw())
+        self.bus
+            .devices()
+            .get(device)
+            .map_or(0, |device| device.node_id().raw())
     }
 
     /// The NMT state, or `off`.
     #[wasm_bindgen(unchecked_return_type = "Nmt")]
     pub fn nmt(&self, device: usize) -> String {
-        let Some(device) = self.bus.devices().get(device).filter(|device| device.is_powered())
+        let Some(device) = self
+            .bus
+            .devices()
+            .get(device)
+            .filter(|device| device.is_powered())
         else {
             return "off".into();
         };
@@ -184,14 +206,21 @@ impl Bus {
 
     /// Is there power?
     pub fn powered(&self, device: usize) -> bool {
-        self.bus.devices().get(device).is_some_and(VirtualDevice::is_powered)
+        self.bus
+            .devices()
+            .get(device)
+            .is_some_and(VirtualDevice::is_powered)
     }
 
     /// Switches the power.
     #[wasm_bindgen(js_name = setPower)]
     pub fn set_power(&mut self, device: usize, on: bool) {
         self.bus.with(device, |device, now| {
-            if on { device.power_on(now) } else { device.power_off(now) }
+            if on {
+                device.power_on(now)
+            } else {
+                device.power_off(now)
+            }
         });
         self.collect();
     }
@@ -199,7 +228,10 @@ impl Bus {
     /// Where the shaft is, or `null` where there is none.
     #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
     pub fn shaft(&mut self, device: usize) -> JsValue {
-        let shaft = self.bus.with(device, |device, now| device.shaft(now)).flatten();
+        let shaft = self
+            .bus
+            .with(device, |device, now| device.shaft(now))
+            .flatten();
         shaft.map_or(JsValue::NULL, |shaft| {
             Record::new()
                 .with("turns", shaft.turns)
@@ -212,14 +244,16 @@ impl Bus {
     /// Lets the shaft run.
     #[wasm_bindgen(js_name = setRpm)]
     pub fn set_rpm(&mut self, device: usize, rpm: f64) {
-        self.bus.with(device, |device, now| device.set_rpm(rpm, now));
+        self.bus
+            .with(device, |device, now| device.set_rpm(rpm, now));
         self.collect();
     }
 
     /// Brings the shaft to a number of revolutions from the sensor's zero point, at once.
     #[wasm_bindgen(js_name = turnTo)]
     pub fn turn_to(&mut self, device: usize, turns: f64) {
-        self.bus.with(device, |device, now| device.turn_to(turns, now));
+        self.bus
+            .with(device, |device, now| device.turn_to(turns, now));
         self.collect();
     }
 
@@ -241,7 +275,10 @@ impl Bus {
 #[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
 pub fn builtin_devices() -> Vec<JsValue> {
     let record = |kind: &od_devices::DeviceKind| {
-        Record::new().with("name", kind.name).with("title", kind.title).done()
+        Record::new()
+            .with("name", kind.name)
+            .with("title", kind.title)
+            .done()
     };
     od_devices::DEVICES.iter().map(record).collect()
 }
@@ -249,7 +286,11 @@ pub fn builtin_devices() -> Vec<JsValue> {
 /// What there is to say about an EDS or DCF text.
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
 pub fn check_eds(text: &str) -> Vec<JsValue> {
-    od_model::eds::load(text).diagnostics.iter().map(diagnostic).collect()
+    od_model::eds::load(text)
+        .diagnostics
+        .iter()
+        .map(diagnostic)
+        .collect()
 }
 
 /// What a frame says, with its node where the identifier alone does not tell.
@@ -257,7 +298,9 @@ fn sentence(words: Words) -> String {
     let mut text = match (words.service, words.node) {
         (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),
         (Service::Nmt, None) => format!("{} all nodes", words.text),
-        (Service::ErrorControl | Service::Emcy, Some(node)) => format!("node {node}: {}", words.text),
+        (Service::ErrorControl | Service::Emcy, Some(node)) => {
+            format!("node {node}: {}", words.text)
+        }
         _ => words.text,
     };
     if let Some(first) = text.get_mut(..1) {
@@ -278,15 +321,23 @@ fn diagnostic(one: &Diagnostic) -> JsValue {
     let span = one.span.unwrap_or_default();
     Record::new()
         .with("code", one.code)
-        .with("severity", match one.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Info => "info",
-        })
+        .with(
+            "severity",
+            match one.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Info => "info",
+            },
+        )
         .with("message", one.message.as_str())
         .with("help", one.help.as_str())
         .with("line", span.line)
         .with("column", span.column)
-        .with("object", one.address.map(|address| address.to_string()).unwrap_or_default())
+        .with(
+            "object",
+            one.address
+                .map(|address| address.to_string())
+                .unwrap_or_default(),
+        )
         .done()
 }

@@ -36,7 +36,7 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
     }
     batch.extend_from_slice(&(at.as_micros() as f64).to_le_bytes());
     batch.extend_from_slice(&id.raw().to_le_bytes());
-    batch.extend_from_slice(&[flags, frame.dlc() as u8, device, 0]);
+    batch.extend_from_slice(&[flags, frame.dlc(), device, 0]);
     batch.extend_from_slice(&data);
 }
 
@@ -45,12 +45,21 @@ pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;
     let raw = u32::from_le_bytes([packed[8], packed[9], packed[10], packed[11]]);
     let (flags, dlc) = (packed[12], packed[13].min(8));
-    Some(make(raw, &packed[16..16 + usize::from(dlc)], flags & EXTENDED != 0, flags & REMOTE != 0))
+    Some(make(
+        raw,
+        &packed[16..16 + usize::from(dlc)],
+        flags & EXTENDED != 0,
+        flags & REMOTE != 0,
+    ))
 }
 
 /// A frame from its parts; of a remote one only the number of bytes counts.
 pub(crate) fn make(id: u32, data: &[u8], extended: bool, remote: bool) -> Frame {
-    let id = if extended { CanId::extended(id) } else { CanId::standard(id as u16) };
+    let id = if extended {
+        CanId::extended(id)
+    } else {
+        CanId::standard(id as u16)
+    };
     if remote {
         Frame::remote(id, data.len().min(8) as u8)
     } else {

@@ -19,8 +19,9 @@ SupportedObjects=3
 2=0x1001
 3=0x1018
 [ManufacturerObjects]
-SupportedObjects=1
+SupportedObjects=2
 1=0x2000
+2=0x2001
 [1000]
 ParameterName=Device type
 ObjectType=0x7
@@ -62,6 +63,13 @@ DefaultValue=40
 LowLimit=0
 HighLimit=100
 PDOMapping=0
+[2001]
+ParameterName=Label on the door
+ObjectType=0x7
+DataType=0x0009
+AccessType=rw
+DefaultValue=Pump room, second floor
+PDOMapping=0
 `;
 
 /** Drops a text as a file on the page. */
@@ -101,6 +109,18 @@ check('an EDS file that is dropped runs', {}, async (page) => {
   await sdo(page, '2000', '101');
   await until('the abort', async () => /0609003[01]/.test(await sdoNote(page)));
   await row(page, 'the object by its name', (one) => /Lamp brightness/.test(one.words));
+});
+
+check('long texts go in segments, both ways', {}, async (page) => {
+  await booted(page);
+  await drop(page, 'little.eds', GOOD);
+  await until('the name of the device', async () => /Little node/.test(await page.locator('.device-button').textContent()));
+  await sdo(page, 'Label on the door');
+  await until('the text', async () => (await sdoNote(page)).includes('“Pump room, second floor”'));
+  await sdo(page, '2001', 'Boiler room in the basement');
+  await until('the answer', async () => /2001h written/.test(await sdoNote(page)));
+  await sdo(page, '2001');
+  await until('the new text', async () => (await sdoNote(page)).includes('“Boiler room in the basement”'));
 });
 
 check('an EDS file that cannot run says where and why', {}, async (page) => {

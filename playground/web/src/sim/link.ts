@@ -79,6 +79,7 @@ function opened(source: Source, result: Opened): void {
   const { device, diagnostics } = result;
   if (device) {
     current = { source, nodeId: device.nodeId };
+    document.title = `${device.name} – odkit`;
     batch(() => {
       state.device.value = device;
       state.source.value = source;

@@ -101,7 +101,7 @@ class DeviceDialog extends View {
         ${this.faults()}
         <div class="dialog-foot">
           <label for="node-id">Node ID</label>
-          <input id="node-id" class="num" type="number" min="1" max="127" .value=${this.node} aria-invalid=${isBad} @input=${(event: Event) => (this.node = (event.target as HTMLInputElement).value)}>
+          <input id="node-id" class="num" type="number" min="1" max="127" .value=${this.node} aria-invalid=${isBad} @keydown=${(event: KeyboardEvent) => event.key === 'Enter' && void this.apply()} @input=${(event: Event) => (this.node = (event.target as HTMLInputElement).value)}>
           <span class="note" data-tone=${isBad ? 'error' : ''}>${isBad ? '1 to 127' : ''}</span>
           <div class="spacer"></div>
           <button class="primary" ?disabled=${isBad} @click=${() => this.apply()}>Apply node ID</button>

@@ -1,0 +1,148 @@
+// The npm package as another page would use it; `ODKIT_PKG` names its folder.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const folder = process.env.ODKIT_PKG ?? new URL('../web/src/wasm/', import.meta.url).pathname;
+const at = (name) => new URL(name, `${pathToFileURL(folder)}/`);
+
+let odkit;
+before(async () => {
+  odkit = await import(at('od_playground.js').href);
+  odkit.initSync({ module: await readFile(at('od_playground_bg.wasm')) });
+});
+
+/** The frames of a batch, in words. */
+function frames(bus) {
+  const batch = bus.drain();
+  const all = [];
+  for (let offset = 0; offset < batch.length; offset += 24) {
+    const view = new DataView(batch.buffer, batch.byteOffset + offset, 24);
+    const flags = view.getUint8(12);
+    all.push({
+      time: view.getFloat64(0, true),
+      id: view.getUint32(8, true),
+      remote: (flags & 2) !== 0,
+      own: (flags & 4) !== 0,
+      data: Buffer.from(batch.subarray(offset + 16, offset + 16 + view.getUint8(13))).toString('hex'),
+      words: bus.describe(batch.subarray(offset, offset + 24)),
+    });
+  }
+  return all;
+}
+
+const bytes = (hex) => Uint8Array.from(Buffer.from(hex, 'hex'));
+
+test('a device boots, answers, and runs', () => {
+  const bus = new odkit.Bus();
+  const device = bus.addDevice('gxmm', 5);
+  bus.advance(10_000, 100);
+  assert.deepEqual(frames(bus).map((one) => [one.id, one.data]), [[0x705, '00']]);
+  assert.equal(bus.nmt(device), 'pre-operational');
+  assert.deepEqual(bus.leds(device), { green: 'flashing', red: 'off' });
+
+  bus.turnTo(device, 1.5);
+  bus.send(0x605, bytes('4004600000000000'), false, false);
+  const [request, answer] = frames(bus);
+  assert.ok(request.own && !answer.own);
+  assert.equal(answer.data, '4304600000300000');
+  assert.match(answer.words, /6004h.*12288/);
+  assert.equal(bus.read(device, 0x6004, 0), 12288);
+  assert.equal(bus.pending(), 0, 'reading puts nothing on the bus');
+
+  bus.send(0, bytes('0100'), false, false);
+  bus.setRpm(device, 60);
+  assert.equal(bus.advance(2_000_000, 1000), 2_000_000);
+  assert.equal(bus.nmt(device), 'operational');
+  assert.ok(frames(bus).filter((one) => one.id === 0x185).length >= 3);
+  assert.equal(Math.round(bus.shaft(device).turns * 1000), 3500);
+
+  bus.setPower(device, false);
+  bus.send(0x605, bytes('4004600000000000'), false, false);
+  bus.advance(1_000_000, 1000);
+  assert.equal(frames(bus).length, 1, 'nobody answers');
+  assert.equal(bus.read(device, 0x6004, 0), null);
+  assert.equal(bus.nmt(device), 'off');
+});
+
+test('the dictionary comes as plain records', () => {
+  const bus = new odkit.Bus();
+  const rows = bus.dictionary(bus.addDevice('gxmm', 7));
+  const row = (index, sub) => rows.find((one) => one.index === index && one.sub === sub);
+  assert.equal(Object.getPrototypeOf(rows[0]), Object.prototype);
+  assert.deepEqual(row(0x6004, 0), {
+    index: 0x6004, sub: 0, name: 'Position value', parent: null, type: 'UNSIGNED32', bits: 32,
+    access: 'ro', mappable: true, default: row(0x6004, 0).default, low: row(0x6004, 0).low, high: row(0x6004, 0).high,
+  });
+  assert.equal(row(0x1018, 1).parent !== null && row(0x1018, 1).default, 0xec);
+  assert.equal(row(0x1800, 1).default, 0x187, 'the node ID is in the defaults');
+});
+
+test('the limits of a call: as many frames as asked for', () => {
+  const bus = new odkit.Bus();
+  bus.addDevice('gxmm', 1);
+  bus.send(0x601, bytes('2b00180501000000'), false, false);
+  bus.send(0, bytes('0101'), false, false);
+  frames(bus);
+  const passed = bus.advance(10_000_000, 10);
+  assert.ok(passed < 10_000_000);
+  assert.equal(bus.pending(), 10);
+});
+
+test('several devices hear each other and outsiders', () => {
+  const bus = new odkit.Bus();
+  bus.addDevice('gxmm', 1);
+  bus.addDevice('gxam', 2);
+  bus.send(0, bytes('0100'), false, false);
+  bus.advance(1_000_000, 1000);
+  const ids = new Set(frames(bus).map((one) => one.id));
+  for (const id of [0x701, 0x702, 0x181, 0x182]) assert.ok(ids.has(id), id.toString(16));
+});
+
+test('the same inputs give the same bytes', () => {
+  const run = () => {
+    const bus = new odkit.Bus();
+    const device = bus.addDevice('gxmm', 1);
+    bus.setRpm(device, 123.4);
+    bus.send(0, bytes('0101'), false, false);
+    bus.advance(3_000_000, 1000);
+    return Buffer.from(bus.drain()).toString('hex');
+  };
+  assert.equal(run(), run());
+});
+
+test('wrong names and node IDs are errors, not crashes', () => {
+  const bus = new odkit.Bus();
+  assert.throws(() => bus.addDevice('gxqq', 1), /gxqq/);
+  assert.throws(() => bus.addDevice('gxmm', 0), /1 to 127/);
+  assert.throws(() => bus.addDevice('gxmm', 128), /1 to 127/);
+  bus.setPower(99, true);
+  bus.setRpm(99, Number.NaN);
+  assert.equal(bus.read(99, 0x6004, 0), null);
+  assert.equal(bus.shaft(99), null);
+  assert.deepEqual(bus.dictionary(99), []);
+  assert.equal(bus.describe(new Uint8Array(3)), '');
+  const device = bus.addDevice('gxmm', 1);
+  for (const odd of [Number.NaN, Infinity, -Infinity, 1e300]) {
+    bus.setRpm(device, odd);
+    bus.turnTo(device, odd);
+    bus.advance(Number.isFinite(odd) ? 1000 : 1000, 10);
+  }
+  bus.send(0xffffffff, new Uint8Array(100), true, false);
+  bus.send(0xffffffff, new Uint8Array(100), false, true);
+});
+
+test('an EDS text runs, or says what is wrong with it', () => {
+  const bus = new odkit.Bus();
+  const bad = bus.addEds('[1000]\nParameterName=Device type\nDataType=0x0099\n', 1);
+  assert.equal(bad.device, null);
+  assert.ok(bad.diagnostics.some((one) => one.severity === 'error' && one.line === 3 && one.object.includes('1000')));
+  assert.ok(bad.diagnostics.every((one) => one.code && one.message));
+  assert.deepEqual(odkit.checkEds('[1000]\nParameterName=Device type\nDataType=0x0099\n'), bad.diagnostics);
+});
+
+test('the devices that there are', () => {
+  const names = odkit.builtinDevices().map((one) => one.name);
+  assert.ok(names.includes('gxmm') && names.includes('gxam'), String(names));
+});

@@ -1,0 +1,45 @@
+import { pack } from '../sim/packed';
+import { CAPACITY, Ring } from './ring';
+import { assert, test } from '../testing';
+
+const frames = (from: number, count: number): Uint8Array => {
+  const all = new Uint8Array(count * 24);
+  for (let i = 0; i < count; i++) {
+    all.set(pack({ time: from + i, id: 0x181, extended: false, remote: false, fromPage: false, data: Uint8Array.of((from + i) & 255) }), i * 24);
+  }
+  return all;
+};
+
+test('every frame keeps its number', () => {
+  const ring = new Ring();
+  let next = 0;
+  for (const count of [1, 5, 4096, 7, 20_000, 150_000, 60_000, 3]) {
+    ring.append(frames(next, count));
+    next += count;
+    assert.equal(ring.end, next);
+    assert.ok(ring.end - ring.first <= CAPACITY);
+    for (const number of [ring.first, ring.first + 1, Math.floor((ring.first + ring.end) / 2), ring.end - 1]) {
+      if (number < ring.end) assert.equal(ring.get(number)?.time, number);
+    }
+  }
+  assert.equal(ring.get(ring.first - 1), undefined);
+  assert.equal(ring.get(ring.end), undefined);
+});
+
+test('clearing keeps counting', () => {
+  const ring = new Ring();
+  ring.append(frames(0, 10));
+  ring.clear();
+  assert.equal(ring.get(9), undefined);
+  ring.append(frames(10, 5000));
+  assert.equal(ring.get(10)?.time, 10);
+  assert.equal(ring.get(5009)?.time, 5009);
+});
+
+test('a batch larger than the ring leaves its end', () => {
+  const ring = new Ring();
+  ring.append(frames(0, CAPACITY + 10));
+  assert.equal(ring.first, 10);
+  assert.equal(ring.get(CAPACITY + 9)?.time, CAPACITY + 9);
+  assert.equal(ring.get(10)?.time, 10);
+});

@@ -1,0 +1,16 @@
+// What the unit tests need of Node.js, typed by hand: the page itself has no Node types.
+
+interface Assert {
+  ok(value: unknown, message?: string): asserts value;
+  equal(actual: unknown, expected: unknown, message?: string): void;
+  deepEqual(actual: unknown, expected: unknown, message?: string): void;
+  match(text: string, pattern: RegExp, message?: string): void;
+}
+
+// @ts-expect-error there are no types for it here
+import nodeAssert from 'node:assert/strict';
+// @ts-expect-error there are no types for it here
+import { test as nodeTest } from 'node:test';
+
+export const assert: Assert = nodeAssert as Assert;
+export const test = nodeTest as (name: string, body: () => void) => void;

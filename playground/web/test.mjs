@@ -1,0 +1,25 @@
+// Runs src/**/*.test.ts: bundled, then handed to Node's own test runner.
+import { spawnSync } from 'node:child_process';
+import { mkdtemp, readdir, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { build } from 'esbuild';
+
+const here = new URL('.', import.meta.url).pathname;
+const names = (await readdir(join(here, 'src'), { recursive: true })).filter((name) => name.endsWith('.test.ts'));
+const out = await mkdtemp(join(tmpdir(), 'odkit-page-'));
+try {
+  await build({
+    absWorkingDir: here,
+    entryPoints: names.map((name) => join('src', name)),
+    outdir: out,
+    bundle: true,
+    format: 'esm',
+    platform: 'node',
+    outExtension: { '.js': '.mjs' },
+    logLevel: 'warning',
+  });
+  process.exitCode = spawnSync(process.execPath, ['--test', out], { stdio: 'inherit' }).status ?? 1;
+} finally {
+  await rm(out, { recursive: true, force: true });
+}
