@@ -1,0 +1,68 @@
+//! SDO frames, client to server and back (CiA 301, chapter 7.2.4.3).
+
+mod request;
+mod response;
+
+use od_model::Address;
+
+pub use request::Request;
+pub use response::{Response, expedited_upload};
+
+/// Command, multiplexer, and four bytes more.
+#[inline]
+const fn head(command: u8, address: Address, rest: u32) -> [u8; 8] {
+    let [low, high] = address.index.to_le_bytes();
+    let [a, b, c, d] = rest.to_le_bytes();
+    [command, low, high, address.sub, a, b, c, d]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_byte_has_a_meaning_that_comes_back() {
+        for command in 0..=0xFFu8 {
+            let bytes = [command, 0x10, 0x20, 3, 4, 0, 0, 0];
+            let request = Request::parse(&bytes);
+            assert_eq!(Request::parse(&request.emit()), request, "{command:02X}");
+            let response = Response::parse(&bytes);
+            assert_eq!(Response::parse(&response.emit()), response, "{command:02X}");
+        }
+    }
+
+    #[test]
+    fn the_short_way_says_the_same() {
+        let address = Address::new(0x6004, 3);
+        for len in 1..=4u8 {
+            let response = Response::InitiateUpload {
+                address,
+                size: Some(len.into()),
+                expedited: Some([1, 2, 3, 4]),
+            };
+            assert_eq!(expedited_upload(address, len, 0x0403_0201), response.emit());
+        }
+    }
+
+    #[test]
+    fn the_trace_of_the_bus_cover_manual_reads_as_printed() {
+        // 000, chapter 6.4: 40 02 60 00 -> 43 02 60 00 00 00 00 20
+        let response = Response::InitiateUpload {
+            address: Address::new(0x6002, 0),
+            size: Some(4),
+            expedited: Some([0, 0, 0, 0x20]),
+        };
+        assert_eq!(
+            response.emit(),
+            [0x43, 0x02, 0x60, 0x00, 0x00, 0x00, 0x00, 0x20]
+        );
+        assert_eq!(
+            Request::parse(&[0x22, 0x01, 0x60, 0, 0, 0x10, 0, 0]),
+            Request::InitiateDownload {
+                address: Address::new(0x6001, 0),
+                size: None,
+                expedited: Some([0, 0x10, 0, 0]),
+            }
+        );
+    }
+}
