@@ -52,7 +52,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     output.line(&summary)?;
     output.flush()?;
     if unreadable > 0 || all.iter().any(Diagnostic::is_error) {
-        return Err(Failure::Reported);
+        return Err(Failure::Reported(1));
     }
     Ok(())
 }

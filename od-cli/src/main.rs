@@ -39,8 +39,8 @@ enum Failure {
     Usage(String),
     /// It tried and could not, or what it looked at is not as it should be: exit code 1.
     Failed(String),
-    /// As [`Failed`](Self::Failed); what there is to say stands there already.
-    Reported,
+    /// What there is to say stands there already; this is the exit code.
+    Reported(u8),
 }
 
 impl From<std::io::Error> for Failure {
@@ -74,7 +74,7 @@ fn main() -> ExitCode {
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,
-        Err(Failure::Reported) => return ExitCode::from(1),
+        Err(Failure::Reported(code)) => return ExitCode::from(code),
         Err(Failure::Usage(message)) => (message, 2),
         Err(Failure::Failed(message)) => (message, 1),
     };

@@ -59,7 +59,7 @@ impl Host for Terminal<'_> {
             .and_then(|source| source.device(node_id))
             .map_err(|failure| match failure {
                 Failure::Usage(message) | Failure::Failed(message) => message,
-                Failure::Reported => String::from("the device cannot be made"),
+                Failure::Reported(_) => String::from("the device cannot be made"),
             })
     }
 
@@ -70,7 +70,7 @@ impl Host for Terminal<'_> {
         match self.output.line(&format_line(at, "can0", frame)) {
             Ok(true) => {}
             // Nobody reads any more; the expectations still count.
-            Ok(false) => self.broken = Some(Failure::Reported),
+            Ok(false) => self.broken = Some(Failure::Reported(1)),
             Err(failure) => self.broken = Some(failure),
         }
     }
@@ -114,12 +114,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Err(stop) => {
             let message = format!("{}: {stop}", args.script);
             output::error(&message);
-            match stop.reason {
-                Reason::Failed { .. } => Err(Failure::Reported),
-                Reason::Impossible(_) => {
-                    Err(Failure::Usage(String::from("the script stops there")))
-                }
-            }
+            Err(Failure::Reported(match stop.reason {
+                Reason::Failed { .. } => 1,
+                Reason::Impossible(_) => 2,
+            }))
         }
     }
 }

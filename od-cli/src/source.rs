@@ -16,8 +16,8 @@ pub(crate) enum Source {
     File { path: String, text: String },
 }
 
-/// So many diagnostics of a file that cannot run are shown.
-const SHOWN: usize = 20;
+/// So many errors of a file are shown where a device is made of it.
+const SHOWN: usize = 5;
 
 impl Source {
     /// A name of a built-in device, or the path of an EDS or DCF file.
@@ -47,7 +47,8 @@ impl Source {
         }
     }
 
-    /// A device with power off. A text with errors is reported on standard error.
+    /// A device with power off. Errors of a text are reported on standard error; what can
+    /// run of it runs all the same, as masters take such files, too.
     pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Failure> {
         let (path, text) = match self {
             Self::BuiltIn(kind) => {
@@ -55,22 +56,35 @@ impl Source {
             }
             Self::File { path, text } => (path, text),
         };
-        let options = EdsOptions {
+        let strict = EdsOptions {
             node_id,
             lenient: false,
         };
-        VirtualDevice::from_eds(text, options).map_err(|diagnostics| {
-            let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
-            let shown = &errors[..errors.len().min(SHOWN)];
-            eprint!(
-                "{}",
-                report::render(path, text, shown, output::error_colours())
-            );
-            let count = report::plural(errors.len(), "error");
-            Failure::Failed(format!(
-                "{path} cannot run because of {count}; `odkit check {path}` shows everything"
-            ))
-        })
+        let diagnostics = match VirtualDevice::from_eds(text, strict) {
+            Ok(device) => return Ok(device),
+            Err(diagnostics) => diagnostics,
+        };
+        let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
+        let shown = &errors[..errors.len().min(SHOWN)];
+        let colours = output::error_colours();
+        eprint!("{}", report::render(path, text, shown, colours));
+        let count = report::plural(errors.len(), "error");
+        let lenient = EdsOptions {
+            node_id,
+            lenient: true,
+        };
+        match VirtualDevice::from_eds(text, lenient) {
+            Ok(device) if !device.dictionary().objects().is_empty() => {
+                output::error(&format!(
+                    "{path} has {count} (`odkit check` shows everything); it runs without \
+                     what cannot be used"
+                ));
+                Ok(device)
+            }
+            _ => Err(Failure::Failed(format!(
+                "{path} describes no object that could run; is it an EDS or DCF file?"
+            ))),
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 mod client;
 mod expect;
 mod parse;
+mod parse_expect;
 mod pattern;
 mod run;
 mod statement;

@@ -4,12 +4,13 @@ use std::prelude::v1::*;
 use std::{format, vec};
 
 use od_runtime::wire::nmt::Command;
-use od_runtime::{AbortCode, Instant, NodeId};
+use od_runtime::{Instant, NodeId};
 
-use super::statement::{Action, Expect, Outcome, Power, Shaft, Statement, Timing, When};
+use super::parse_expect::{expect, repeated, sdo};
+use super::statement::{Action, Power, Shaft, Statement, Timing, When};
 use super::words::Words;
 use super::{Pattern, Problem, Script};
-use crate::sim::{Led, candump, faults};
+use crate::sim::{candump, faults};
 
 /// A log of the wall clock counts from 1970; its first stamp is taken as the origin.
 const WALL_CLOCK: u64 = 100_000_000_000_000;
@@ -151,42 +152,16 @@ fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
     }
 }
 
-/// A frame, then `N times`, `within D`, `after D`, `every D`.
-fn repeated<'t>(words: &mut Words<'t>) -> Result<(Words<'t>, u32, Timing), Problem> {
-    let mut head = words.split_at_word(&["times", "within", "after", "every"]);
-    let mut times = 1;
-    if words.take("times") {
-        times = head.split_last().number(1, 1_000_000)? as u32;
-    }
-    let timing = timing(words)?;
-    if times == 1 && words.peek().parse::<u32>().is_ok() {
-        times = words.number(1, 1_000_000)? as u32;
-        if !words.take("times") {
-            return Err(words.problem("`times` is missing", "write `5 times`"));
-        }
-    }
-    Ok((head, times, timing))
-}
-
-fn timing(words: &mut Words<'_>) -> Result<Timing, Problem> {
-    if words.take("within") {
-        return words.duration().map(Timing::Within);
-    }
-    if words.take("after") {
-        return words.duration().map(Timing::After);
-    }
-    if words.take("every") {
-        return words.duration().map(Timing::Every);
-    }
-    Ok(Timing::Now)
-}
-
 fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     const HELP: &str = "write `device gxmm`, `device gxmm node 5 as left`, or a file name";
     let head = words.split_at_word(&["node", "as", "off"]);
-    let name = head.rest().trim_matches('"').to_owned();
+    let shown = head.rest();
+    let name = shown.trim_matches('"').to_owned();
     if name.is_empty() {
         return Err(words.problem("a device name is missing", HELP));
+    }
+    if shown.contains(char::is_whitespace) && !shown.starts_with('"') {
+        return Err(head.problem("a name with blanks stands in quotes", HELP));
     }
     let (mut node, mut name_of, mut powered) = (None, None, true);
     while !words.is_empty() {
@@ -343,126 +318,84 @@ fn ignore(words: &mut Words<'_>) -> Result<Action, Problem> {
     }
 }
 
-/// `sdo read 6004h = 5`, `sdo write 6001h = 4096 as u32 aborts 06090031h`.
-fn sdo(words: &mut Words<'_>) -> Result<Action, Problem> {
-    const HELP: &str = "write `sdo read 6004h`, `sdo read 6004h = 5`, `sdo write 6001h = 4096`, \
-                        each with ` aborts 06090031h` at the end if it has to fail";
-    let here = *words;
-    let kind = words.next();
-    let mut body = words.split_at_word(&["aborts"]);
-    let aborts = if words.take("aborts") {
-        Some(abort(words)?)
-    } else {
-        None
-    };
-    let object = match body.split_at_equals() {
-        Some(head) => (head.rest().to_owned(), true),
-        None => (body.rest().to_owned(), false),
-    };
-    if object.0.is_empty() {
-        return Err(here.problem("an object is missing", HELP));
-    }
-    match (kind, object, aborts) {
-        ("read", (object, false), None) => Ok(Action::Read {
-            object,
-            outcome: Outcome::Done,
-        }),
-        ("read", (object, false), Some(code)) => Ok(Action::Read {
-            object,
-            outcome: Outcome::Aborts(code),
-        }),
-        ("read", (object, true), None) if !body.is_empty() => Ok(Action::Read {
-            object,
-            outcome: Outcome::Value(body.rest().to_owned()),
-        }),
-        ("write", (object, true), aborts) => {
-            let value = body.split_at_word(&["as"]);
-            if value.is_empty() {
-                return Err(body.problem("a value is missing", HELP));
-            }
-            let type_name = body.take("as").then(|| body.next().to_owned());
-            body.end()?;
-            let outcome = aborts.map_or(Outcome::Done, Outcome::Aborts);
-            Ok(Action::Write {
-                object,
-                value: value.rest().to_owned(),
-                type_name,
-                outcome,
-            })
-        }
-        _ => Err(here.problem("this is no SDO line", HELP)),
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-fn abort(words: &mut Words<'_>) -> Result<AbortCode, Problem> {
-    let here = *words;
-    let word = words.next();
-    let digits = word
-        .strip_suffix(['h', 'H'])
-        .unwrap_or(word)
-        .replace('_', "");
-    let code = u32::from_str_radix(digits.trim_start_matches("0x"), 16).ok();
-    code.and_then(AbortCode::from_code).ok_or_else(|| {
-        here.problem(
-            format!("`{word}` is no abort code"),
-            "write eight hex digits, like 06090031h",
-        )
-    })
-}
+    #[track_caller]
+    fn check(text: &str, expected: &str) {
+        let shown = match parse(text) {
+            Ok(script) => format!("{} lines", script.statements.len()),
+            Err(problems) => problems
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join("\n"),
+        };
+        assert!(shown.starts_with(expected), "{text}\n{shown}");
+    }
 
-fn expect(words: &mut Words<'_>) -> Result<Expect, Problem> {
-    let start = *words;
-    match words.next() {
-        "silence" => words.duration().map(Expect::Silence),
-        "state" => match words.next() {
-            name @ ("operational" | "pre-operational" | "stopped" | "initialising" | "off") => {
-                Ok(Expect::State(name.to_owned()))
+    #[test]
+    fn every_kind_of_line_is_read() {
+        check(
+            "\u{feff}# comment\n\ndevice \"my device.eds\" node 0x10 as left off\nuse left\n\
+             shaft at 79592h # behind\nshaft turn -2.5\nshaft rpm 60\npower cycle 2s\nswitch node 12\n\
+             switch bitrate 7\nfault battery-low on\nwait 20us\nat 1.5s\nafter 2min sync\n\
+             (3.5) can0 601#40.04.60.00\n701#R4\ncan0  601   [2]  40 04\nsend 080# 3 times every 10ms\n\
+             nmt start all\nsync counter 3\nsync 5 times\nsdo read 6004h = 5\nsdo read 2000h aborts 06020000h\n\
+             sdo write \"Identity object.Vendor-ID\" = 5 as u16 aborts 0x06010002\nignore 181#*\nignore nothing\n\
+             skip\nexpect 581#43 05 05 5 times every 5ms\nexpect 581#* every 5ms 43 times\nexpect abort 06090031h\n\
+             expect silence 1s\nexpect state off\nexpect value 6004h = 5\nexpect led red flashing",
+            "32 lines",
+        );
+    }
+
+    #[test]
+    fn mistakes_are_found_in_every_line() {
+        check("wait", "1:5: a duration is missing; write it like 500ms");
+        check("\n  wait 5", "2:8: `5` is no duration");
+        check("wait 99999999999999999999s", "1:6: `99");
+        check("device", "1:7: a device name is missing");
+        check(
+            "device gxmm node 128",
+            "1:18: `128` does not fit; write a number from 1 to 127",
+        );
+        check(
+            "device gxmm on 5",
+            "1:8: a name with blanks stands in quotes",
+        );
+        check(
+            "fault fire on",
+            "1:7: there is no fault `fire`; there are position-error",
+        );
+        check("nmt explode", "1:5: there is no NMT command `explode`");
+        check("expect 581", "1:8: `581` has no `#`");
+        check("expect 581#40 0 times", "1:15: `0` does not fit");
+        check("expect state flying", "1:8: there is no state `flying`");
+        check("sdo write 6004h", "1:5: this is no SDO line");
+        check("sdo read 6004h aborts 1", "1:23: `1` is no abort code");
+        check("(1.2.3) 601#", "1:1: `(1.2.3)` is no time stamp");
+        check("power on now", "1:10: `now` is too much here");
+        check("after 5ms wait 5ms", "1:11: a time and a wait");
+    }
+
+    #[test]
+    fn no_text_panics() {
+        let pieces = [
+            "expect", "581#", "..", "*", "5", "times", "every", "5ms", "sdo", "read", "=", "as",
+            "aborts", "at", "(0.1)", "can0", "[8]", "\"", "#", "device", "node", "ä", "wait", " ",
+            "\n", "send",
+        ];
+        let mut state = 7u32;
+        for _ in 0..20_000 {
+            let mut text = String::new();
+            for _ in 0..state % 12 {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                text.push_str(pieces[(state >> 16) as usize % pieces.len()]);
+                text.push_str(if state & 0x100 == 0 { " " } else { "" });
             }
-            word => Err(start.problem(
-                format!("there is no state `{word}`"),
-                "there are operational, pre-operational, stopped, initialising, off",
-            )),
-        },
-        "value" => {
-            let object = words.split_at_equals();
-            let value = words.split_at_word(&[]);
-            match object {
-                Some(object) if !object.is_empty() && !value.is_empty() => Ok(Expect::Value {
-                    object: object.rest().to_owned(),
-                    value: value.rest().to_owned(),
-                }),
-                _ => Err(start.problem("a value line has a `=`", "write `expect value 6004h = 5`")),
-            }
-        }
-        "led" => {
-            let green = match words.next() {
-                "green" => true,
-                "red" => false,
-                _ => return Err(start.problem("which LED", "write `expect led green flashing`")),
-            };
-            match Led::from_name(words.next()) {
-                Some(led) => Ok(Expect::Led { green, led }),
-                None => Err(start.problem("what LED does", "there are off, flashing, on")),
-            }
-        }
-        "abort" => {
-            let code = abort(words)?;
-            Ok(Expect::Abort {
-                code,
-                timing: timing(words)?,
-            })
-        }
-        _ => {
-            *words = start;
-            let (head, times, timing) = repeated(words)?;
-            match Pattern::parse(head.rest()) {
-                Ok(pattern) => Ok(Expect::Frame {
-                    pattern,
-                    times,
-                    timing,
-                }),
-                Err(error) => Err(head.frame_problem(&error)),
-            }
+            state = state.wrapping_add(1);
+            let _ = parse(&text);
         }
     }
 }

@@ -1,0 +1,163 @@
+//! `odkit sim` as a process: its greeting, a client, and how it ends.
+
+mod support;
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use support::{command, file, odkit, repository};
+
+struct Sim {
+    child: Child,
+    greeting: String,
+    port: u16,
+}
+
+impl Sim {
+    fn start(args: &[&str]) -> Self {
+        let mut child = command()
+            .arg("sim")
+            .args(args)
+            .args(["--slcan", "127.0.0.1:0"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("odkit starts");
+        let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
+        let mut greeting = String::new();
+        while !greeting.contains("Ctrl-C") {
+            assert_ne!(
+                lines.read_line(&mut greeting).expect("a greeting"),
+                0,
+                "{greeting}"
+            );
+        }
+        let after = greeting.split("127.0.0.1:").nth(1).expect("an address");
+        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
+        let port = digits.parse().expect("a port");
+        Self {
+            child,
+            greeting,
+            port,
+        }
+    }
+
+    fn client(&self) -> TcpStream {
+        let client = TcpStream::connect(("127.0.0.1", self.port)).expect("it listens");
+        client
+            .set_read_timeout(Some(Duration::from_secs(10)))
+            .expect("a time limit");
+        client
+    }
+}
+
+impl Drop for Sim {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[track_caller]
+fn say(client: &mut TcpStream, sent: &str, expected: &str) {
+    client.write_all(sent.as_bytes()).expect("it reads");
+    let mut answer = vec![0; expected.len()];
+    client.read_exact(&mut answer).expect("an answer");
+    assert_eq!(String::from_utf8_lossy(&answer), expected, "{sent:?}");
+}
+
+#[test]
+fn it_says_how_to_connect_and_answers() {
+    let sim = Sim::start(&["gxmm", "--node-id", "5", "--position", "0x79592"]);
+    for line in [
+        "node 5",
+        "python-canopen",
+        "network.connect(",
+        "cansend can0 605#40",
+    ] {
+        assert!(sim.greeting.contains(line), "{line}\n{}", sim.greeting);
+    }
+    let mut client = sim.client();
+    say(&mut client, "C\rS6\r\rO\rO\r", "\r\r\r\r\r");
+    say(
+        &mut client,
+        "t60584004600000000000\r",
+        "z\rt58584304600092950700\r",
+    );
+    say(&mut client, "t6058\r", "\x07");
+}
+
+#[test]
+fn every_eds_file_is_a_device() {
+    let sim = Sim::start(&[&repository("tests/interop/strings.eds")]);
+    assert!(
+        sim.greeting.contains("Transfers, node 7"),
+        "{}",
+        sim.greeting
+    );
+    let mut client = sim.client();
+    say(
+        &mut client,
+        "O\rt60784000100000000000\r",
+        "\rz\rt58784300100000000000\r",
+    );
+}
+
+#[test]
+fn a_port_in_use_is_said_with_what_to_do() {
+    let sim = Sim::start(&["gxmm"]);
+    let address = format!("127.0.0.1:{}", sim.port);
+    let second = odkit(&["sim", "gxmm", "--slcan", &address], "");
+    assert_eq!(second.code, 1);
+    assert!(
+        second.err.contains(&format!("{address} is in use")),
+        "{}",
+        second.err
+    );
+    assert!(second.err.contains("--slcan 127.0.0.1:0"), "{}", second.err);
+}
+
+#[test]
+fn what_cannot_be_is_said_in_one_line() {
+    for (args, code, why) in [
+        (&["sim", "gxmx"][..], 1, "is no built-in device"),
+        (
+            &["sim", "gxmm", "--slcan", "nowhere"],
+            2,
+            "is no address to listen on",
+        ),
+        (
+            &["sim", "gxmm", "--position", "north"],
+            2,
+            "a number of steps",
+        ),
+        (&["sim", "gxmm", "--rpm", "fast"], 2, "--rpm"),
+        (
+            &["sim", "gxmm", "--rpm", "inf"],
+            2,
+            "no shaft that could stand or turn so",
+        ),
+    ] {
+        let sim = odkit(args, "");
+        assert_eq!(sim.code, code, "{args:?}: {}", sim.err);
+        assert!(sim.err.contains(why), "{args:?}: {}", sim.err);
+    }
+    let foreign = file("letter.txt", "Dear somebody").display().to_string();
+    let sim = odkit(&["sim", "gxmm", "--eeprom", &foreign], "");
+    assert_eq!(sim.code, 1);
+    assert!(sim.err.contains("not an EEPROM file"), "{}", sim.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_it_cleanly() {
+    let mut sim = Sim::start(&["gxmm"]);
+    let pid = sim.child.id().to_string();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &pid])
+        .status();
+    assert!(kill.expect("kill").success());
+    assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
+}
