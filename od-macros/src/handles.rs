@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use od_model::patch::{self, Target};
 use od_model::{Access, DataType, Description, Kind, Slot, Spanned, Tables};
 use proc_macro2::Ident;
+use syn::ext::IdentExt;
 
 use crate::input::{At, Statement};
 use crate::report::Report;
@@ -224,14 +225,14 @@ fn assign(
     let derived = named.clone();
     for want in wanted {
         if let Some(ident) = renames.get(&want.target) {
-            named.insert(want.target, ident.to_string());
+            named.insert(want.target, ident.unraw().to_string());
         }
     }
     for want in wanted {
         let Some(ident) = renames.get(&want.target) else {
             continue;
         };
-        let name = ident.to_string();
+        let name = ident.unraw().to_string();
         let other = named
             .iter()
             .find(|(key, n)| **key != want.target && **n == name);
@@ -257,6 +258,11 @@ fn assign(
 }
 
 fn miswritten(name: &str, target: Target, modules: bool) -> Option<String> {
+    if names::is_keyword(name) {
+        return Some(format!(
+            "`{name}` is a keyword\nhelp: `rename {target} = {name}_;`"
+        ));
+    }
     let (right, what) = match modules {
         true => (name.to_ascii_lowercase(), "a RECORD or ARRAY, a module"),
         false if target.sub.is_some() => (name.to_ascii_uppercase(), "a member, a constant"),
