@@ -1,15 +1,18 @@
-//! Encoders with a bus cover: multivo (and, on the same pattern, magtivo, activo, multivoPlus).
+//! Encoders with a bus cover: multivo, magtivo, activo and multivoPlus.
 //!
 //! Source: manual 000, chapters 4.3 (communication), 4.4 (objects) and 7.2 (switches);
 //! `DECISIONS.md`, parts A and E, where it contradicts itself or is silent. The
 //! dictionary says what the objects are; the two profiles here say what the manual has
-//! the family do differently from CiA 301 and CiA 406.
+//! the family do differently from CiA 301 and CiA 406. What the eight devices do
+//! differently from each other is in their dictionaries alone.
 
-use od_model::Address;
+use od_model::{Address, Dictionary};
 use od_runtime::encoder::{EncoderProfile, Fault, Options, Report, Total};
 use od_runtime::{
     AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
 };
+
+use crate::DeviceKind;
 
 od_macros::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
@@ -29,6 +32,90 @@ od_macros::object_dictionary! {
             modify 0x6502 { default = 0x2000 }
             modify 0x6506 { default = 0x0004 }
         }
+
+        /// `GCMM`, magtivo multiturn: 12 bits a revolution, 14 bits of revolutions
+        /// (C-GX-03, C-GX-31).
+        variant gcmm {
+            modify 0x1008 { default = "GCMM" }
+            modify 0x1018sub2 { default = 0x0C }
+            modify 0x6001 { default = 0x1000; high = 0x1000 }
+            modify 0x6002 { default = 0x0400_0000; high = 0x0400_0000 }
+            modify 0x6501 { default = 0x1000 }
+            modify 0x6502 { default = 0x0400_0000 }
+        }
+
+        /// `GCAM`, magtivo singleturn: 12 bits a revolution. It has no battery.
+        variant gcam {
+            modify 0x1000 { default = 0x0001_0196 }
+            modify 0x1008 { default = "GCAM" }
+            modify 0x1018sub2 { default = 0x0D }
+            modify 0x6001 { default = 0x1000; high = 0x1000 }
+            modify 0x6002 { default = 0x1000; high = 0x1000 }
+            modify 0x6501 { default = 0x1000 }
+            modify 0x6502 { default = 0x1000 }
+            modify 0x6506 { default = 0x0004 }
+        }
+
+        /// `GDMM`, activo multiturn: 18 bits a revolution, 13 bits of revolutions. All but
+        /// its name is that of the multivoPlus, its product code too (C-GX-30).
+        variant gdmm {
+            modify 0x1008 { default = "GDMM" }
+            modify 0x1018sub2 { default = 0x0E }
+            modify 0x6001 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6002 { default = 0x8000_0000; high = 0x8000_0000 }
+            modify 0x6501 { default = 0x0004_0000 }
+            modify 0x6502 { default = 0x8000_0000 }
+        }
+
+        /// `GDAM`, activo singleturn: 18 bits a revolution. It has no battery.
+        variant gdam {
+            modify 0x1000 { default = 0x0001_0196 }
+            modify 0x1008 { default = "GDAM" }
+            modify 0x1018sub2 { default = 0x0F }
+            modify 0x6001 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6002 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6501 { default = 0x0004_0000 }
+            modify 0x6502 { default = 0x0004_0000 }
+            modify 0x6506 { default = 0x0004 }
+        }
+
+        /// `GBMM`, multivoPlus multiturn: 18 bits a revolution, 13 bits of revolutions
+        /// (C-GX-04, C-GX-31). Its name has four letters (C-GX-09).
+        variant gbmm {
+            modify 0x1008 { default = "GBMM" }
+            modify 0x1018sub2 { default = 0x0E }
+            modify 0x6001 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6002 { default = 0x8000_0000; high = 0x8000_0000 }
+            modify 0x6501 { default = 0x0004_0000 }
+            modify 0x6502 { default = 0x8000_0000 }
+        }
+
+        /// `GBAM`, multivoPlus singleturn: 18 bits a revolution. It has no battery.
+        variant gbam {
+            modify 0x1000 { default = 0x0001_0196 }
+            modify 0x1008 { default = "GBAM" }
+            modify 0x1018sub2 { default = 0x0F }
+            modify 0x6001 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6002 { default = 0x0004_0000; high = 0x0004_0000 }
+            modify 0x6501 { default = 0x0004_0000 }
+            modify 0x6502 { default = 0x0004_0000 }
+            modify 0x6506 { default = 0x0004 }
+        }
+    }
+}
+
+/// A device of the family.
+pub(crate) const fn kind(
+    name: &'static str,
+    title: &'static str,
+    dictionary: Dictionary<'static>,
+) -> DeviceKind {
+    DeviceKind {
+        name,
+        title,
+        dictionary,
+        profile: &PROFILE,
+        encoder: &ENCODER,
     }
 }
 

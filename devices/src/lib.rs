@@ -20,6 +20,7 @@ pub mod bus_cover;
 #[cfg(feature = "sim")]
 pub mod sim;
 
+use bus_cover::gxmm;
 use od_model::Dictionary;
 use od_runtime::Profile;
 use od_runtime::encoder::{Encoder, EncoderProfile};
@@ -48,20 +49,22 @@ impl DeviceKind {
 
 /// Every device, by family.
 pub const DEVICES: &[DeviceKind] = &[
-    DeviceKind {
-        name: "gxmm",
-        title: "GXMM, multivo multiturn",
-        dictionary: bus_cover::gxmm::DICTIONARY,
-        profile: &bus_cover::PROFILE,
-        encoder: &bus_cover::ENCODER,
-    },
-    DeviceKind {
-        name: "gxam",
-        title: "GXAM, multivo singleturn",
-        dictionary: bus_cover::gxmm::gxam::DICTIONARY,
-        profile: &bus_cover::PROFILE,
-        encoder: &bus_cover::ENCODER,
-    },
+    bus_cover::kind("gxmm", "GXMM, multivo multiturn", gxmm::DICTIONARY),
+    bus_cover::kind("gxam", "GXAM, multivo singleturn", gxmm::gxam::DICTIONARY),
+    bus_cover::kind("gcmm", "GCMM, magtivo multiturn", gxmm::gcmm::DICTIONARY),
+    bus_cover::kind("gcam", "GCAM, magtivo singleturn", gxmm::gcam::DICTIONARY),
+    bus_cover::kind("gdmm", "GDMM, activo multiturn", gxmm::gdmm::DICTIONARY),
+    bus_cover::kind("gdam", "GDAM, activo singleturn", gxmm::gdam::DICTIONARY),
+    bus_cover::kind(
+        "gbmm",
+        "GBMM, multivoPlus multiturn",
+        gxmm::gbmm::DICTIONARY,
+    ),
+    bus_cover::kind(
+        "gbam",
+        "GBAM, multivoPlus singleturn",
+        gxmm::gbam::DICTIONARY,
+    ),
 ];
 
 /// The device with this name, in any case.

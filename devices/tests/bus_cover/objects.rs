@@ -3,12 +3,14 @@
 use od_devices::{DEVICES, find};
 use od_model::{Access, DataType, Group, Literal};
 
+use crate::models::{MODELS, Model};
+
 /// Index, sub-index, type, access, default, EEPROM. EEPROM: the group of 1010h that saves
 /// it; `F` was written in the factory, which no 1011h takes back (C-GX-10, C-GX-28).
 ///
-/// A default with a slash is that of GXMM, then that of GXAM.
+/// A default in braces is a cell of [`MODELS`], which differs from device to device.
 const OBJECTS: &str = "
-1000 00 U32 ro 00020196/00010196 -
+1000 00 U32 ro {device_type} -
 1001 00 U8  ro 00                -
 1003 00 U8  rw 00                -
 1003 01 U32 ro 00000000          -
@@ -20,7 +22,7 @@ const OBJECTS: &str = "
 1003 07 U32 ro 00000000          -
 1003 08 U32 ro 00000000          -
 1005 00 U32 rw 80                C
-1008 00 STR ro GXMM/GXAM         F
+1008 00 STR ro {name}            F
 1009 00 STR ro 1.00              -
 100A 00 STR ro 1.00              -
 100C 00 U16 rw 0                 C
@@ -41,7 +43,7 @@ const OBJECTS: &str = "
 1017 00 U16 rw 0                 C
 1018 00 U8  ro 4                 -
 1018 01 U32 ro EC                F
-1018 02 U32 ro 0A/0B             F
+1018 02 U32 ro {product_code}    F
 1018 03 U32 ro 00010000          -
 1018 04 U32 ro 1                 F
 1029 00 U8  ro 1                 -
@@ -77,29 +79,47 @@ const OBJECTS: &str = "
 2800 00 U8  rw 0                 M
 2801 00 U8  rw 0                 M
 6000 00 U16 rw 4                 A
-6001 00 U32 rw 2000              A
-6002 00 U32 rw 20000000/2000     A
+6001 00 U32 rw {resolution}      A
+6002 00 U32 rw {range}           A
 6003 00 U32 rw 0                 A
 6004 00 U32 ro 0                 -
 6200 00 U16 rw 203               A
 6500 00 U16 ro 4                 -
-6501 00 U32 ro 2000              -
-6502 00 U32 ro 20000000/2000     -
+6501 00 U32 ro {resolution}      -
+6502 00 U32 ro {range}           -
 6503 00 U16 ro 0                 -
 6504 00 U16 ro 1                 -
 6505 00 U16 ro 0                 -
-6506 00 U16 ro 14/4              -
+6506 00 U16 ro {warnings}        -
 6507 00 U32 ro 01000201          -
 6508 00 U32 ro 0                 -
 6509 00 U32 ro 0                 A
 650B 00 U32 ro 1                 F
 ";
 
+/// [`OBJECTS`] for one device.
+fn objects(model: &Model) -> String {
+    [
+        ("{name}", model.name.to_string()),
+        ("{device_type}", format!("{:X}", model.device_type)),
+        ("{product_code}", format!("{:X}", model.product_code)),
+        ("{resolution}", format!("{:X}", model.resolution)),
+        ("{range}", format!("{:X}", model.range)),
+        ("{warnings}", format!("{:X}", model.warnings)),
+    ]
+    .iter()
+    .fold(OBJECTS.to_string(), |text, (cell, value)| {
+        text.replace(cell, value)
+    })
+}
+
 #[test]
 fn every_object_of_the_table_and_no_other() {
-    for (device, column) in [("gxmm", 0), ("gxam", 1)] {
-        let dictionary = find(device).unwrap().dictionary;
-        let rows: Vec<Vec<&str>> = OBJECTS
+    for model in &MODELS {
+        let device = model.id();
+        let dictionary = find(&device).unwrap().dictionary;
+        let objects = objects(model);
+        let rows: Vec<Vec<&str>> = objects
             .lines()
             .filter(|line| !line.is_empty())
             .map(|line| line.split_whitespace().collect())
@@ -128,10 +148,6 @@ fn every_object_of_the_table_and_no_other() {
             );
             assert_eq!(entry.data_type, expected_type, "{what}");
             assert_eq!(entry.access, expected_access, "{what}");
-            let default = match default.split_once('/') {
-                Some((first, second)) => [first, second][column],
-                None => default,
-            };
             match entry.default {
                 Literal::Text(range) => assert_eq!(dictionary.text(range), default, "{what}"),
                 Literal::NodeId(offset) => {
@@ -154,20 +170,65 @@ fn every_object_of_the_table_and_no_other() {
 
 #[test]
 fn limits_are_those_of_the_values() {
-    for (device, range) in [("gxmm", 0x2000_0000), ("gxam", 0x2000)] {
-        let dictionary = find(device).unwrap().dictionary;
+    for model in &MODELS {
+        let dictionary = find(&model.id()).unwrap().dictionary;
         let limits: Vec<_> = dictionary
             .entries()
             .iter()
-            .filter_map(|entry| {
-                let (low, high) = (entry.low.integer(1)?, entry.high.integer(1)?);
-                Some((entry.address.index, low, high))
+            .filter(|entry| (entry.low, entry.high) != (Literal::None, Literal::None))
+            .map(|entry| {
+                let (low, high) = (entry.low.integer(1), entry.high.integer(1));
+                (entry.address.index, low.unwrap(), high.unwrap())
             })
             .collect();
+        let (resolution, range) = (model.resolution.into(), model.range.into());
         assert_eq!(
             limits,
-            [(0x2101, 1, 127), (0x6001, 1, 0x2000), (0x6002, 1, range)]
+            [
+                (0x2101, 1, 127),
+                (0x6001, 1, resolution),
+                (0x6002, 1, range)
+            ],
+            "{}",
+            model.name
         );
+    }
+}
+
+#[test]
+fn the_sensor_is_what_6501h_and_6502h_say() {
+    for model in &MODELS {
+        let kind = find(&model.id()).unwrap();
+        assert_eq!(kind.title, format!("{}, {}", model.name, model.family));
+        let sensor = kind.new_encoder().sensor();
+        assert_eq!(
+            (sensor.steps, sensor.turns, sensor.range()),
+            (model.resolution, model.turns, model.range.into()),
+            "{}",
+            model.name
+        );
+    }
+}
+
+/// C-GX-30: nothing but the name tells an activo from a multivoPlus.
+#[test]
+fn an_activo_is_a_multivo_plus_by_another_name() {
+    for (activo, plus) in [("gdmm", "gbmm"), ("gdam", "gbam")] {
+        let [activo, plus] = [activo, plus].map(|name| find(name).unwrap().dictionary);
+        for (one, other) in activo.entries().iter().zip(plus.entries()) {
+            let same = match (one.default, other.default) {
+                (Literal::Text(a), Literal::Text(b)) => activo.text(a) == plus.text(b),
+                (a, b) => a == b,
+            };
+            let limits = (one.low, one.high) == (other.low, other.high);
+            assert_eq!(one.address, other.address);
+            assert_eq!(
+                same && limits,
+                one.address.index != 0x1008,
+                "{}",
+                one.address
+            );
+        }
     }
 }
 

@@ -2,109 +2,17 @@
 //! chapter 7.2.1).
 
 use od_devices::find;
-use od_runtime::encoder::{Encoder, Fault, Switches};
-use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+use od_runtime::encoder::{Fault, Switches};
+use od_runtime::{CanId, Frame};
 
-/// A gxmm on a bench of its own.
-struct Bench {
-    values: Vec<u8>,
-    storage: Memory<Vec<u8>>,
-    encoder: Encoder,
-    node: Node,
-    now: Instant,
-    /// Node ID of the last boot-up message.
-    booted: u32,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let kind = find("gxmm").unwrap();
-        let mut bench = Self {
-            values: vec![0; kind.dictionary.store_len()],
-            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: kind.new_encoder(),
-            node: Node::new(NodeId::ONE),
-            now: Instant::ZERO,
-            booted: 0,
-        };
-        bench.power_on();
-        bench
-    }
-
-    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R) -> R {
-        let kind = find("gxmm").unwrap();
-        let mut device = Device {
-            dictionary: kind.dictionary,
-            values: &mut self.values,
-            application: &mut self.encoder,
-            storage: &mut self.storage,
-            profile: kind.profile,
-        };
-        call(&mut self.node, &mut device, self.now)
-    }
-
-    /// Everything that the device sends now, in its order.
-    fn sent(&mut self) -> Vec<Frame> {
-        let frames: Vec<Frame> = self.with(|node, device, now| {
-            std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
-        });
-        let boot = |frame: &&Frame| frame.id().raw() & 0x780 == 0x700;
-        if let Some(boot) = frames.iter().find(boot) {
-            self.booted = boot.id().raw() - 0x700;
-        }
-        frames
-    }
-
-    fn power_on(&mut self) {
-        self.storage.restore_power();
-        self.with(|node, device, now| node.power_on(device, now).unwrap());
-        self.sent();
-    }
-
-    fn power_cycle(&mut self) {
-        self.encoder.power_off(self.now);
-        self.node.power_off();
-        self.now = self.now.plus_millis(100);
-        self.power_on();
-    }
-
-    fn send(&mut self, id: u16, data: &[u8]) -> Vec<Frame> {
-        let frame = Frame::new(CanId::standard(id), data);
-        self.with(|node, device, now| node.handle_frame(device, now, &frame));
-        self.sent()
-    }
-
-    /// An expedited download; the abort code if there was one.
-    fn write(&mut self, index: u16, sub: u8, value: u32) -> Result<(), u32> {
-        let [low, high] = index.to_le_bytes();
-        let [a, b, c, d] = value.to_le_bytes();
-        let id = 0x600 + u16::from(self.node.node_id().raw());
-        let answers = self.send(id, &[0x22, low, high, sub, a, b, c, d]);
-        match answers[0].data() {
-            [0x60, ..] => Ok(()),
-            [0x80, _, _, _, code @ ..] => Err(u32::from_le_bytes(code.try_into().unwrap())),
-            other => panic!("{other:02X?}"),
-        }
-    }
-
-    fn read(&mut self, index: u16, sub: u8) -> u32 {
-        let [low, high] = index.to_le_bytes();
-        let id = 0x600 + u16::from(self.node.node_id().raw());
-        let answers = self.send(id, &[0x40, low, high, sub]);
-        let [0x43 | 0x4B | 0x4F, _, _, _, value @ ..] = answers[0].data() else {
-            panic!("{answers:?}");
-        };
-        u32::from_le_bytes(value.try_into().unwrap())
-    }
-}
+use crate::bench::Bench;
 
 const SAVE: u32 = u32::from_le_bytes(*b"save");
 const LOAD: u32 = u32::from_le_bytes(*b"load");
 
 #[test]
 fn what_is_saved_is_there_after_a_power_cycle() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::new("gxmm");
     bench.encoder.set_raw_position(bench.now, 0x7_9592);
     bench.write(0x6003, 0, 1000).unwrap();
     bench.write(0x6200, 0, 7).unwrap();
@@ -129,7 +37,7 @@ fn what_is_saved_is_there_after_a_power_cycle() {
 
 #[test]
 fn the_node_id_acts_at_the_next_start() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::new("gxmm");
     assert_eq!(bench.booted, 1);
     bench.write(0x2101, 0, 2).unwrap();
     bench.write(0x1010, 4, SAVE).unwrap();
@@ -151,7 +59,7 @@ fn the_node_id_acts_at_the_next_start() {
 
 #[test]
 fn statistics_survive_a_restore() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::new("gxmm");
     for broken in [true, false] {
         bench.encoder.set_fault(Fault::Position, broken);
         bench.with(|node, device, now| node.handle_change(device, now));
@@ -173,7 +81,7 @@ fn statistics_survive_a_restore() {
 
 #[test]
 fn a_save_that_power_cuts_leaves_the_set_before() {
-    let mut bench = Bench::new();
+    let mut bench = Bench::new("gxmm");
     bench.write(0x6001, 0, 1000).unwrap();
     bench.write(0x6002, 0, 5000).unwrap();
     bench.write(0x1010, 1, SAVE).unwrap();

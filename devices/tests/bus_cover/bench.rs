@@ -1,0 +1,104 @@
+//! A whole device with node ID 1, switches at 0 and an empty EEPROM, talked to in frames.
+
+use od_devices::{DeviceKind, find};
+use od_runtime::encoder::Encoder;
+use od_runtime::storage::{Memory, image};
+use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+
+/// A device on a bench of its own.
+pub(crate) struct Bench {
+    kind: &'static DeviceKind,
+    values: Vec<u8>,
+    pub(crate) storage: Memory<Vec<u8>>,
+    pub(crate) encoder: Encoder,
+    node: Node,
+    pub(crate) now: Instant,
+    /// Node ID of the last boot-up message.
+    pub(crate) booted: u32,
+}
+
+impl Bench {
+    /// The device of this name, just switched on.
+    pub(crate) fn new(name: &str) -> Self {
+        let kind = find(name).unwrap();
+        let mut bench = Self {
+            kind,
+            values: vec![0; kind.dictionary.store_len()],
+            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
+            encoder: kind.new_encoder(),
+            node: Node::new(NodeId::ONE),
+            now: Instant::ZERO,
+            booted: 0,
+        };
+        bench.power_on();
+        bench
+    }
+
+    pub(crate) fn with<R>(
+        &mut self,
+        call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R,
+    ) -> R {
+        let mut device = Device {
+            dictionary: self.kind.dictionary,
+            values: &mut self.values,
+            application: &mut self.encoder,
+            storage: &mut self.storage,
+            profile: self.kind.profile,
+        };
+        call(&mut self.node, &mut device, self.now)
+    }
+
+    /// Everything that the device sends now, in its order.
+    pub(crate) fn sent(&mut self) -> Vec<Frame> {
+        let frames: Vec<Frame> = self.with(|node, device, now| {
+            std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
+        });
+        let boot = |frame: &&Frame| frame.id().raw() & 0x780 == 0x700;
+        if let Some(boot) = frames.iter().find(boot) {
+            self.booted = boot.id().raw() - 0x700;
+        }
+        frames
+    }
+
+    fn power_on(&mut self) {
+        self.storage.restore_power();
+        self.with(|node, device, now| node.power_on(device, now).unwrap());
+        self.sent();
+    }
+
+    pub(crate) fn power_cycle(&mut self) {
+        self.encoder.power_off(self.now);
+        self.node.power_off();
+        self.now = self.now.plus_millis(100);
+        self.power_on();
+    }
+
+    pub(crate) fn send(&mut self, id: u16, data: &[u8]) -> Vec<Frame> {
+        let frame = Frame::new(CanId::standard(id), data);
+        self.with(|node, device, now| node.handle_frame(device, now, &frame));
+        self.sent()
+    }
+
+    /// An expedited download; the abort code if there was one.
+    pub(crate) fn write(&mut self, index: u16, sub: u8, value: u32) -> Result<(), u32> {
+        let [low, high] = index.to_le_bytes();
+        let [a, b, c, d] = value.to_le_bytes();
+        let id = 0x600 + u16::from(self.node.node_id().raw());
+        let answers = self.send(id, &[0x22, low, high, sub, a, b, c, d]);
+        match answers[0].data() {
+            [0x60, ..] => Ok(()),
+            [0x80, _, _, _, code @ ..] => Err(u32::from_le_bytes(code.try_into().unwrap())),
+            other => panic!("{other:02X?}"),
+        }
+    }
+
+    pub(crate) fn read(&mut self, index: u16, sub: u8) -> u32 {
+        let [low, high] = index.to_le_bytes();
+        let id = 0x600 + u16::from(self.node.node_id().raw());
+        let answers = self.send(id, &[0x40, low, high, sub]);
+        let [0x43 | 0x4B | 0x4F, _, _, _, value @ ..] = answers[0].data() else {
+            panic!("{answers:?}");
+        };
+        u32::from_le_bytes(value.try_into().unwrap())
+    }
+}
