@@ -142,6 +142,7 @@ impl Live {
         bus.with(number, VirtualDevice::power_on);
         // Nobody listens yet; a master that comes later asks for the state.
         while bus.poll().is_some() {}
+        bus.with(number, events);
         Self {
             bus,
             start: Clock::now(),
@@ -270,25 +271,38 @@ impl Live {
             _ => 6,
         };
         let mut output = Output::new();
+        let (description, read) = match od_devices::find(&args.device) {
+            Some(_) => (
+                "canopen.ObjectDictionary()".to_owned(),
+                "sdo.upload(0x1000, 0).hex()",
+            ),
+            None => (format!("{:?}", args.device), "sdo[0x1000].raw"),
+        };
+        let eeprom = match &args.eeprom {
+            Some(path) => path.display().to_string(),
+            None => "in memory; --eeprom FILE keeps it".to_owned(),
+        };
+        let request = 0x600 + u16::from(node.raw());
         let text = format!(
             "{title}, node {node}; slcan on {address}
+EEPROM {eeprom}
 
-python-canopen
+python-canopen (pip install canopen pyserial)
   import canopen
   network = canopen.Network()
   network.connect(interface='slcan', channel='socket://{address}',
                   bitrate={bitrate}, sleep_after_open=0)
-  node = network.add_node({node}, canopen.ObjectDictionary())
-  print(node.sdo.upload(0x1000, 0).hex())
+  node = network.add_node({node}, {description})
+  print(node.{read})
 
 candump, as root on Linux
   socat pty,raw,echo=0,link=/dev/ttyodkit tcp:{address} &
-  slcand -o -c -s{speed} ttyodkit can0 && ip link set can0 up
+  slcand -o -c -s{speed} ttyodkit can0
+  ip link set can0 up
   candump can0 &
   cansend can0 {request:03X}#4000100000000000
 
-Ctrl-C ends it.",
-            request = 0x600 + u16::from(node.raw()),
+Ctrl-C ends it."
         );
         output.line(&text)?;
         output.flush().map(|_| ())

@@ -11,6 +11,8 @@ mod device;
 pub mod faults;
 mod leds;
 pub mod script;
+#[cfg(test)]
+mod tests;
 pub mod values;
 pub mod words;
 mod world;

@@ -18,6 +18,8 @@ pub(super) struct Transfer {
     /// Segments of a block are under way: from the server, or from the client.
     block: Option<Block>,
     block_size: u8,
+    /// The number of the last segment of all, once it went by.
+    last: Option<u8>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -165,12 +167,7 @@ impl Explainer<'_> {
                 self.words(format!("start blocks of {}", self.current()))
             }
             Request::BlockUploadResponse { ack, block_size } => {
-                self.transfer.block = Some(Block::Upload);
-                self.transfer.block_size = block_size;
-                self.words(format!(
-                    "block of {} taken up to segment {ack}",
-                    self.current()
-                ))
+                self.block_taken(Block::Upload, ack, block_size)
             }
             Request::EndBlockUpload => self.words(format!("{} is complete", self.current())),
             Request::InitiateBlockDownload { address, size, .. } => {
@@ -234,12 +231,7 @@ impl Explainer<'_> {
                 self.words(format!("{name} may come in blocks of {block_size}"))
             }
             Response::BlockDownloadResponse { ack, block_size } => {
-                self.transfer.block = Some(Block::Download);
-                self.transfer.block_size = block_size;
-                self.words(format!(
-                    "block of {} taken up to segment {ack}",
-                    self.current()
-                ))
+                self.block_taken(Block::Download, ack, block_size)
             }
             Response::EndBlockDownload => {
                 self.transfer.block = None;
@@ -289,8 +281,18 @@ impl Explainer<'_> {
             // The block is over: what comes now has a command again.
             self.transfer.block = None;
         }
+        self.transfer.last = last.then_some(number);
         let which = if last { "last segment" } else { "segment" };
         self.words(format!("{which} {number} of a block of {}", self.current()))
+    }
+
+    /// More segments follow, unless the last one of all was taken.
+    fn block_taken(&mut self, block: Block, ack: u8, block_size: u8) -> Words {
+        let more = self.transfer.last != Some(ack);
+        self.transfer.block = more.then_some(block);
+        self.transfer.block_size = block_size;
+        let name = self.current();
+        self.words(format!("block of {name} taken up to segment {ack}"))
     }
 
     fn abort(&mut self, address: Address, code: u32) -> Words {
