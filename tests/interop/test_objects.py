@@ -1,18 +1,36 @@
-"""Every object of gxmm and gxam against the EDS: type, access, default."""
+"""Every object of the bus-cover devices against the EDS: type, access, default."""
 
 import canopen
 from canopen.objectdictionary import datatypes
 
 from bench import EDS, BenchCase
 
-# What GXAM has in place of GXMM's defaults (manual 000, chapter 4.4.1).
-GXAM = {
-    (0x1000, 0): 0x00010196,
-    (0x1008, 0): "GXAM",
-    (0x1018, 2): 0x0B,
-    (0x6002, 0): 0x2000,
-    (0x6502, 0): 0x2000,
-    (0x6506, 0): 0x0004,
+
+
+def family(name, device_type, product, steps, total, warnings):
+    """What a device has in place of GXMM's defaults (manual 000, chapter 4.4.1)."""
+    return {
+        (0x1000, 0): device_type,
+        (0x1008, 0): name,
+        (0x1018, 2): product,
+        (0x6001, 0): steps,
+        (0x6501, 0): steps,
+        (0x6002, 0): total,
+        (0x6502, 0): total,
+        (0x6506, 0): warnings,
+    }
+
+
+MULTI, SINGLE = 0x00020196, 0x00010196
+FAMILIES = {
+    "gxmm": family("GXMM", MULTI, 0x0A, 1 << 13, 1 << 29, 0x14),
+    "gxam": family("GXAM", SINGLE, 0x0B, 1 << 13, 1 << 13, 0x04),
+    "gcmm": family("GCMM", MULTI, 0x0C, 1 << 12, 1 << 26, 0x14),
+    "gcam": family("GCAM", SINGLE, 0x0D, 1 << 12, 1 << 12, 0x04),
+    "gdmm": family("GDMM", MULTI, 0x0E, 1 << 18, 1 << 31, 0x14),
+    "gdam": family("GDAM", SINGLE, 0x0F, 1 << 18, 1 << 18, 0x04),
+    "gbmm": family("GBMM", MULTI, 0x0E, 1 << 18, 1 << 31, 0x14),
+    "gbam": family("GBAM", SINGLE, 0x0F, 1 << 18, 1 << 18, 0x04),
 }
 
 # Commands and what lives: their value is not a default.
@@ -60,11 +78,10 @@ class Objects(BenchCase):
             node.sdo.download(index, sub, data)
             self.assertEqual(node.sdo.upload(index, sub), data)
 
-    def test_gxmm(self):
-        self.check("gxmm", {})
-
-    def test_gxam(self):
-        self.check("gxam", GXAM)
+    def test_every_family(self):
+        for device, defaults in FAMILIES.items():
+            with self.subTest(device=device):
+                self.check(device, defaults)
 
     def test_the_eds_runs_like_the_device(self):
         """The EDS as a file is a device, too: the same objects with the same values."""
