@@ -32,6 +32,14 @@ check('the node boots and says so', async (page) => {
   assert.match(await page.locator('.led-words').textContent(), /Green flashing/);
 });
 
+check('a quiet bus says what to try', async (page) => {
+  await page.getByRole('button', { name: 'Read the position' }).click();
+  await row(page, 'the answer', (one) => one.id === '581' && one.data.startsWith('43 04 60 00'));
+  await page.getByRole('button', { name: 'Start the node' }).click();
+  await until('Operational', async () => (await state(page)) === 'Operational');
+  await until('no more hints', async () => (await page.locator('.hints').count()) === 0);
+});
+
 check('a request typed by hand gets its answer', async (page) => {
   await sendRaw(page, '601#4004600000000000');
   const request = await row(page, 'the request', (one) => one.id === '601');

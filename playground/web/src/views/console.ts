@@ -3,10 +3,11 @@
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
-import { clearConsole, saveLog, togglePause } from '../actions';
+import { clearConsole, nmt, saveLog, togglePause } from '../actions';
 import { classify } from '../can/service';
 import { hexBytes, hexId } from '../can/text';
 import { grouped } from '../can/values';
+import { transfer } from '../sim/client';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { icons } from './icons';
 import { Rows, setText } from './rows';
@@ -73,7 +74,7 @@ class Console extends View {
     viewport.addEventListener('pointerdown', () => { if (viewport.scrollTop > 0) this.follows = false; });
     viewport.addEventListener('pointerup', release);
     viewport.addEventListener('scroll', () => {
-      if (viewport.scrollTop !== this.ownScroll) release();
+      if (Math.abs(viewport.scrollTop - this.ownScroll) > 2) release();
     }, { passive: true });
     this.disposers.push(
       effect(() => {
@@ -132,11 +133,9 @@ class Console extends View {
       this.settleScheduled = 0;
       const lost = state.ring.first - this.anchor;
       this.anchor = state.ring.first;
-      rows.draw();
-      if (this.follows) viewport.scrollTop = viewport.scrollHeight;
-      else if (lost > 0) viewport.scrollTop -= lost * rows.rowHeight;
-      this.ownScroll = viewport.scrollTop;
-      rows.draw();
+      if (this.follows) this.ownScroll = rows.draw(Number.MAX_SAFE_INTEGER);
+      else if (lost > 0) this.ownScroll = rows.draw(viewport.scrollTop - lost * rows.rowHeight);
+      else rows.draw();
     });
   }
 
@@ -178,6 +177,21 @@ class Console extends View {
     }
   }
 
+  /** What to try on a bus where hardly anything happened yet. */
+  private hints() {
+    const node = state.nodeId.value;
+    const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
+    const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0, bytes });
+    return html`<div class="hints">
+      <p>Node ${node} is on the bus. Turn the shaft, type a frame below, or try:</p>
+      <div>
+        ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>Read the position</button>` : nothing}
+        <button class="small" @click=${() => nmt(0x01)}>Start the node</button>
+        ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>Heartbeat every second</button>` : nothing}
+      </div>
+    </div>`;
+  }
+
   private toEnd(): void {
     this.follows = true;
     this.behind = false;
@@ -205,6 +219,7 @@ class Console extends View {
       <div class="frame-table" role="table" aria-label="Frames" aria-rowcount=${kept}>
         <div class="frame-head" role="row">${COLUMNS.map((name, i) => html`<span role="columnheader" class=${['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'][i]!}>${name}</span>`)}</div>
         <div class="frames scroll" tabindex="0" role="rowgroup" aria-label="Captured frames, oldest first"></div>
+        ${kept > 0 && kept < 4 && paused === null && state.powered.value ? this.hints() : nothing}
         ${kept === 0 ? html`<p class="frames-empty">Nothing on the bus yet. Switch the power on, or send a frame.</p>` : nothing}
         ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} Latest frames</button>` : nothing}
       </div>

@@ -19,6 +19,7 @@ export class Rows {
   private readonly pool: HTMLElement[] = [];
   private scheduled = 0;
   private height = 24;
+  private room = 0;
   private readonly sizes = new ResizeObserver(() => this.measure());
 
   constructor(
@@ -40,6 +41,7 @@ export class Rows {
   private measure(): void {
     const height = Number.parseFloat(getComputedStyle(this.viewport).getPropertyValue('--row-height'));
     if (height > 0) this.height = height;
+    this.room = this.viewport.clientHeight;
     this.redraw();
   }
 
@@ -51,14 +53,24 @@ export class Rows {
     });
   }
 
-  /** Draws now. */
-  draw(): void {
+  /**
+   * Draws now, scrolled to `top` if that is given; answers with where it is. Rows first,
+   * then the place: so the browser lays the page out once.
+   */
+  draw(top?: number): number {
     const count = this.source.count();
-    this.spacer.style.height = `${count * this.height}px`;
-    const room = this.viewport.clientHeight;
-    if (room === 0) return;
-    const from = Math.max(0, Math.floor(this.viewport.scrollTop / this.height) - 1);
-    const to = Math.min(count, from + Math.ceil(room / this.height) + SPARE);
+    const wanted = top ?? this.viewport.scrollTop;
+    if (this.room === 0) return wanted;
+    const place = Math.max(0, Math.min(wanted, count * this.height - this.room));
+    this.fill(Math.max(0, Math.floor(place / this.height) - 1), count);
+    const height = `${count * this.height}px`;
+    if (this.spacer.style.height !== height) this.spacer.style.height = height;
+    if (top !== undefined) this.viewport.scrollTop = place;
+    return place;
+  }
+
+  private fill(from: number, count: number): void {
+    const to = Math.min(count, from + Math.ceil(this.room / this.height) + SPARE);
     while (this.pool.length < to - from) {
       const row = this.source.make();
       row.classList.add('row');
