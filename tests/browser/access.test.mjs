@@ -39,6 +39,18 @@ test('axe finds nothing on a phone', async () => {
   await close();
 });
 
+test('the sheet of keys opens by its key', async () => {
+  const { page, close } = await open(browser, {});
+  await booted(page);
+  await page.keyboard.press('?');
+  const sheet = page.getByRole('dialog', { name: 'Keys' });
+  assert.ok(await sheet.isVisible());
+  assert.deepEqual(await faults(page), []);
+  await page.keyboard.press('Escape');
+  assert.ok(!(await sheet.isVisible()));
+  await close();
+});
+
 test('the keyboard reaches every control, in a sensible order', async () => {
   const { page, close } = await open(browser, {});
   await booted(page);

@@ -52,6 +52,7 @@ export const tab = signal<Tab>('encoder');
 export const toast = signal<{ text: string; tone: 'info' | 'error' } | null>(null);
 
 export const deviceDialog = signal(false);
+export const helpDialog = signal(false);
 /** A file that could not be opened, and why. */
 export const attempt = signal<{ name: string; text: string; diagnostics: Diagnostic[] } | null>(null);
 

@@ -13,6 +13,7 @@ import './console';
 import './send';
 import './objects';
 import './device-dialog';
+import './help';
 
 const TABS: { tab: state.Tab; text: string; icon: unknown }[] = [
   { tab: 'encoder', text: 'Encoder', icon: icons.encoder },
@@ -50,8 +51,10 @@ class App extends View {
   }
 
   private onKey(event: KeyboardEvent): void {
-    if (event.key !== ' ' || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target as HTMLElement;
+    if (event.key === '?' && !target.closest('input, textarea, dialog')) state.helpDialog.value = true;
+    if (event.key !== ' ') return;
     if (target.closest('input, select, textarea, button, summary, dialog, [role=slider], [role=option], [role=tab]')) return;
     event.preventDefault();
     togglePause();
@@ -81,6 +84,7 @@ class App extends View {
         )}
       </div></nav>
       <od-device-dialog></od-device-dialog>
+      <od-help></od-help>
       <div class="toasts" role="status" aria-live="polite">
         ${state.toast.value
           ? html`<div class="toast" data-tone=${state.toast.value.tone}>

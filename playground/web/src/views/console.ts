@@ -216,9 +216,11 @@ class Console extends View {
         <button class="small" title="Save as candump log" @click=${saveLog}>${icons.save} <span class="wide">Save log</span></button>
         <button class="small" title="Clear the capture" @click=${clearConsole}>${icons.trash} <span class="wide">Clear</span></button>
       </header>
+      <div class="frame-area">
       <div class="frame-table" role="table" aria-label="Frames" aria-rowcount=${kept}>
         <div class="frame-head" role="row">${COLUMNS.map((name, i) => html`<span role="columnheader" class=${['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'][i]!}>${name}</span>`)}</div>
         <div class="frames scroll" tabindex="0" role="rowgroup" aria-label="Captured frames, oldest first"></div>
+      </div>
         ${kept > 0 && kept < 4 && paused === null && state.powered.value ? this.hints() : nothing}
         ${kept === 0 ? html`<p class="frames-empty">Nothing on the bus yet. Switch the power on, or send a frame.</p>` : nothing}
         ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} Latest frames</button>` : nothing}

@@ -17,6 +17,7 @@ export const icons = {
   sun: icon(svg`<circle cx="10" cy="10" r="3.2"/><path d="M10 2.6v1.6M10 15.8v1.6M2.6 10h1.6M15.8 10h1.6M4.8 4.8l1.1 1.1M14.1 14.1l1.1 1.1M4.8 15.2l1.1-1.1M14.1 5.9l1.1-1.1"/>`),
   moon: icon(svg`<path d="M16.2 11.8A6.6 6.6 0 0 1 8.2 3.8a6.6 6.6 0 1 0 8 8z"/>`),
   chevron: icon(svg`<path d="m6 8 4 4 4-4"/>`),
+  help: icon(svg`<circle cx="10" cy="10" r="7"/><path d="M7.9 8a2.1 2.1 0 1 1 3 1.9c-.6.3-.9.7-.9 1.3v.3"/><path d="M10 13.9v.1" stroke-width="2"/>`),
   close: icon(svg`<path d="m5 5 10 10M15 5 5 15"/>`),
   file: icon(svg`<path d="M5 2.8h6.4L15 6.4v10.8H5z"/><path d="M11.2 3v3.6h3.6"/>`),
   down: icon(svg`<path d="M10 4v11M5.6 10.8 10 15.2l4.4-4.4"/>`),

@@ -54,6 +54,7 @@ class Topbar extends View {
           ${icons.chevron}
         </label>
       </div>
+      <button class="icon-button help-button" aria-label="Keys" title="Keys (?)" @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>
       <button class="icon-button" aria-label="Light or dark" title="Light or dark" @click=${() => this.toggleTheme()}>${this.isDark() ? icons.sun : icons.moon}</button>
     </header>`;
   }
