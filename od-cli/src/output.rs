@@ -37,9 +37,22 @@ pub(crate) fn print_or_ignore(error: &clap::Error) {
     let _ = error.print();
 }
 
-/// One line on standard error.
+/// One line on standard error, with our name before it.
 pub(crate) fn error(message: &str) {
-    let _ = writeln!(io::stderr(), "odkit: {message}");
+    note_text(&format!("odkit: {message}\n"));
+}
+
+/// A line on standard error. Unlike `eprintln!` it does not panic where nobody listens.
+macro_rules! note {
+    ($($argument:tt)*) => {
+        $crate::output::note_text(&format!("{}\n", format_args!($($argument)*)))
+    };
+}
+pub(crate) use note;
+
+/// Text on standard error.
+pub(crate) fn note_text(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 /// May what goes to standard output be coloured?

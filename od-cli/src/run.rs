@@ -9,7 +9,7 @@ use od_devices::sim::candump::format_line;
 use od_devices::sim::script::{self, Host, Origin, Reason, Script};
 use od_runtime::{Frame, Instant, NodeId};
 
-use crate::output::{self, Output};
+use crate::output::{self, Output, note};
 use crate::source::{self, Source};
 use crate::{Failure, report};
 
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let text = read(&args.script)?;
     let script = Script::parse(&text).map_err(|problems| {
         for problem in &problems {
-            eprintln!("{}:{problem}", args.script);
+            note!("{}:{problem}", args.script);
         }
         let count = report::plural(problems.len(), "line");
         Failure::Usage(format!(
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Ok(summary) => {
             if summary.held > 0 {
                 let count = report::plural(summary.held, "expectation");
-                eprintln!("{count} held, {:?} s", summary.end);
+                note!("{count} held, {:?} s", summary.end);
             }
             Ok(())
         }

@@ -14,7 +14,7 @@ use od_devices::sim::{Bus, VirtualDevice, values};
 use od_runtime::storage::File;
 use od_runtime::{Event, Frame, Instant, NodeId};
 
-use crate::output::Output;
+use crate::output::{Output, note};
 use crate::source::{self, Source};
 use crate::{Failure, report};
 use clients::{Client, Input};
@@ -169,7 +169,7 @@ impl Live {
             }
         }
         self.bus.with(0, VirtualDevice::power_off);
-        eprintln!(
+        note!(
             "\nodkit: ended; {} went over the bus",
             report::plural(self.frames as usize, "frame")
         );
@@ -207,7 +207,7 @@ impl Live {
     fn take(&mut self, input: Input) {
         match input {
             Input::Connected(client) => {
-                eprintln!("{} connected", client.address);
+                note!("{} connected", client.address);
                 self.seats.insert(
                     client.number,
                     Seat {
@@ -218,7 +218,7 @@ impl Live {
             }
             Input::Gone(number) => {
                 if let Some(seat) = self.seats.remove(&number) {
-                    eprintln!("{} left", seat.client.address);
+                    note!("{} left", seat.client.address);
                 }
             }
             Input::Bytes(number, bytes) => self.bytes(number, &bytes),
@@ -258,6 +258,9 @@ impl Live {
             return Ok(());
         };
         let (title, node) = (device.title(), device.node_id());
+        if let Some(wanted) = args.node_id.filter(|wanted| *wanted != node) {
+            note!("the EEPROM says node {node}; --node-id {wanted} is for an empty one");
+        }
         let bitrate = args.bitrate;
         let speed = match bitrate {
             10_000 => 0,
@@ -316,16 +319,16 @@ fn events(device: &mut VirtualDevice, _: Instant) -> Vec<Event> {
 /// What the person at the terminal may want to know.
 fn report_event(event: Event) {
     match event {
-        Event::State(state) => eprintln!("state: {state}"),
-        Event::Reset(_, node) => eprintln!("reset, node {node}"),
-        Event::Saved(_) => eprintln!("parameters saved"),
-        Event::Restored(_) => eprintln!("defaults restored"),
+        Event::State(state) => note!("state: {state}"),
+        Event::Reset(_, node) => note!("reset, node {node}"),
+        Event::Saved(_) => note!("parameters saved"),
+        Event::Restored(_) => note!("defaults restored"),
         Event::StorageDamaged => {
-            eprintln!("the EEPROM is damaged or of another version; defaults were taken");
+            note!("the EEPROM is damaged or of another version; defaults were taken");
         }
-        Event::Error(error) => eprintln!("error {:04X}h", error.code),
-        Event::ErrorCleared(code) => eprintln!("error {code:04X}h is over"),
-        Event::BitRate(code) => eprintln!("LSS set bit rate {code}; this bus has none"),
+        Event::Error(error) => note!("error {:04X}h", error.code),
+        Event::ErrorCleared(code) => note!("error {code:04X}h is over"),
+        Event::BitRate(code) => note!("LSS set bit rate {code}; this bus has none"),
         Event::Written(_) => {}
     }
 }

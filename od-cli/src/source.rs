@@ -67,7 +67,7 @@ impl Source {
         let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
         let shown = &errors[..errors.len().min(SHOWN)];
         let colours = output::error_colours();
-        eprint!("{}", report::render(path, text, shown, colours));
+        output::note_text(&report::render(path, text, shown, colours));
         let count = report::plural(errors.len(), "error");
         let lenient = EdsOptions {
             node_id,

@@ -166,3 +166,25 @@ fn a_file_with_errors_runs_as_far_as_it_goes() {
         run.err
     );
 }
+
+#[test]
+fn closed_pipes_are_no_panic() {
+    use std::process::Stdio;
+    for args in [
+        &["check", "no-such.eds"][..],
+        &["run", "no-such.script"],
+        &["dump", "gxmx"],
+        &["bogus"],
+    ] {
+        let mut child = support::command()
+            .args(args)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("odkit starts");
+        drop((child.stdout.take(), child.stderr.take()));
+        let code = child.wait().expect("it ends").code();
+        assert!(matches!(code, Some(1 | 2)), "{args:?}: {code:?}");
+    }
+}

@@ -5,6 +5,8 @@ use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread;
 
+use crate::output::note;
+
 /// What the threads tell the bus.
 pub(super) enum Input {
     /// A client is there.
@@ -40,14 +42,14 @@ impl Client {
         match self.queue.try_send(lines) {
             Ok(()) if self.dropped > 0 => {
                 let (address, dropped) = (self.address, self.dropped);
-                eprintln!("{address} reads again; {dropped} messages were dropped");
+                note!("{address} reads again; {dropped} messages were dropped");
                 self.dropped = 0;
             }
             // A client that is gone is reported by its reader.
             Ok(()) | Err(TrySendError::Disconnected(_)) => {}
             Err(TrySendError::Full(_)) => {
                 if self.dropped == 0 {
-                    eprintln!("{} does not read; frames for it are dropped", self.address);
+                    note!("{} does not read; frames for it are dropped", self.address);
                 }
                 self.dropped += 1;
             }
@@ -68,7 +70,7 @@ pub(super) fn accept(listener: TcpListener, inputs: SyncSender<Input>) {
                 }
             };
             if let Err(error) = serve(stream, address, number, &inputs) {
-                eprintln!("{address}: {error}");
+                note!("{address}: {error}");
             }
         }
     });
