@@ -14,6 +14,8 @@ pub struct Instant(u64);
 impl Instant {
     /// The origin.
     pub const ZERO: Self = Self(0);
+    /// The end of time: 584,000 years after the origin. Nothing is ever due then.
+    pub const MAX: Self = Self(u64::MAX);
 
     /// `micros` microseconds after the origin.
     pub const fn from_micros(micros: u64) -> Self {

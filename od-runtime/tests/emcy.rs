@@ -121,3 +121,28 @@ fn no_emcy_when_stopped_but_an_entry_in_the_log() {
     assert_eq!(bench.send("000#8001"), [""; 0]);
     assert_eq!(bench.ask("601#4003100100000000"), "581#4303100100100000");
 }
+
+#[test]
+fn an_emcy_that_waits_goes_out_after_the_boot_up() {
+    let inhibit = (
+        0x1015,
+        0,
+        DataType::Unsigned16,
+        Access::Rw,
+        false,
+        unsigned(500),
+    );
+    let mut bench = bench(&[inhibit]);
+    bench.profile.reset_communication_us = 60_000;
+    bench
+        .application
+        .raise
+        .extend([error(0x1000, 1), error(0x5530, 1)]);
+    assert_eq!(bench.change(), ["081#0010010102030405"]);
+    bench.send("000#8201");
+    assert_eq!(
+        bench.wait(100),
+        [(60, "701#00".into()), (60, "081#3055010102030405".into()),],
+        "the inhibit time ends at 50 ms, while the node initialises"
+    );
+}

@@ -1,6 +1,7 @@
 //! NMT states, boot-up and heartbeat (CiA 301, chapters 7.2.8 and 7.3.2).
 
 mod support;
+use od_runtime::Instant;
 use od_runtime::wire::nmt::State;
 use support::Bench;
 
@@ -122,4 +123,18 @@ fn saved_values_come_back_and_load_takes_them_away() {
     );
     bench.send("000#8101");
     assert_eq!(bench.value(0x2000, 0), 5);
+}
+
+#[test]
+fn nothing_is_due_at_the_end_of_time() {
+    let mut bench = Bench::new();
+    bench.power_on();
+    bench.ask("601#2B17100064000000");
+    bench.send("000#0101");
+    bench.now = Instant::MAX;
+    // A host that comes so late is not called back there over and over.
+    let late = bench.wait(0);
+    assert_eq!(late.len(), 1, "{late:?}");
+    assert_eq!(late[0].1, "701#05");
+    assert_eq!(bench.node.poll_timeout(), None);
 }

@@ -1,6 +1,7 @@
 //! Process data and SYNC (CiA 301, chapters 7.2.2 and 7.2.5).
 
 mod support;
+use od_runtime::wire::nmt::State;
 use support::Bench;
 
 /// Node 1, Operational, TPDO2 and both RPDOs as they are; `setup` is written before the start.
@@ -208,4 +209,14 @@ fn a_short_rpdo_is_an_emergency_and_a_good_one_its_end() {
     assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
     assert_eq!(bench.ask("601#2F03100000000000"), "581#6003100000000000");
     assert_eq!(bench.ask("601#4003100000000000"), "581#4F03100000000000");
+}
+
+#[test]
+fn an_extended_identifier_of_0_is_one_like_any_other() {
+    let mut bench = running(&[]);
+    bench.ask("601#2300140101020080");
+    bench.ask("601#2300140100000020");
+    bench.send("00000000#0201");
+    assert_eq!(bench.value(0x2001, 0), 0x102);
+    assert_eq!(bench.node.state(), State::Operational, "not NMT stop");
 }

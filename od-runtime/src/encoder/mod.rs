@@ -11,7 +11,7 @@ mod profile;
 mod shaft;
 
 use od_model::typed::{Ro, Var};
-use od_model::{Address, Dictionary};
+use od_model::{Address, DataType, Dictionary};
 
 use crate::{Instant, Store};
 
@@ -89,7 +89,9 @@ impl Encoder {
         }
     }
 
-    /// An encoder of an unknown family for a dictionary that has a position (6004h).
+    /// An encoder of an unknown family for a dictionary that has a position (6004h);
+    /// `None` for every other device. 6004h is a position where it is an UNSIGNED32 that no
+    /// master can write, and 1000h, if it says anything, says CiA 406.
     ///
     /// 6501h and 6502h describe its sensor. 6502h counts revolutions as CiA 406 has it,
     /// unless it is what 6002h is by default: then both are steps.
@@ -98,8 +100,12 @@ impl Encoder {
             total: Total::Steps,
             ..EncoderProfile::CIA406
         };
-        dictionary.entry(0x6004, 0)?;
+        let position = dictionary.entry(0x6004, 0)?;
         let number = default_of(dictionary);
+        let is_other = number(0x1000).is_some_and(|kind| kind & 0xFFFF != CIA406);
+        if position.data_type != DataType::Unsigned32 || position.access.writable() || is_other {
+            return None;
+        }
         let in_steps = number(0x6502).is_some_and(|total| number(0x6002) == Some(total));
         let profile = if in_steps {
             &STEPS
@@ -288,6 +294,9 @@ fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
         u64::try_from(entry.default.integer(1)?).ok()
     }
 }
+
+/// What 1000h says of a CiA 406 device in its low half.
+const CIA406: u64 = 406;
 
 /// Bits of 6000h.
 const REVERSED: u64 = 1 << 0;

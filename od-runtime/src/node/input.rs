@@ -28,8 +28,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             return;
         }
         let id = frame.id();
-        if id.raw() == 0 {
-            if !frame.is_remote() && !id.is_extended() {
+        if id == CanId::standard(0) {
+            if !frame.is_remote() {
                 self.handle_nmt(device, outbox, now, frame);
             }
             return;

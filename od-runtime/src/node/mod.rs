@@ -215,11 +215,16 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         outbox: &mut Outbox,
         now: Instant,
     ) -> Option<Frame> {
-        if self.state == State::Stopped {
+        if !self.sends_emcy() {
             return None;
         }
         let objects = device.objects(self.node_id, now.max(self.now), outbox)?;
         self.emcy.poll(&objects.store, objects.now)
+    }
+
+    /// EMCYs wait for the boot-up message, and for the end of Stopped.
+    fn sends_emcy(&self) -> bool {
+        matches!(self.state, State::PreOperational | State::Operational)
     }
 
     fn poll_timeout(&self) -> Option<Instant> {
@@ -239,7 +244,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         consider(self.monitor.deadline());
         consider(self.mute.map(|(until, _)| until));
         consider(self.sdo.deadline());
-        if self.state != State::Stopped {
+        if self.sends_emcy() {
             consider(self.emcy.deadline());
         }
         if self.state == State::Operational {
@@ -247,7 +252,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 consider(pdo.deadline());
             }
         }
-        next
+        // A host that came to the end of time would be called back there for ever.
+        next.filter(|at| *at < Instant::MAX)
     }
 
     fn enter(&mut self, objects: &mut Objects<'_>, state: State) {

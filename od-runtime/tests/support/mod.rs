@@ -192,7 +192,11 @@ impl<A: Application> Bench<A> {
     /// A frame comes in, `601#40…` or `181#R`; what goes out.
     pub fn send(&mut self, text: &str) -> Vec<String> {
         let (id, data) = text.split_once('#').expect("id#data");
-        let id = CanId::standard(u16::from_str_radix(id, 16).expect("hex"));
+        let raw = u32::from_str_radix(id, 16).expect("hex");
+        let id = match id.len() {
+            8 => CanId::extended(raw),
+            _ => CanId::standard(raw as u16),
+        };
         let frame = match data.strip_prefix('R') {
             Some(dlc) => Frame::remote(id, dlc.parse().unwrap_or(0)),
             None => {
