@@ -142,7 +142,11 @@ impl Live {
         bus.with(number, VirtualDevice::power_on);
         // Nobody listens yet; a master that comes later asks for the state.
         while bus.poll().is_some() {}
-        bus.with(number, events);
+        for event in bus.with(number, events).unwrap_or_default() {
+            if event == Event::StorageDamaged {
+                report_event(event);
+            }
+        }
         Self {
             bus,
             start: Clock::now(),
