@@ -139,6 +139,7 @@ test('an EDS text runs, or says what is wrong with it', () => {
   assert.equal(bad.device, null);
   assert.ok(bad.diagnostics.some((one) => one.severity === 'error' && one.line === 3 && one.object.includes('1000')));
   assert.ok(bad.diagnostics.every((one) => one.code && one.message));
+  assert.notEqual(bus.addEds('[1000]\nParameterName=Device type\nDataType=0x0099\n', 1, true).device, null);
   assert.deepEqual(odkit.checkEds('[1000]\nParameterName=Device type\nDataType=0x0099\n'), bad.diagnostics);
 });
 

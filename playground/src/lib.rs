@@ -64,15 +64,21 @@ impl Bus {
     }
 
     /// Puts the device that an EDS or DCF text describes on the bus and gives it power.
-    /// The answer has its number, or `null` and what is wrong with the text.
+    /// The answer has its number, or `null` and what is wrong with the text. A lenient bus
+    /// runs what can be run of a text with errors.
     ///
     /// # Errors
     /// Where the node ID is not 1 to 127.
     #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
-    pub fn add_eds(&mut self, text: &str, node_id: u8) -> Result<JsValue, JsError> {
+    pub fn add_eds(
+        &mut self,
+        text: &str,
+        node_id: u8,
+        lenient: Option<bool>,
+    ) -> Result<JsValue, JsError> {
         let options = EdsOptions {
             node_id: Some(valid(node_id)?),
-            ..EdsOptions::default()
+            lenient: lenient.unwrap_or_default(),
         };
         let (device, found) = match VirtualDevice::from_eds(text, options) {
             Ok(device) => {

@@ -135,6 +135,11 @@ check('an EDS file that cannot run says where and why', {}, async (page) => {
   assert.match(await faults.textContent(), /E\d{3,4}/);
   await page.keyboard.press('Escape');
   assert.match(await page.locator('.device-button strong').textContent(), /gxmm/, 'the device before stays');
+  await drop(page, 'broken.eds', bad);
+  await page.getByRole('button', { name: 'Run anyway' }).click();
+  await until('the device without its faults', async () => /Little node/.test(await page.locator('.device-button').textContent()));
+  await sdo(page, '1000');
+  await until('an answer', async () => /1000h = /.test(await sdoNote(page)));
 });
 
 check('the dialog changes device and node ID, and the link keeps them', {}, async (page) => {

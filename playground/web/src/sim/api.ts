@@ -74,8 +74,8 @@ export type Opened = { device: DeviceInfo; diagnostics: Diagnostic[] } | { devic
 export interface Bus {
   /** Puts a device of ours on the bus, powered. */
   openBuiltin(name: string, nodeId: number): Opened;
-  /** Puts the device that an EDS file describes on the bus, powered. */
-  openEds(text: string, nodeId: number): Opened;
+  /** Puts the device that an EDS file describes on the bus, powered; a lenient bus runs what it can of a text with errors. */
+  openEds(text: string, nodeId: number, lenient: boolean): Opened;
   /** Sends a frame at the present moment. */
   send(id: number, data: Uint8Array, extended: boolean, remote: boolean): void;
   /** Lets at most `micros` pass, or less when `maxFrames` were seen; answers with what passed. */
@@ -114,7 +114,7 @@ export type Command =
   | { op: 'describe'; ticket: number; frames: Uint8Array }
   | { op: 'drawn' };
 
-export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string };
+export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
 
 export interface Address {
   index: number;

@@ -46,7 +46,7 @@ export class Engine {
       case 'open': {
         const { source, nodeId } = command;
         const result =
-          source.kind === 'builtin' ? this.bus.openBuiltin(source.name, nodeId) : this.bus.openEds(source.text, nodeId);
+          source.kind === 'builtin' ? this.bus.openBuiltin(source.name, nodeId) : this.bus.openEds(source.text, nodeId, source.lenient);
         if (result.device) this.isOpen = true;
         this.report({ op: 'opened', source, result });
         break;

@@ -55,8 +55,8 @@ export class MockBus implements Bus {
     this.setPower(true);
     return { device, diagnostics: [] };
   }
-  openEds(text: string, nodeId: number): Opened {
-    if (!text.includes('[1000]')) return { device: null, diagnostics: [{ code: 'E0101', severity: 'error', message: 'object 1000h is missing; every device has it', help: '', line: 1, column: 1, object: '1000h' }] };
+  openEds(text: string, nodeId: number, lenient: boolean): Opened {
+    if (!lenient && !text.includes('[1000]')) return { device: null, diagnostics: [{ code: 'E0101', severity: 'error', message: 'object 1000h is missing; every device has it', help: '', line: 1, column: 1, object: '1000h' }] };
     return this.openBuiltin('eds', nodeId);
   }
   private emit(id: number, bytes: number[], fromPage = false): void {

@@ -34,9 +34,9 @@ export class WasmBus implements Bus {
     });
   }
 
-  openEds(text: string, nodeId: number): Opened {
+  openEds(text: string, nodeId: number, lenient: boolean): Opened {
     return this.replace((bus) => {
-      const { device, diagnostics } = bus.addEds(text, nodeId);
+      const { device, diagnostics } = bus.addEds(text, nodeId, lenient);
       return device === null ? diagnostics : { name: bus.title(DEVICE), diagnostics };
     });
   }

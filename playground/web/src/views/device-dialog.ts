@@ -5,7 +5,7 @@ import { effect } from '@preact/signals-core';
 import type { Diagnostic } from '../sim/api';
 import { openDevice } from '../actions';
 import * as state from '../state';
-import { openFile } from './files';
+import { openFile, openText } from './files';
 import { icons } from './icons';
 import { View } from './view';
 
@@ -116,7 +116,10 @@ class DeviceDialog extends View {
     const lines = attempt.text.split(/\r\n|\r|\n/);
     const errors = attempt.diagnostics.filter((one) => one.severity === 'error').length;
     return html`<section class="faults" role="alert" aria-label="What is wrong with the file">
-      <h3>${attempt.name} cannot run: ${errors} error${errors === 1 ? '' : 's'}</h3>
+      <header>
+        <h3>${attempt.name} cannot run: ${errors} error${errors === 1 ? '' : 's'}</h3>
+        <button class="small" title="Leave out what is wrong" @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true)}>Run anyway</button>
+      </header>
       <ol class="scroll">${attempt.diagnostics.map((one) => this.fault(one, lines))}</ol>
     </section>`;
   }

@@ -7,23 +7,25 @@ import * as state from '../state';
 const LONGEST = 8_000_000;
 
 export async function openFile(file: File, nodeId: number): Promise<boolean> {
-  state.attempt.value = null;
   if (file.size > LONGEST) {
     state.toast.value = { text: `${file.name} is too large for an EDS file.`, tone: 'error' };
     return false;
   }
-  const text = decodeText(new Uint8Array(await file.arrayBuffer()));
-  const isOpen = await openDevice({ kind: 'eds', name: file.name, text }, nodeId);
+  return openText(file.name, decodeText(new Uint8Array(await file.arrayBuffer())), nodeId, false);
+}
+
+/** Runs an EDS text; a lenient try leaves out what is wrong with it. */
+export async function openText(name: string, text: string, nodeId: number, lenient: boolean): Promise<boolean> {
+  state.attempt.value = null;
+  const isOpen = await openDevice({ kind: 'eds', name, text, lenient }, nodeId);
   const found = state.diagnostics.value;
   if (isOpen) {
-    const warnings = found.filter((one) => one.severity !== 'info').length;
-    state.toast.value = {
-      text: `${file.name} is on the bus${warnings ? `, with ${warnings} warning${warnings > 1 ? 's' : ''}` : ''}.`,
-      tone: 'info',
-    };
+    const warnings = found.filter((one) => one.severity === 'warning').length;
+    const rest = lenient ? ', as far as it can be run' : warnings ? `, with ${warnings} warning${warnings > 1 ? 's' : ''}` : '';
+    state.toast.value = { text: `${name} is on the bus${rest}.`, tone: 'info' };
     state.deviceDialog.value = false;
   } else {
-    state.attempt.value = { name: file.name, text, diagnostics: found };
+    state.attempt.value = { name, text, diagnostics: found };
     state.deviceDialog.value = true;
   }
   return isOpen;
