@@ -122,7 +122,7 @@ fn main() -> ExitCode {
         let result = check(path, &text);
         let again = check(path, &text);
         match result {
-            Ok(trace) if again == Ok(trace) => passed += 1,
+            Ok(trace) if again.as_ref() == Ok(&trace) => passed += 1,
             Ok(_) => {
                 failed += 1;
                 println!("tests/conformance/{name}: two runs differ\n");
