@@ -206,9 +206,9 @@ static OBJECTS: [Object; {objects}] = ["
     let _ = write!(
         out,
         "];
-static KEYS: [u32; {entries}] = keys(&ENTRIES);
-static PAGES: [u32; 257] = pages(&KEYS);
-d(&KEYS, &PAGES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\", {store_len})
+static PLACES: [Place; {entries}] = places(&ENTRIES);
+static BUCKETS: [u16; bucket_count({entries})] = buckets(&PLACES);
+d(&BUCKETS, &PLACES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\", {store_len})
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();

@@ -1,5 +1,6 @@
 //! The dictionary: one type for compiled tables and for files loaded at run time.
 
+use crate::index::{self, Place};
 use crate::{Access, Address, DataType, Group, Kind, Literal, ObjectCode, Range};
 
 /// One object: an index with its name, and where its values stand.
@@ -55,6 +56,11 @@ pub struct Slot {
     pub len: u16,
 }
 
+impl Slot {
+    /// Nothing is stored.
+    pub(crate) const NONE: Self = Self { offset: 0, len: 0 };
+}
+
 /// Why there is no entry at an address.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Missing {
@@ -81,49 +87,14 @@ impl Entry {
     }
 }
 
-/// The addresses of sorted entries as numbers, for the search: `index << 8 | sub`.
-///
-/// Four bytes an entry is all that a search touches. For generated code; the keys of
-/// owned tables are made by [`Tables`](crate::Tables).
-#[must_use]
-pub const fn keys<const N: usize>(entries: &[Entry; N]) -> [u32; N] {
-    let mut keys = [0; N];
-    let mut i = 0;
-    while i < N {
-        keys[i] = entries[i].address.key();
-        i += 1;
-    }
-    keys
-}
-
-/// Where the keys of each high index byte begin, and where the last ends: a search looks
-/// at one page of the dictionary, so it does not get longer with the dictionary.
-#[must_use]
-pub const fn pages(keys: &[u32]) -> [u32; PAGES] {
-    let mut pages = [0; PAGES];
-    let mut at = 0;
-    let mut page = 0;
-    while page < PAGES {
-        while at < keys.len() && keys[at] >> 16 < page as u32 {
-            at += 1;
-        }
-        pages[page] = at as u32;
-        page += 1;
-    }
-    pages
-}
-
-/// Number of page bounds: one for each high index byte, and the end.
-pub const PAGES: usize = 257;
-
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
 /// Copied freely: it is six slices. The tables are sorted by address, and each object's
 /// entries stand together.
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
-    keys: &'a [u32],
-    pages: &'a [u32; PAGES],
+    buckets: &'a [u16],
+    places: &'a [Place],
     objects: &'a [Object],
     entries: &'a [Entry],
     text: &'a str,
@@ -133,21 +104,22 @@ pub struct Dictionary<'a> {
 
 impl<'a> Dictionary<'a> {
     /// A view over tables that the macro made; owned tables lend theirs by
-    /// [`Tables::dictionary`](crate::Tables::dictionary). `keys` and `pages` come from
-    /// the functions of these names.
+    /// [`Tables::dictionary`](crate::Tables::dictionary). `buckets` and `places`
+    /// come from the functions of these names.
     ///
     /// # Panics
     /// Where the tables are not sorted, an object names entries that are not its
-    /// own, or the keys are not the entries'. In a `const` that is a compile error.
+    /// own, or buckets and places are not those of the entries. In a `const` that is a compile error.
     pub const fn new(
-        keys: &'a [u32],
-        pages: &'a [u32; PAGES],
+        buckets: &'a [u16],
+        places: &'a [Place],
         objects: &'a [Object],
         entries: &'a [Entry],
         text: &'a str,
         blob: &'a [u8],
     ) -> Self {
-        assert!(keys.len() == entries.len(), "one key an entry");
+        assert!(places.len() == entries.len(), "one place an entry");
+        assert!(index::are_filled(buckets, places), "the places' buckets");
         let mut next = 0;
         let mut i = 0;
         while i < objects.len() {
@@ -168,12 +140,12 @@ impl<'a> Dictionary<'a> {
                     "an object's entries are its own"
                 );
                 assert!(
-                    keys[next + sub] == address.key(),
-                    "a key is its entry's address"
+                    sub == 0 || entries[next + sub - 1].address.sub < address.sub,
+                    "entries are sorted"
                 );
                 assert!(
-                    sub == 0 || keys[next + sub - 1] < keys[next + sub],
-                    "entries are sorted"
+                    places[next + sub].is(&entries[next + sub]),
+                    "a place is its entry's"
                 );
                 sub += 1;
             }
@@ -181,35 +153,14 @@ impl<'a> Dictionary<'a> {
             i += 1;
         }
         assert!(next == entries.len(), "every entry belongs to an object");
-        let mut page = 0;
-        while page < PAGES - 1 {
-            let (from, to) = (pages[page] as usize, pages[page + 1] as usize);
-            assert!(from <= to && to <= keys.len(), "pages are in order");
-            assert!(
-                from == to || keys[from] >> 16 == page as u32 && keys[to - 1] >> 16 == page as u32,
-                "a page holds one high index byte"
-            );
-            page += 1;
-        }
-        assert!(
-            pages[PAGES - 1] as usize == keys.len(),
-            "every entry is on a page"
-        );
-        Self::trusted(
-            keys,
-            pages,
-            objects,
-            entries,
-            text,
-            blob,
-            store_len(entries),
-        )
+        let store_len = store_len(entries);
+        Self::trusted(buckets, places, objects, entries, text, blob, store_len)
     }
 
     /// The same over tables that are sound by the way they were made.
     pub(crate) const fn trusted(
-        keys: &'a [u32],
-        pages: &'a [u32; PAGES],
+        buckets: &'a [u16],
+        places: &'a [Place],
         objects: &'a [Object],
         entries: &'a [Entry],
         text: &'a str,
@@ -217,8 +168,8 @@ impl<'a> Dictionary<'a> {
         store_len: usize,
     ) -> Self {
         Self {
-            keys,
-            pages,
+            buckets,
+            places,
             objects,
             entries,
             text,
@@ -265,24 +216,25 @@ impl<'a> Dictionary<'a> {
     ///
     /// # Errors
     /// [`Missing`] says whether the object or only the sub-index is absent.
-    #[inline]
     pub fn find(&self, address: Address) -> Result<&'a Entry, Missing> {
-        match self.position(address) {
-            Some(entry) => Ok(entry),
-            None => Err(self.missing(address)),
-        }
+        let (entry, _) = self.locate(address)?;
+        Ok(entry)
     }
 
-    #[inline]
-    fn position(&self, address: Address) -> Option<&'a Entry> {
-        let page = usize::from(address.index >> 8);
-        let (from, to) = (self.pages[page] as usize, self.pages[page + 1] as usize);
-        let at = self
-            .keys
-            .get(from..to)?
-            .binary_search(&address.key())
-            .ok()?;
-        self.entries.get(from + at)
+    /// The entry at an address, and where its value stands if it is one that a master may
+    /// read and whose length is its type's; a slot without length for any other. To read
+    /// such a value, nothing of the entry is needed.
+    ///
+    /// # Errors
+    /// As for [`find`](Self::find).
+    #[inline(always)] // into the one read that masters ask for all day
+    pub fn locate(&self, address: Address) -> Result<(&'a Entry, Slot), Missing> {
+        let found = index::position(self.buckets, self.places, address);
+        let both = found.and_then(|at| Some((self.entries.get(at)?, self.places.get(at)?.plain)));
+        match both {
+            Some(both) => Ok(both),
+            None => Err(self.missing(address)),
+        }
     }
 
     #[cold]
@@ -331,10 +283,11 @@ impl PartialEq for Dictionary<'_> {
             (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
             (a, b) => a == b,
         };
-        self.keys == other.keys
-            && self.objects.len() == other.objects.len()
+        self.objects.len() == other.objects.len()
             && self.objects.iter().zip(other.objects).all(|(a, b)| {
-                a.code == b.code && a.count == b.count && self.text(a.name) == other.text(b.name)
+                (a.index, a.code) == (b.index, b.code)
+                    && a.count == b.count
+                    && self.text(a.name) == other.text(b.name)
             })
             && self.entries.len() == other.entries.len()
             && self.entries.iter().zip(other.entries).all(|(a, b)| {
@@ -366,6 +319,7 @@ pub(crate) const fn store_len(entries: &[Entry]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::index::{bucket_count, buckets, places};
 
     const fn entry(index: u16, sub: u8) -> Entry {
         Entry {
@@ -399,12 +353,12 @@ mod tests {
         entry(0x1800, 2),
         entry(0x1800, 5),
     ];
-    static KEYS: [u32; 5] = keys(&ENTRIES);
-    static PAGES: [u32; super::PAGES] = pages(&KEYS);
+    static PLACES: [Place; 5] = places(&ENTRIES);
+    static BUCKETS: [u16; bucket_count(5)] = buckets(&PLACES);
 
     const TABLE: Dictionary<'static> = Dictionary::new(
-        &KEYS,
-        &PAGES,
+        &BUCKETS,
+        &PLACES,
         &[object(0x1001, 0, 1), object(0x1800, 1, 4)],
         &ENTRIES,
         "x",
@@ -437,9 +391,9 @@ mod tests {
             name: Range::new(1, 1),
             ..TABLE.objects()[i]
         });
-        let shifted = Dictionary::new(&KEYS, &PAGES, &objects, &entries, "yx", &[]);
+        let shifted = Dictionary::new(&BUCKETS, &PLACES, &objects, &entries, "yx", &[]);
         assert_eq!(TABLE, shifted);
-        let other = Dictionary::new(&KEYS, &PAGES, &objects, &entries, "xy", &[]);
+        let other = Dictionary::new(&BUCKETS, &PLACES, &objects, &entries, "xy", &[]);
         assert_ne!(TABLE, other);
     }
 }

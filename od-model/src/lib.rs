@@ -18,12 +18,14 @@ extern crate std;
 
 mod address;
 mod dictionary;
+mod index;
 pub mod typed;
 mod types;
 mod value;
 
 pub use address::Address;
-pub use dictionary::{Dictionary, Entry, Missing, Object, PAGES, Slot, keys, pages};
+pub use dictionary::{Dictionary, Entry, Missing, Object, Slot};
+pub use index::{Place, bucket_count, buckets, places};
 pub use types::{Access, DataType, Group, Kind, ObjectCode};
 pub use value::{Literal, Range};
 

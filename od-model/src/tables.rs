@@ -2,9 +2,11 @@
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
+use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::dictionary::{PAGES, pages, store_len};
+use crate::dictionary::store_len;
+use crate::index::{EMPTY, Place, bucket_count, fill};
 use crate::{
     Access, Address, DataType, Description, Dictionary, Entry, EntryDescription, Kind, Literal,
     Object, Range, Slot, Spanned, Value,
@@ -18,8 +20,8 @@ const DOMAIN_CAPACITY: usize = 1024;
 /// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Tables {
-    keys: Vec<u32>,
-    pages: [u32; PAGES],
+    buckets: Vec<u16>,
+    places: Vec<Place>,
     objects: Vec<Object>,
     entries: Vec<Entry>,
     text: String,
@@ -31,8 +33,8 @@ impl Default for Tables {
     /// The tables of an empty dictionary.
     fn default() -> Self {
         Self {
-            keys: Vec::new(),
-            pages: [0; PAGES],
+            buckets: Vec::new(),
+            places: Vec::new(),
             objects: Vec::new(),
             entries: Vec::new(),
             text: String::new(),
@@ -74,21 +76,15 @@ impl Tables {
                 });
             }
         }
-        tables.keys = tables
-            .entries
-            .iter()
-            .map(|entry| entry.address.key())
-            .collect();
-        tables.pages = pages(&tables.keys);
-        tables.store_len = store_len(&tables.entries);
+        tables.settle();
         tables
     }
 
     /// The view that runs; it costs nothing to make.
     pub fn dictionary(&self) -> Dictionary<'_> {
         Dictionary::trusted(
-            &self.keys,
-            &self.pages,
+            &self.buckets,
+            &self.places,
             &self.objects,
             &self.entries,
             &self.text,
@@ -103,6 +99,14 @@ impl Tables {
         for entry in self.entries.iter_mut().filter(|entry| entry.slot.len > 0) {
             entry.slot = place(entry);
         }
+        self.settle();
+    }
+
+    /// Makes what follows from the entries.
+    fn settle(&mut self) {
+        self.places = self.entries.iter().map(Place::of).collect();
+        self.buckets = vec![EMPTY; bucket_count(self.entries.len())];
+        fill(&mut self.buckets, &self.places);
         self.store_len = store_len(&self.entries);
     }
 

@@ -315,21 +315,24 @@ pub mod emit {
 
     /// One short call a row: what 6,000 rows cost to compile is what one costs.
     pub mod table {
-        pub use crate::{Access as A, DataType as T, Entry, Object, ObjectCode as C, keys, pages};
-        use crate::{Address, Dictionary, Group, Literal, PAGES, Range, Slot};
+        pub use crate::{
+            Access as A, DataType as T, Entry, Object, ObjectCode as C, Place, bucket_count,
+            buckets, places,
+        };
+        use crate::{Address, Dictionary, Group, Literal, Range, Slot};
 
         /// Without the checks of [`Dictionary::new`], which thousands of entries would
         /// wait for: the macro takes its tables out of [`Tables`](crate::Tables).
-        pub const fn d<const N: usize>(
-            keys: &'static [u32; N],
-            pages: &'static [u32; PAGES],
+        pub const fn d(
+            buckets: &'static [u16],
+            places: &'static [Place],
             objects: &'static [Object],
-            entries: &'static [Entry; N],
+            entries: &'static [Entry],
             text: &'static str,
             blob: &'static [u8],
             store_len: usize,
         ) -> Dictionary<'static> {
-            Dictionary::trusted(keys, pages, objects, entries, text, blob, store_len)
+            Dictionary::trusted(buckets, places, objects, entries, text, blob, store_len)
         }
 
         pub const GN: Group = Group::None;

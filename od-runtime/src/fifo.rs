@@ -27,18 +27,12 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
     /// Answers whether there was room.
     #[inline]
     pub(crate) fn push(&mut self, item: T) -> bool {
-        let mut at = self.head + self.len;
-        if at >= N {
-            at -= N;
+        let room = self.len < N;
+        if room {
+            self.items[(self.head + self.len) % N] = item;
+            self.len += 1;
         }
-        match self.items.get_mut(at) {
-            Some(place) if self.len < N => {
-                *place = item;
-                self.len += 1;
-                true
-            }
-            _ => false,
-        }
+        room
     }
 
     #[inline]
@@ -46,11 +40,8 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
         if self.len == 0 {
             return None;
         }
-        let item = *self.items.get(self.head)?;
-        self.head += 1;
-        if self.head >= N {
-            self.head = 0;
-        }
+        let item = self.items[self.head % N];
+        self.head = (self.head + 1) % N;
         self.len -= 1;
         Some(item)
     }

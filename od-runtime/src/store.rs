@@ -1,7 +1,7 @@
 //! Values: a slice that the caller owns, laid out by the dictionary.
 
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
-use od_model::{Address, Dictionary, Entry, Literal, Slot};
+use od_model::{Address, Dictionary, Entry, Literal, Missing, Slot};
 
 use crate::{AbortCode, NodeId};
 
@@ -139,6 +139,18 @@ impl<'a> Store<'a> {
         }
     }
 
+    /// See [`Dictionary::locate`].
+    #[inline(always)]
+    pub(crate) fn locate(&self, address: Address) -> Result<(&'a Entry, Slot), Missing> {
+        self.dictionary.locate(address)
+    }
+
+    /// The bytes of a slot; none where it reaches outside.
+    #[inline]
+    pub(crate) fn slot(&self, of: Slot) -> &[u8] {
+        slot(self.values, of).unwrap_or_default()
+    }
+
     /// The value's bytes as an SDO carries them. `number` is room for those of a
     /// `const` number, which stands nowhere in the store.
     #[inline]
@@ -193,7 +205,7 @@ impl<'a> Store<'a> {
 }
 
 /// The number that up to eight bytes are. The usual lengths are one load each.
-#[inline]
+#[inline(always)]
 pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
     match *bytes {
         [a] => a.into(),
@@ -221,6 +233,7 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
 }
 
 /// A string: two bytes of length, then the bytes; the default where nothing is stored.
+#[inline(never)]
 fn variable<'b>(dictionary: Dictionary<'b>, values: &'b [u8], entry: &Entry) -> &'b [u8] {
     match slot(values, entry.slot) {
         Some([low, high, rest @ ..]) => {
@@ -231,6 +244,7 @@ fn variable<'b>(dictionary: Dictionary<'b>, values: &'b [u8], entry: &Entry) -> 
     }
 }
 
+#[inline(never)]
 fn default_bytes<'b>(
     dictionary: Dictionary<'b>,
     entry: &Entry,

@@ -20,7 +20,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
         self.now = now;
         self.powered = true;
-        self.out.clear();
+        self.discard_frames();
         self.reset(device, outbox, now, Reset::PowerOn);
         Ok(())
     }
@@ -28,7 +28,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// Power goes: silence until [`power_on`](Self::power_on).
     pub(super) fn power_off(&mut self) {
         self.powered = false;
-        self.out.clear();
+        self.discard_frames();
         self.emcy.reset();
         self.sdo.reset();
         self.stop_pdos();
@@ -137,6 +137,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 tpdo.start(objects);
             }
         }
+        let mut tpdos = self.tpdo.iter().take(self.tpdo_count);
+        self.watches_changes =
+            objects.profile.pdo.event_on_change && tpdos.any(pdo::Tpdo::watches_changes);
         for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
             *rpdo = pdo::Rpdo::load(objects, number as u16);
         }

@@ -52,7 +52,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             self.handle_remote(&mut objects, frame);
         } else if id == self.node_id.plus(0x600) {
             if let Some(answer) = self.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
-                self.out.push(Frame::full(self.node_id.plus(0x580), answer));
+                self.answer(answer);
             }
         } else if self.state == State::Operational {
             if id == self.sync_id {
@@ -90,7 +90,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 .push(Frame::new(self.node_id.plus(0x700), &[self.state as u8]));
         }
         if let Some(abort) = self.sdo.handle_timeout(now) {
-            self.out.push(Frame::full(self.node_id.plus(0x580), abort));
+            self.answer(abort);
         }
         let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
             return;
@@ -134,6 +134,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.now
     }
 
+    #[inline(never)]
     fn handle_nmt(
         &mut self,
         device: &mut Device<'_>,
@@ -192,6 +193,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     }
 
     /// 701h–77Fh: a master guards this node, or another node is alive.
+    #[inline(never)]
     fn handle_error_control(&mut self, frame: &Frame, now: Instant) {
         let node = (frame.id().raw() & 0x7F) as u8;
         if !frame.is_remote() {
@@ -211,6 +213,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
     }
 
+    #[inline(never)]
     fn handle_remote(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
         if self.state != State::Operational {
             return;
@@ -225,6 +228,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     }
 
     /// SYNC: with a counter of one byte or without.
+    #[inline(never)]
     fn handle_sync(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
         let counter = match frame.data() {
             [] => None,
@@ -240,6 +244,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
     }
 
+    #[inline(never)]
     fn handle_rpdo(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
         let pdos = self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default();
         for pdo in pdos.iter_mut().filter(|pdo| pdo.takes(frame.id())) {
@@ -263,7 +268,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         if !objects.outbox.is_empty() {
             self.empty_outbox(objects);
         }
-        if self.state == State::Operational && objects.profile.pdo.event_on_change {
+        if self.watches_changes && self.state == State::Operational {
             for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
                 pdo.notice_change(objects);
                 self.pdo_pending |= pdo.is_pending();

@@ -44,6 +44,9 @@ struct Core<const PDO: usize, const SDO: usize> {
     tick_at: Option<Instant>,
     sync_id: CanId,
     out: Fifo<Frame, 8>,
+    /// The frame before those of `out`, if it is an SDO answer: its data as one word. Most
+    /// frames are, and this way they do not go through memory in pieces.
+    answer: Option<u64>,
     events: Fifo<Event, 16>,
     sdo: sdo::Server<SDO>,
     heartbeat: error_control::Producer,
@@ -58,6 +61,8 @@ struct Core<const PDO: usize, const SDO: usize> {
     tpdo_count: usize,
     rpdo: [pdo::Rpdo; PDO],
     rpdo_count: usize,
+    /// There is a TPDO that is sent when a mapped value changes.
+    watches_changes: bool,
     /// A TPDO may be waiting to be sent.
     pdo_pending: bool,
 }
@@ -149,6 +154,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             tick_at: None,
             sync_id: CanId::standard(0x80),
             out: Fifo::new(Frame::remote(CanId::standard(0), 0)),
+            answer: None,
             events: Fifo::new(Event::StorageDamaged),
             sdo: sdo::Server::new(),
             heartbeat: error_control::Producer::new(),
@@ -161,6 +167,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             tpdo_count: 0,
             rpdo: [pdo::Rpdo::NONE; PDO],
             rpdo_count: 0,
+            watches_changes: false,
             pdo_pending: false,
         }
     }
@@ -173,12 +180,45 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         now: Instant,
     ) -> Option<Frame> {
         if self.mute.is_some() {
-            self.out.clear();
+            self.discard_frames();
             return None;
+        }
+        if let Some(answer) = self.answer.take() {
+            return Some(Frame::full(self.node_id.plus(0x580), answer.to_le_bytes()));
         }
         if let Some(frame) = self.out.pop() {
             return Some(frame);
         }
+        if self.pdo_pending || self.emcy.deadline().is_some() || self.sdo.is_sending() {
+            return self.poll_services(device, outbox, now);
+        }
+        None
+    }
+
+    /// Sends an SDO answer, after all that waits already.
+    #[inline]
+    fn answer(&mut self, answer: [u8; 8]) {
+        if self.answer.is_none() && self.out.is_empty() {
+            self.answer = Some(u64::from_le_bytes(answer));
+        } else {
+            self.out.push(Frame::full(self.node_id.plus(0x580), answer));
+        }
+    }
+
+    /// What was to be sent is not.
+    fn discard_frames(&mut self) {
+        self.out.clear();
+        self.answer = None;
+    }
+
+    /// What services have to send that waits for nobody's request.
+    #[inline(never)]
+    fn poll_services(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) -> Option<Frame> {
         if self.pdo_pending {
             let frame = self.poll_pdo(device, outbox, now);
             if frame.is_some() {

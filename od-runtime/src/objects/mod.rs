@@ -110,34 +110,34 @@ impl<'c> Objects<'c> {
     }
 
     /// The entry at an address.
-    #[inline]
     pub(crate) fn entry(&self, address: Address) -> Result<&'c Entry, AbortCode> {
-        self.store
-            .dictionary()
-            .find(address)
-            .map_err(|missing| match missing {
-                Missing::Object => AbortCode::NoObject,
-                Missing::SubIndex => AbortCode::NoSubIndex,
-            })
+        let found = self.store.dictionary().find(address);
+        found.map_err(absent)
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
     /// value that stands nowhere in the store.
-    #[inline]
+    #[inline(always)] // into the one way from an SDO request to its answer
     pub(crate) fn read<'b>(
         &'b mut self,
         address: Address,
         number: &'b mut [u8; 8],
     ) -> Result<&'b [u8], AbortCode> {
-        let entry = self.entry(address)?;
-        if !entry.access.readable() {
+        let (entry, plain) = match self.store.locate(address) {
+            Ok(found) => found,
+            Err(missing) => return Err(absent(missing)),
+        };
+        if plain.len == 0 && !entry.access.readable() {
             return Err(AbortCode::WriteOnly);
         }
         if address.index == 0x1003 {
             self.unused_error(address)?;
         }
         self.refresh(address)?;
-        Ok(self.store.bytes(entry, number))
+        Ok(match self.store.slot(plain) {
+            [] => self.store.bytes(entry, number),
+            bytes => bytes,
+        })
     }
 
     /// Has the application bring a live value up to date.
@@ -251,10 +251,19 @@ impl<'c> Objects<'c> {
     }
 
     /// Reading an entry of 1003h that holds no error.
+    #[inline(never)]
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
         match self.profile.sdo.unused_error {
             Some(code) if u64::from(address.sub) > self.store.unsigned(0x1003, 0) => Err(code),
             _ => Ok(()),
         }
+    }
+}
+
+/// What an SDO says of an object that is not there.
+fn absent(missing: Missing) -> AbortCode {
+    match missing {
+        Missing::Object => AbortCode::NoObject,
+        Missing::SubIndex => AbortCode::NoSubIndex,
     }
 }

@@ -219,9 +219,14 @@ impl Tpdo {
         }
     }
 
-    /// An event-driven PDO of a family that sends changes: has a mapped value changed?
+    /// Is it sent when a mapped value changes, in a family that sends changes?
+    pub(crate) fn watches_changes(&self) -> bool {
+        self.config.valid && self.is_event_driven()
+    }
+
+    /// Has a mapped value changed that it is sent for?
     pub(crate) fn notice_change(&mut self, objects: &mut Objects<'_>) {
-        if self.config.valid && self.is_event_driven() && !self.pending {
+        if self.watches_changes() && !self.pending {
             self.pending = self.config.mapping.sample(objects) != self.last;
         }
     }

@@ -55,13 +55,14 @@ impl<const N: usize> Server<N> {
     }
 
     /// Forgets a transfer without a word, as a change of the NMT state does.
+    #[inline]
     pub(crate) fn reset(&mut self) {
         self.transfer = Transfer::None;
         self.deadline = None;
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_>,
@@ -71,19 +72,27 @@ impl<const N: usize> Server<N> {
         if dlc < objects.profile.sdo.min_dlc {
             return None;
         }
-        match (self.transfer, data) {
+        let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
+        match data[0] {
             // What masters ask for all day comes first.
-            (Transfer::None, [0x40..=0x5F, low, high, sub, ..]) => {
-                self.address = Address::new(u16::from_le_bytes([*low, *high]), *sub);
-                Some(
-                    self.upload(objects, self.address)
-                        .unwrap_or_else(|code| self.abort(code)),
-                )
+            0x40..=0x5F if !self.awaits_segment() => {
+                self.begin(address);
+                Some(match self.upload(objects, address) {
+                    Ok(answer) => answer,
+                    Err(code) => self.abort(code),
+                })
             }
             _ => self.handle_other(objects, data, dlc),
         }
     }
 
+    /// Would a frame be the next segment of a block, whatever it says?
+    #[inline]
+    fn awaits_segment(&self) -> bool {
+        matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
+    }
+
+    #[inline(never)]
     fn handle_other(
         &mut self,
         objects: &mut Objects<'_>,
@@ -94,16 +103,7 @@ impl<const N: usize> Server<N> {
             Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
                 self.block_segment(block, data)
             }
-            _ => match Request::parse(data) {
-                Request::InitiateUpload { address } => {
-                    self.begin(address);
-                    return Some(
-                        self.upload(objects, address)
-                            .unwrap_or_else(|code| self.abort(code)),
-                    );
-                }
-                request => self.request(objects, request, data, dlc),
-            },
+            _ => self.request(objects, Request::parse(data), data, dlc),
         };
         self.deadline = matches!(
             self.transfer,
@@ -196,12 +196,13 @@ impl<const N: usize> Server<N> {
     }
 
     /// A new transfer takes the place of one that was not finished.
+    #[inline]
     fn begin(&mut self, address: Address) {
         self.reset();
         self.address = address;
     }
 
-    #[inline]
+    #[inline(always)]
     fn upload(
         &mut self,
         objects: &mut Objects<'_>,
@@ -210,26 +211,35 @@ impl<const N: usize> Server<N> {
         let segmented = objects.profile.sdo.segmented;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
-        match bytes.len() {
-            len @ 1..=4 => Ok(expedited_upload(
+        match *bytes {
+            // What most objects are goes the straight way.
+            [a, b, c, d] => Ok(expedited_upload(
                 address,
-                len as u8,
+                4,
+                u32::from_le_bytes([a, b, c, d]),
+            )),
+            [_] | [_, _] | [_, _, _] => Ok(expedited_upload(
+                address,
+                bytes.len() as u8,
                 little_endian(bytes) as u32,
             )),
             _ if !segmented => Err(AbortCode::UnsupportedAccess),
-            len => {
-                let room = self.buffer.get_mut(..len).ok_or(AbortCode::OutOfMemory)?;
-                room.copy_from_slice(bytes);
-                self.transfer = Transfer::Upload(segmented::Upload::new(len));
-                let size = Some(len as u32);
-                Ok(Response::InitiateUpload {
-                    address,
-                    size,
-                    expedited: None,
-                }
-                .emit())
-            }
+            _ => self.begin_upload(address, bytes),
         }
+    }
+
+    /// A value of more than four bytes (or none) goes in segments.
+    #[inline(never)]
+    fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], AbortCode> {
+        let room = self.buffer.get_mut(..bytes.len());
+        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(bytes);
+        self.transfer = Transfer::Upload(segmented::Upload::new(bytes.len()));
+        Ok(Response::InitiateUpload {
+            address,
+            size: Some(bytes.len() as u32),
+            expedited: None,
+        }
+        .emit())
     }
 
     #[cold]
@@ -240,6 +250,12 @@ impl<const N: usize> Server<N> {
             code: code.code(),
         }
         .emit()
+    }
+
+    /// May [`poll`](Self::poll) have something?
+    #[inline]
+    pub(crate) fn is_sending(&self) -> bool {
+        matches!(self.transfer, Transfer::BlockUpload(_))
     }
 
     /// The next segment of a block upload, if one is due.
