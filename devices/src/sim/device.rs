@@ -15,8 +15,9 @@ use od_runtime::{
 use super::{Led, leds};
 use crate::DeviceKind;
 
-/// A node with room for what EDS files have: 64 PDOs each way, values of 4 KiB.
-type RoomyNode = Node<64, 4096>;
+/// A node with room for what EDS files have: 64 PDOs each way, and the longest value that a
+/// store can hold.
+type RoomyNode = Node<64, 0x1_0000>;
 
 /// Where a dictionary comes from.
 enum Source {
