@@ -169,17 +169,26 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   await until('two boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
 });
 
+const overflow = (page) =>
+  page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .panel-head, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.trim().slice(0, 40)));
+
+for (const width of [820, 1024, 1280, 1920]) {
+  check(`${width} pixels wide: everything has room`, { width, height: 700 }, async (page) => {
+    await until('Pre-operational', async () => /Pre-op/.test(await page.getByLabel('NMT state').textContent()));
+    assert.deepEqual(await overflow(page), []);
+  });
+}
+
 for (const width of [390, 320]) {
   check(`${width} pixels wide: no sideways scrolling, every panel in reach`, { width, height: 780, hasTouch: true }, async (page) => {
-    const overflow = () => page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.className || e.tagName));
-    assert.deepEqual(await overflow(), []);
+    assert.deepEqual(await overflow(page), []);
     await page.getByRole('tab', { name: 'Bus' }).click();
     await booted(page);
     await nmt(page, 'Start');
     await row(page, 'a PDO1', (one) => one.id === '181');
-    assert.deepEqual(await overflow(), []);
+    assert.deepEqual(await overflow(page), []);
     await page.getByRole('tab', { name: 'Objects' }).click();
     await until('objects', () => page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').first().isVisible());
-    assert.deepEqual(await overflow(), []);
+    assert.deepEqual(await overflow(page), []);
   });
 }

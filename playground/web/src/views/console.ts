@@ -151,7 +151,7 @@ class Console extends View {
     const before = state.ring.get(number - 1);
     row.dataset['service'] = tag.service;
     row.dataset['dir'] = frame.fromPage ? 'tx' : 'rx';
-    setText(cells[0], (frame.time / 1e6).toFixed(6));
+    setText(cells[0], (frame.time / 1e6).toFixed(frame.time < 1e10 ? 6 : 3));
     setText(cells[1], before ? `+${delta(frame.time - before.time)}` : '');
     setText(cells[2], frame.fromPage ? 'Tx' : 'Rx');
     setText(cells[3], hexId(frame.id, frame.extended));

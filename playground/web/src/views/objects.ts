@@ -12,7 +12,7 @@ import { Rows, setText } from './rows';
 import { View } from './view';
 
 /** A row is an object, or the heading of a record. */
-type Line = { object: ObjectRecord; heading: false } | { heading: true; index: number; name: string; count: number };
+type Line = { object: ObjectRecord; heading: false } | { heading: true; index: number; name: string };
 
 class Objects extends View {
   static override properties = { query: { state: true } };
@@ -34,8 +34,7 @@ class Objects extends View {
     for (const object of found) {
       if (object.parent !== null && object.index !== heading) {
         heading = object.index;
-        const count = found.filter((one) => one.index === heading).length;
-        this.lines.push({ heading: true, index: object.index, name: object.parent, count });
+        this.lines.push({ heading: true, index: object.index, name: object.parent });
       }
       this.lines.push({ object, heading: false });
     }

@@ -1,6 +1,6 @@
 // Which device, and virtual time.
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import * as state from '../state';
 import { setRunning, setSpeed, step } from '../actions';
 import { icons } from './icons';
@@ -68,9 +68,9 @@ class Clock extends View {
     const minutes = Math.floor((seconds % 3600) / 60);
     const rest = (seconds % 60).toFixed(3).padStart(6, '0');
     const text = `${hours ? `${hours}:` : ''}${String(minutes).padStart(2, '0')}:${rest}`;
-    const slow = state.running.value && state.rate.value > 0 && state.rate.value < state.speed.value * 0.8;
-    return html`<span class="clock num" role="timer" aria-label="Virtual time since power came" aria-live="off"
-      title=${slow ? `As fast as it goes: ${state.rate.value.toFixed(0)}×` : 'Virtual time'}>${text}</span>`;
+    const slow = state.running.value && state.rate.value > 0 && state.rate.value < state.speed.value * 0.7;
+    return html`${slow ? html`<span class="slow num" title="As fast as it goes with so many frames">${state.rate.value < 10 ? state.rate.value.toFixed(1) : Math.round(state.rate.value)}×</span>` : nothing}
+      <span class="clock num" role="timer" aria-label="Virtual time" aria-live="off" title="Virtual time">${text}</span>`;
   }
 }
 
