@@ -33,7 +33,6 @@ class Writes(BenchCase):
 class Transfers(BenchCase):
     def setUp(self):
         self.device = self.sim(STRINGS).node(7, STRINGS)
-        self.device.sdo.RESPONSE_TIMEOUT = 2
 
     def test_expedited(self):
         self.device.sdo[0x2010].raw = -5

@@ -2,7 +2,7 @@
 
 import time
 
-from bench import BenchCase, Listener
+from bench import PATIENCE, BenchCase, Listener
 
 READ = b"t60184000100000000000\r"
 ANSWER = b"t58184300100096010200\r"
@@ -28,7 +28,7 @@ class Lines(BenchCase):
         client.settimeout(0.2)
         with self.assertRaises(TimeoutError):
             client.recv(1)
-        client.settimeout(5)
+        client.settimeout(PATIENCE)
 
     def test_a_host_opens(self):
         client = self.sim().raw()
@@ -138,4 +138,5 @@ class Clients(BenchCase):
                 data += more
         except TimeoutError:
             pass
-        self.assertEqual(set(data.split(b"\r")), {b"", b"t12380000000000000000"})
+        whole = {b"", b"t12380000000000000000", READ[:-1], ANSWER[:-1]}
+        self.assertLessEqual(set(data.split(b"\r")), whole)
