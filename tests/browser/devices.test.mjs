@@ -179,6 +179,16 @@ for (const width of [820, 1024, 1280, 1920]) {
   });
 }
 
+check('on a phone an object goes from the dictionary to the SDO line', { width: 390, height: 844 }, async (page) => {
+  await page.getByRole('tab', { name: 'Objects' }).click();
+  await page.getByRole('searchbox', { name: 'Search objects' }).fill('1018 vendor');
+  await page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: ':01' }).click();
+  assert.deepEqual(await overflow(page), []);
+  await page.getByRole('button', { name: 'Read or write' }).click();
+  await page.getByRole('button', { name: 'Read', exact: true }).click();
+  await until('the vendor', async () => /1018h:01 = 000000ECh/.test(await sdoNote(page)));
+});
+
 for (const width of [390, 320]) {
   check(`${width} pixels wide: no sideways scrolling, every panel in reach`, { width, height: 780, hasTouch: true }, async (page) => {
     assert.deepEqual(await overflow(page), []);

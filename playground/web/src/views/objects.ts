@@ -172,6 +172,8 @@ class ObjectDetail extends View {
     return html`<div class="detail">
       <div class="detail-head">
         <strong><span class="num">${address(object.index, object.sub, object.parent !== null)}</span> ${object.name}</strong>
+        <div class="spacer"></div>
+        <button class="small tabs-only" @click=${() => (state.tab.value = 'console')}>${icons.console} Read or write</button>
         <button class="icon-button" aria-label="Close the details" @click=${() => (state.selected.value = null)}>${icons.close}</button>
       </div>
       <dl>
