@@ -20,10 +20,12 @@ pub trait Pdo {
 }
 
 /// The request for an address.
+///
+/// Written as one word: put together from bytes, reading it would have to wait until
+/// the processor has stored them one by one, whoever the contender is.
 #[inline]
 pub fn request((index, sub): (u16, u8)) -> [u8; 8] {
-    let [low, high] = index.to_le_bytes();
-    [0x40, low, high, sub, 0, 0, 0, 0]
+    (0x40 | u64::from(index) << 8 | u64::from(sub) << 24).to_le_bytes()
 }
 
 /// The one right answer to [`request`]: expedited, size indicated, four bytes.

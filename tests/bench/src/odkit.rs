@@ -1,8 +1,8 @@
 //! We: a node over tables made at run time, as `odkit sim` makes them of an EDS file.
 
 use od_model::{
-    Access, DataType, Description, EntryDescription, ObjectCode, ObjectDescription, Spanned,
-    Tables, Value,
+    Access, DataType, Description, Dictionary, EntryDescription, ObjectCode, ObjectDescription,
+    Spanned, Tables, Value,
 };
 use od_runtime::storage::Memory;
 use od_runtime::{
@@ -12,35 +12,18 @@ use od_runtime::{
 use crate::contender::{Pdo, Subject, Upload};
 use crate::objects;
 
-/// A node with everything that it needs.
+/// A node and its device, put together once, as the `main` of a firmware does it.
 #[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Odkit<A = NoApplication> {
+pub struct Odkit {
     node: Node,
-    tables: Tables,
-    values: Vec<u8>,
-    application: A,
-    storage: Memory<Vec<u8>>,
-    profile: Profile,
+    device: Device<'static>,
     now: Instant,
-}
-
-/// What the node asks of its device, for one input and what it sends.
-macro_rules! device {
-    ($of:expr) => {
-        &mut Device {
-            dictionary: $of.tables.dictionary(),
-            values: &mut $of.values,
-            application: &mut $of.application,
-            storage: &mut $of.storage,
-            profile: &$of.profile,
-        }
-    };
 }
 
 impl Odkit {
     /// A started node with `size` application objects.
     pub fn new(size: usize) -> Self {
-        let mut description = communication(1, 0, objects::mapped(size));
+        let mut description = communication(objects::mapped(size));
         for object in objects::objects(size) {
             let index = object.index;
             if object.is_record {
@@ -52,62 +35,92 @@ impl Odkit {
                 add(&mut description, (index, sub), DataType::Unsigned32, value);
             }
         }
-        Self::start(&description, NoApplication, Profile::CIA301)
+        let tables = leak(Tables::new(&description));
+        let mut odkit = Self::start(tables.dictionary(), NoApplication, &Profile::CIA301);
+        odkit.tell(0x000, &[0x01, objects::NODE_ID]);
+        odkit
     }
 }
 
-impl<A: Application> Odkit<A> {
-    fn start(description: &Description, application: A, profile: Profile) -> Self {
-        let tables = Tables::new(description);
+impl Odkit {
+    fn start(
+        dictionary: Dictionary<'static>,
+        application: impl Application + 'static,
+        profile: &'static Profile,
+    ) -> Self {
         let mut odkit = Self {
             node: Node::new(NodeId::new(objects::NODE_ID).expect("a node-ID")),
-            values: vec![0; tables.dictionary().store_len()],
-            tables,
-            application,
-            storage: Memory::new(Vec::new()),
-            profile,
+            device: Device {
+                dictionary,
+                values: leak(vec![0; dictionary.store_len()]),
+                application: leak(application),
+                storage: leak(Memory::new(Vec::new())),
+                profile,
+            },
             now: Instant::ZERO,
         };
-        let (device, now) = (device!(odkit), odkit.now);
-        let powered = odkit.node.power_on(device, now);
-        powered.expect("the values fit");
-        let start = Frame::standard(0x000, &[0x01, objects::NODE_ID]);
-        odkit.node.handle_frame(device, now, &start);
-        while odkit.node.poll_transmit(device, now).is_some() {}
+        let Self { node, device, now } = &mut odkit;
+        node.power_on(device, *now).expect("the values fit");
+        while node.poll_transmit(device, *now).is_some() {}
         odkit
     }
 
-    /// A frame in, the node's answer out, and no frame after it; no time passes.
-    #[inline]
-    fn exchange(&mut self, frame: &Frame) -> Frame {
-        let device = device!(self);
-        self.node.handle_frame(device, self.now, frame);
-        let answer = self.node.poll_transmit(device, self.now);
-        let next = self.node.poll_transmit(device, self.now);
-        assert!(next.is_none(), "one answer");
-        answer.expect("an answer")
+    /// Writes an object by SDO.
+    fn write(&mut self, index: u16, sub: u8, value: &[u8]) {
+        let [low, high] = index.to_le_bytes();
+        let unused = 4 - value.len() as u8;
+        let mut request = [0x23 | unused << 2, low, high, sub, 0, 0, 0, 0];
+        request[4..4 + value.len()].copy_from_slice(value);
+        let answer = self.upload(&request);
+        assert_eq!(answer[0], 0x60, "{index:04X}h:{sub:02X}: {answer:02X?}");
     }
+
+    /// Sends a frame and leaves what comes back.
+    fn tell(&mut self, id: u16, data: &[u8]) {
+        let Self { node, device, now } = self;
+        node.handle_frame(device, *now, &Frame::standard(id, data));
+        while node.poll_transmit(device, *now).is_some() {}
+    }
+
+    /// A frame in, what the host reads of the node's answer out, and no frame after it;
+    /// no time passes.
+    #[inline]
+    fn exchange<R>(&mut self, frame: &Frame, read: impl FnOnce(&Frame) -> R) -> R {
+        let Self { node, device, now } = self;
+        node.handle_frame(device, *now, frame);
+        let answer = node.poll_transmit(device, *now).expect("an answer");
+        let answer = read(&answer);
+        let next = node.poll_transmit(device, *now);
+        assert!(next.is_none(), "one answer");
+        answer
+    }
+}
+
+/// What a firmware has in statics.
+fn leak<T>(value: T) -> &'static mut T {
+    Box::leak(Box::new(value))
 }
 
 impl Upload for Odkit {
     #[inline]
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8] {
         let id = CanId::standard(0x600 + u16::from(objects::NODE_ID));
-        *self.exchange(&Frame::new(id, request)).bytes()
+        self.exchange(&Frame::new(id, request), |answer| *answer.bytes())
     }
 }
 
 impl Pdo for Odkit {
     #[inline]
     fn sync(&mut self) -> (u16, [u8; 4]) {
-        let frame = self.exchange(&Frame::standard(0x080, &[]));
-        let id = frame.id().as_standard().expect("11 bits");
-        (id, frame.data().try_into().expect("four bytes"))
+        self.exchange(&Frame::standard(0x080, &[]), |tpdo| {
+            let id = tpdo.id().as_standard().expect("11 bits");
+            (id, tpdo.data().try_into().expect("four bytes"))
+        })
     }
 }
 
-/// 1000h, 1001h, 1005h, 1017h, 1018h, and one TPDO of `kind` that maps the U32 at `mapped`.
-fn communication(kind: u64, event_ms: u64, mapped: u16) -> Description {
+/// 1000h, 1001h, 1005h, 1017h, 1018h, and a TPDO on every SYNC that maps the U32 at `mapped`.
+fn communication(mapped: u16) -> Description {
     use DataType::{Unsigned8, Unsigned16, Unsigned32};
     let node = u64::from(objects::NODE_ID);
     let mapping = u64::from(mapped) << 16 | 32;
@@ -124,9 +137,9 @@ fn communication(kind: u64, event_ms: u64, mapped: u16) -> Description {
         ((0x1018, 4), Unsigned32, 4),
         ((0x1800, 0), Unsigned8, 5),
         ((0x1800, 1), Unsigned32, 0x180 + node),
-        ((0x1800, 2), Unsigned8, kind),
+        ((0x1800, 2), Unsigned8, 1),
         ((0x1800, 3), Unsigned16, 0),
-        ((0x1800, 5), Unsigned16, event_ms),
+        ((0x1800, 5), Unsigned16, 0),
         ((0x1A00, 0), Unsigned8, 1),
         ((0x1A00, 1), Unsigned32, mapping),
     ] {
@@ -158,52 +171,50 @@ fn add(
 
 /// One operation is one second of virtual time: a PDO every millisecond.
 #[allow(missing_debug_implementations)] // nobody looks into it
-pub struct Seconds<A>(Odkit<A>);
+pub struct Seconds(Odkit);
 
-impl Seconds<NoApplication> {
-    /// A started stand-in.
+impl Seconds {
+    /// A gxmm at 60 rpm, in the state operational, whose TPDO 1 is cyclic with 1 ms and
+    /// whose TPDO 2 is off.
     pub fn new() -> Self {
-        let mut description = communication(254, 1, 0x6004);
-        add(
-            &mut description,
-            (0x6004, 0),
-            DataType::Unsigned32,
-            Value::Unsigned(4711),
-        );
-        let mut profile = Profile::CIA301;
-        profile.pdo.event_on_change = false;
-        Self(Odkit::start(&description, NoApplication, profile))
+        let gxmm = od_devices::find("gxmm").expect("the first device there was");
+        let mut encoder = gxmm.new_encoder();
+        encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
+        let mut odkit = Odkit::start(gxmm.dictionary, encoder, gxmm.profile);
+        let node = objects::NODE_ID;
+        odkit.write(0x1800, 2, &[254]);
+        odkit.write(0x1800, 5, &[1, 0]);
+        odkit.write(0x1801, 1, &[0x80 + node, 0x02, 0x00, 0x80]);
+        odkit.tell(0x000, &[0x01, node]);
+        Self(odkit)
+    }
+
+    /// What a host does: sleep until the deadline, tell the time, send what is there.
+    /// Answers with the number of frames.
+    fn second(&mut self) -> u32 {
+        let Odkit { node, device, now } = &mut self.0;
+        let end = now.plus_millis(1_000);
+        let mut frames = 0;
+        while let Some(at) = node.poll_timeout().filter(|at| *at <= end) {
+            *now = at.max(*now);
+            node.handle_timeout(device, *now);
+            while let Some(frame) = node.poll_transmit(device, *now) {
+                std::hint::black_box(frame);
+                frames += 1;
+            }
+        }
+        *now = end;
+        frames
     }
 }
 
-impl Default for Seconds<NoApplication> {
+impl Default for Seconds {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<A: Application> Seconds<A> {
-    /// What a host does: sleep until the deadline, tell the time, send what is there.
-    /// Answers with the number of frames.
-    fn second(&mut self) -> u32 {
-        let Self(odkit) = self;
-        let end = odkit.now.plus_millis(1_000);
-        let mut frames = 0;
-        while let Some(at) = odkit.node.poll_timeout().filter(|at| *at <= end) {
-            let device = device!(odkit);
-            odkit.now = odkit.now.max(at);
-            odkit.node.handle_timeout(device, odkit.now);
-            while let Some(frame) = odkit.node.poll_transmit(device, odkit.now) {
-                std::hint::black_box(frame);
-                frames += 1;
-            }
-        }
-        odkit.now = end;
-        frames
-    }
-}
-
-impl<A: Application> Subject for Seconds<A> {
+impl Subject for Seconds {
     fn verify(&mut self) {
         assert_eq!(self.second(), 1_000, "a PDO every millisecond");
     }

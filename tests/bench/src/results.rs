@@ -10,7 +10,7 @@ use crate::roster::Discipline;
 /// What a number counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Nanoseconds per operation, the median of all rounds.
+    /// Nanoseconds per operation; see [`stopwatch`](crate::stopwatch).
     Nanoseconds,
     /// Instructions per operation.
     Instructions,
