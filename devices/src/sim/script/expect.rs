@@ -77,6 +77,7 @@ impl Runner<'_> {
     }
 
     fn silence(&mut self, micros: u64) -> Result<()> {
+        self.pass_greetings(|_| false);
         self.advance_until_pending(self.bus.now().plus_micros(micros));
         match self.pending.front().copied() {
             None => Ok(()),
@@ -98,6 +99,8 @@ impl Runner<'_> {
                 (at, format!(" at {at:?} s"), Some(at))
             }
         };
+        self.advance_until_pending(until);
+        self.pass_greetings(|frame| wanted.is(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
         let Some(sent) = self.pending.pop_front() else {

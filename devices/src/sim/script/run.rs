@@ -35,6 +35,8 @@ pub(super) struct Runner<'h> {
     /// Frames that the devices sent and no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
+    /// Boot-up messages of `device` lines: a script may expect them and need not.
+    greetings: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
 }
@@ -51,6 +53,7 @@ pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary
         current: 0,
         pending: VecDeque::new(),
         ignored: Vec::new(),
+        greetings: Vec::new(),
         held: 0,
         frames: 0,
     };
@@ -172,9 +175,21 @@ impl Runner<'_> {
         self.current = self.bus.add(device);
         self.labels.push(label);
         if powered {
+            let before = self.pending.len();
             self.power(Power::On);
+            self.greetings.extend(self.pending.iter().skip(before));
         }
         Ok(())
+    }
+
+    /// Takes greetings off the queue that are not what is wanted.
+    pub(super) fn pass_greetings(&mut self, wanted: impl Fn(&Frame) -> bool) {
+        while let Some(sent) = self.pending.front()
+            && self.greetings.contains(sent)
+            && !wanted(&sent.frame)
+        {
+            self.pending.pop_front();
+        }
     }
 
     /// The device that lines of the world outside are about.
