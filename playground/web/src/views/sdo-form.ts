@@ -168,7 +168,7 @@ class SdoForm extends View {
                 ${this.offered.map(
                   (one, i) => html`<li id=${`sdo-option-${i}`} role="option" aria-selected=${i === this.active}
                     @pointerdown=${(event: Event) => { event.preventDefault(); this.choose(one); }}>
-                    <span class="num">${address(one.index, one.sub)}</span><span>${one.parent ? html`<span class="muted">${one.parent} / </span>` : nothing}${one.name}</span><span class="muted">${one.access}</span>
+                    <span class="num">${address(one.index, one.sub)}</span><span>${one.name}${one.parent ? html`<span class="muted"> – ${one.parent}</span>` : nothing}</span><span class="muted">${one.access}</span>
                   </li>`,
                 )}
               </ul>`
