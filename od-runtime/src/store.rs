@@ -110,8 +110,11 @@ impl<'a> Store<'a> {
     pub fn set<T: Scalar, A: DeviceWritable, M>(&mut self, var: Var<T, A, M>, value: T) {
         if let Some(bytes) = slot_mut(self.values, var.slot()) {
             let wire = value.to_wire();
-            let len = bytes.len().min(8);
-            bytes[..len].copy_from_slice(&wire[..len]);
+            match bytes {
+                // The usual length is one store.
+                [a, b, c, d] => [*a, *b, *c, *d] = [wire[0], wire[1], wire[2], wire[3]],
+                _ => bytes.iter_mut().zip(wire).for_each(|(to, from)| *to = from),
+            }
         }
     }
 

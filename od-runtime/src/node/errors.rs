@@ -12,9 +12,14 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// Takes over what the monitor has to say.
     #[inline]
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_>) {
-        let Some(lost) = self.monitor.poll() else {
-            return;
-        };
+        if let Some(lost) = self.monitor.poll() {
+            self.tell(objects, lost);
+        }
+    }
+
+    /// Somebody was lost, or everybody is back.
+    #[cold]
+    fn tell(&mut self, objects: &mut Objects<'_>, lost: bool) {
         let info = objects.application.error_info(&objects.store);
         if lost {
             objects.outbox.signals.raise(Error {
