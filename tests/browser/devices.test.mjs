@@ -191,6 +191,7 @@ check('on a phone an object goes from the dictionary to the SDO line', { width: 
 
 for (const width of [390, 320]) {
   check(`${width} pixels wide: no sideways scrolling, every panel in reach`, { width, height: 780, hasTouch: true }, async (page) => {
+    await until('Pre-operational', async () => /Pre-op/.test(await page.getByLabel('NMT state').textContent()));
     assert.deepEqual(await overflow(page), []);
     await page.getByRole('tab', { name: 'Bus' }).click();
     await booted(page);
