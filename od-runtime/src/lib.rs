@@ -2,6 +2,66 @@
 //!
 //! Frames and virtual time go in, frames, the next deadline and events come out.
 //! No clock, no thread, no allocation, no `unsafe`, and no input that panics.
+//!
+//! # The loop
+//!
+//! A [`Node`] keeps the state of the services. What belongs to the device (dictionary,
+//! values, behaviour, storage) is lent to each call as a [`Device`]. After every input,
+//! [`poll_transmit`](Node::poll_transmit) until there is no frame left; then sleep until
+//! the next frame or [`poll_timeout`](Node::poll_timeout), whichever is first:
+//!
+//! ```
+//! use od_runtime::storage::Memory;
+//! use od_runtime::{Device, Frame, Instant, NoApplication, Node, NodeId, Profile};
+//!
+//! // In a device this is a constant that `od_macros::object_dictionary!` made of the EDS.
+//! let eds = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0x196\n\
+//!            [1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=100\n";
+//! let tables = od_model::Tables::new(&od_model::eds::parse(eds).description);
+//!
+//! let mut values = vec![0; tables.dictionary().store_len()];
+//! let mut application = NoApplication;
+//! let mut storage = Memory::new([0xFF; 256]);
+//! let mut device = Device {
+//!     dictionary: tables.dictionary(),
+//!     values: &mut values,
+//!     application: &mut application,
+//!     storage: &mut storage,
+//!     profile: &Profile::CIA301,
+//! };
+//! let mut node: Node = Node::new(NodeId::ONE);
+//! let mut bus = Vec::new(); // stands for the CAN controller
+//!
+//! // Power comes: the boot-up message goes out.
+//! let mut now = Instant::ZERO;
+//! node.power_on(&mut device, now)?;
+//! while let Some(frame) = node.poll_transmit(&mut device, now) {
+//!     bus.push(frame.to_string());
+//! }
+//!
+//! // A frame comes: a master reads 1000h.
+//! let request = Frame::standard(0x601, &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0]);
+//! node.handle_frame(&mut device, now, &request);
+//! while let Some(frame) = node.poll_transmit(&mut device, now) {
+//!     bus.push(frame.to_string());
+//! }
+//!
+//! // Nothing comes until the node's own deadline: its first heartbeat.
+//! if let Some(at) = node.poll_timeout() {
+//!     now = at; // a device sleeps until then
+//!     node.handle_timeout(&mut device, now);
+//!     while let Some(frame) = node.poll_transmit(&mut device, now) {
+//!         bus.push(frame.to_string());
+//!     }
+//! }
+//! assert_eq!(bus, ["701#00", "581#4300100096010000", "701#7F"]);
+//! assert_eq!(now, Instant::from_millis(100));
+//! # Ok::<(), od_runtime::StoreTooSmall>(())
+//! ```
+//!
+//! Behaviour of its own plugs in as an [`Application`]; the encoder of CiA 406 is one
+//! ([`encoder::Encoder`]). What one family does differently is a [`Profile`]. Saved values
+//! go to any [`storage::Storage`].
 #![no_std]
 #![forbid(unsafe_code)]
 
