@@ -30,7 +30,8 @@
 //! assert_eq!(thermometer::identity_object::VENDOR_ID.address().sub, 1);
 //! ```
 //!
-//! The crate that calls it needs `od-model` beside `od-macros`.
+//! The crate that calls it needs `od-model` beside `od-macros`; under another name (`model`,
+//! say), with `extern crate model as od_model;` in its root.
 //!
 //! # Grammar
 //!

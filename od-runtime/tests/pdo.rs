@@ -220,3 +220,16 @@ fn an_extended_identifier_of_0_is_one_like_any_other() {
     assert_eq!(bench.value(0x2001, 0), 0x102);
     assert_eq!(bench.node.state(), State::Operational, "not NMT stop");
 }
+
+#[test]
+fn a_frame_that_waits_for_sync_outlives_a_change_of_another_pdo() {
+    let mut bench = running(&["2F01140201000000"]);
+    bench.send("301#0800");
+    bench.ask("601#2B00180564000000");
+    bench.send("080#");
+    assert_eq!(bench.value(0x2001, 0), 8);
+    bench.send("301#0900");
+    bench.ask("601#2F011402FE000000");
+    bench.send("080#");
+    assert_eq!(bench.value(0x2001, 0), 8, "its own change ends the wait");
+}

@@ -141,7 +141,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.watches_changes =
             objects.profile.pdo.event_on_change && tpdos.any(pdo::Tpdo::watches_changes);
         for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
-            *rpdo = pdo::Rpdo::load(objects, number as u16);
+            rpdo.configure(objects, number as u16);
         }
     }
 }

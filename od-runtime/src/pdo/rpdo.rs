@@ -5,7 +5,7 @@ use crate::objects::Objects;
 use crate::{CanId, CobId, Frame};
 
 /// An RPDO with what its objects say, and a frame that waits for SYNC.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Rpdo {
     valid: bool,
     cob_id: CobId,
@@ -33,8 +33,23 @@ impl Rpdo {
         waiting: None,
     };
 
+    /// Reads the objects of RPDO `number` again; a frame that waits for SYNC stays where
+    /// they say what they said.
+    pub(crate) fn configure(&mut self, objects: &Objects<'_>, number: u16) {
+        let new = Self {
+            waiting: self.waiting,
+            ..Self::load(objects, number)
+        };
+        if new != *self {
+            *self = Self {
+                waiting: None,
+                ..new
+            };
+        }
+    }
+
     /// Reads the objects of RPDO `number` (0 is 1400h and 1600h).
-    pub(crate) fn load(objects: &Objects<'_>, number: u16) -> Self {
+    fn load(objects: &Objects<'_>, number: u16) -> Self {
         let parameter = 0x1400 + number;
         let store = &objects.store;
         let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
