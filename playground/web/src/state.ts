@@ -2,7 +2,7 @@
 // read them, actions go back to the worker: one way round.
 
 import { computed, signal } from '@preact/signals-core';
-import type { Diagnostic, DeviceInfo, Leds, Nmt, ObjectRecord, Shaft, Source, Value } from './sim/api';
+import type { Builtin, Diagnostic, DeviceInfo, Leds, Nmt, ObjectRecord, Shaft, Source, Value } from './sim/api';
 import { Ring } from './can/ring';
 
 export type Health = 'starting' | 'running' | 'restarting' | 'failed';
@@ -10,6 +10,8 @@ export type Health = 'starting' | 'running' | 'restarting' | 'failed';
 export const health = signal<Health>('starting');
 export const device = signal<DeviceInfo | null>(null);
 export const source = signal<Source>({ kind: 'builtin', name: 'gxmm' });
+/** The devices that need no file. */
+export const builtins = signal<Builtin[]>([]);
 export const diagnostics = signal<Diagnostic[]>([]);
 
 export const now = signal(0);

@@ -93,6 +93,7 @@ export interface Bus {
   nmt(): Nmt;
   leds(): Leds;
   nodeId(): number;
+  builtins(): Builtin[];
   setPower(on: boolean): void;
   powered(): boolean;
   shaft(): Shaft | null;
@@ -121,9 +122,15 @@ export interface Address {
   sub: number;
 }
 
+/** A device that needs no file. */
+export interface Builtin {
+  name: string;
+  title: string;
+}
+
 /** What the worker tells the page. */
 export type Report =
-  | { op: 'ready' }
+  | { op: 'ready'; builtins: Builtin[] }
   | { op: 'opened'; source: Source; result: Opened }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }

@@ -24,12 +24,15 @@ export async function host(makeBus: () => Promise<Bus>): Promise<void> {
     if (engine) engine.handle(data);
     else waiting.push(data);
   };
+  let builtins;
   try {
-    engine = new Engine(await makeBus(), report);
+    const bus = await makeBus();
+    builtins = bus.builtins();
+    engine = new Engine(bus, report);
   } catch (reason) {
     crash(reason);
     return;
   }
-  report({ op: 'ready' });
+  report({ op: 'ready', builtins });
   for (const command of waiting.splice(0)) engine.handle(command);
 }

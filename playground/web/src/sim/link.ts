@@ -57,6 +57,7 @@ function receive(report: Report): void {
   switch (report.op) {
     case 'ready':
       state.health.value = 'running';
+      state.builtins.value = report.builtins;
       break;
     case 'opened':
       opened(report.source, report.result);

@@ -1,7 +1,7 @@
 // A stand-in for the WebAssembly bus: enough of an encoder to work on the page
 // without a Rust toolchain (`npm run build -- --mock`). It never ships.
 
-import type { Bus, DeviceInfo, Leds, Nmt, ObjectRecord, Opened, Shaft, Value } from './api';
+import type { Builtin, Bus, DeviceInfo, Leds, Nmt, ObjectRecord, Opened, Shaft, Value } from './api';
 import { pack } from './packed';
 
 const row = (index: number, sub: number, name: string, type: string, bits: number, access: ObjectRecord['access'], value: Value, parent: string | null = null, high: Value = null): ObjectRecord => ({
@@ -47,6 +47,10 @@ export class MockBus implements Bus {
   private turns = 60.747;
   private speed = 0;
   private nextPdo = 0;
+
+  builtins(): Builtin[] {
+    return [{ name: 'gxmm', title: 'stand-in' }];
+  }
 
   openBuiltin(name: string, nodeId: number): Opened {
     this.node = nodeId;

@@ -1,7 +1,7 @@
 // The bus of the WebAssembly package, with the one device that the page shows.
 
-import { Bus as Simulation } from '../wasm/od_playground';
-import type { Bus, Diagnostic, Leds, Nmt, Opened, Shaft, Value } from './api';
+import { Bus as Simulation, builtinDevices } from '../wasm/od_playground';
+import type { Builtin, Bus, Diagnostic, Leds, Nmt, Opened, Shaft, Value } from './api';
 
 const DEVICE = 0;
 
@@ -20,6 +20,10 @@ export class WasmBus implements Bus {
     this.bus = fresh;
     const device = { name: added.name, title: fresh.title(DEVICE), nodeId: fresh.nodeId(DEVICE), objects: fresh.dictionary(DEVICE) };
     return { device, diagnostics: added.diagnostics };
+  }
+
+  builtins(): Builtin[] {
+    return builtinDevices();
   }
 
   openBuiltin(name: string, nodeId: number): Opened {

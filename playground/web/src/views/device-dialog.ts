@@ -9,11 +9,6 @@ import { openFile, openText } from './files';
 import { icons } from './icons';
 import { View } from './view';
 
-const BUILTIN = [
-  { name: 'gxmm', title: 'Multiturn encoder', text: '8192 steps a turn, 65536 turns' },
-  { name: 'gxam', title: 'Singleturn encoder', text: '8192 steps a turn' },
-];
-
 class DeviceDialog extends View {
   static override properties = { node: { state: true }, isOver: { state: true } };
   declare node: string;
@@ -83,9 +78,9 @@ class DeviceDialog extends View {
           <button class="icon-button" aria-label="Close" @click=${() => this.close()}>${icons.close}</button>
         </header>
         <div class="cards">
-          ${BUILTIN.map(
+          ${state.builtins.value.map(
             (one) => html`<button class="card" aria-pressed=${current.kind === 'builtin' && current.name === one.name} @click=${() => this.choose(one.name)}>
-              <strong>${one.name}</strong><span>${one.title}</span><span class="muted">${one.text}</span>
+              <strong>${one.name}</strong><span>${one.title.replace(/^[A-Z0-9]+, /, '')}</span>
             </button>`,
           )}
         </div>
