@@ -1,7 +1,7 @@
 //! `cargo bench -p od-bench [-- timing | counts | table | count …]`
 //!
 //! - nothing: `timing`, then `counts`, then the table
-//! - `timing`: nanoseconds per operation; `OD_BENCH_ROUNDS` (default 200) rounds
+//! - `timing`: nanoseconds per operation; `OD_BENCH_ROUNDS` (default 800) rounds
 //! - `counts`: instructions per operation, where there is valgrind
 //! - `table`: what earlier runs measured
 //! - `count CONTENDER DISCIPLINE N`: N operations and nothing else, for callgrind;
@@ -50,7 +50,7 @@ fn main() -> ExitCode {
 /// How many rounds to time.
 fn rounds() -> usize {
     let rounds = env::var("OD_BENCH_ROUNDS").ok();
-    rounds.and_then(|rounds| rounds.parse().ok()).unwrap_or(200)
+    rounds.and_then(|rounds| rounds.parse().ok()).unwrap_or(800)
 }
 
 fn time(results: &mut Results, rounds: usize) {
