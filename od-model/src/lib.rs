@@ -16,6 +16,7 @@ extern crate alloc;
 #[cfg(any(feature = "eds", test))]
 extern crate std;
 
+mod access;
 mod address;
 mod dictionary;
 mod index;
@@ -23,10 +24,11 @@ pub mod typed;
 mod types;
 mod value;
 
+pub use access::{Access, Group};
 pub use address::Address;
 pub use dictionary::{Dictionary, Entry, Missing, Object, Slot};
 pub use index::{Place, bucket_count, buckets, places};
-pub use types::{Access, DataType, Group, Kind, ObjectCode};
+pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
 
 #[cfg(feature = "eds")]

@@ -1,0 +1,112 @@
+//! Who may read and write a value, and what saves it (CiA 306-1; CiA 301, object 1010h).
+
+use core::fmt;
+
+/// Access types of CiA 306-1, seen from the bus.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub enum Access {
+    /// Read only on the bus; the device changes it.
+    #[default]
+    Ro,
+    /// Write only on the bus.
+    Wo,
+    /// Read and write.
+    Rw,
+    /// Read and write, mappable into a TPDO only.
+    Rwr,
+    /// Read and write, mappable into an RPDO only.
+    Rww,
+    /// Read only, and never changed by the device either.
+    Const,
+}
+
+impl Access {
+    /// The spelling in an EDS: `ro`, `wo`, `rw`, `rwr`, `rww`, `const`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ro => "ro",
+            Self::Wo => "wo",
+            Self::Rw => "rw",
+            Self::Rwr => "rwr",
+            Self::Rww => "rww",
+            Self::Const => "const",
+        }
+    }
+
+    /// May a master read it?
+    pub const fn readable(self) -> bool {
+        !matches!(self, Self::Wo)
+    }
+
+    /// May a master write it?
+    pub const fn writable(self) -> bool {
+        !matches!(self, Self::Ro | Self::Const)
+    }
+
+    /// Could it stand in a TPDO, given that the object is mappable at all?
+    pub const fn maps_to_tpdo(self) -> bool {
+        matches!(self, Self::Ro | Self::Rw | Self::Rwr | Self::Const)
+    }
+
+    /// Could it stand in an RPDO, given that the object is mappable at all?
+    pub const fn maps_to_rpdo(self) -> bool {
+        matches!(self, Self::Wo | Self::Rw | Self::Rww)
+    }
+}
+
+impl fmt::Display for Access {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Which of the four save and restore sub-indices of 1010h/1011h covers a value.
+///
+/// CiA 301, objects 1010h and 1011h: sub-index 1 covers all groups, 2 the
+/// communication, 3 the application, 4 the manufacturer parameters.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub enum Group {
+    /// Not saved.
+    #[default]
+    None,
+    /// 1010h:02, objects 1000h–1FFFh unless the description says otherwise.
+    Communication,
+    /// 1010h:03, objects 6000h–9FFFh unless the description says otherwise.
+    Application,
+    /// 1010h:04, objects 2000h–5FFFh unless the description says otherwise.
+    Manufacturer,
+}
+
+impl Group {
+    /// The group that the object's index puts it in.
+    pub const fn of_index(index: u16) -> Self {
+        match index {
+            0x1000..=0x1FFF => Self::Communication,
+            0x2000..=0x5FFF => Self::Manufacturer,
+            0x6000..=0x9FFF => Self::Application,
+            _ => Self::None,
+        }
+    }
+
+    /// Does sub-index `sub` of 1010h or 1011h cover this group?
+    pub const fn covered_by(self, sub: u8) -> bool {
+        matches!(
+            (self, sub),
+            (Self::Communication, 1 | 2) | (Self::Application, 1 | 3) | (Self::Manufacturer, 1 | 4)
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_follow_the_index() {
+        assert_eq!(Group::of_index(0x1017), Group::Communication);
+        assert_eq!(Group::of_index(0x2101), Group::Manufacturer);
+        assert_eq!(Group::of_index(0x6003), Group::Application);
+        assert!(Group::Application.covered_by(1) && Group::Application.covered_by(3));
+        assert!(!Group::Application.covered_by(2) && !Group::None.covered_by(1));
+    }
+}
