@@ -1,5 +1,7 @@
 //! Diagnostics with their source line and a caret.
 
+use std::borrow::Cow;
+
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use od_model::{Diagnostic, Severity, Span};
@@ -27,7 +29,7 @@ fn group<'a>(path: &'a str, text: &'a str, diagnostic: &'a Diagnostic) -> Group<
         Severity::Info => Level::INFO,
     };
     let mut group = level
-        .primary_title(diagnostic.message.as_str())
+        .primary_title(short(&diagnostic.message))
         .id(diagnostic.code)
         .elements(snippet(path, text, diagnostic));
     if diagnostic.span.is_none() {
@@ -40,6 +42,21 @@ fn group<'a>(path: &'a str, text: &'a str, diagnostic: &'a Diagnostic) -> Group<
         group = group.element(Level::HELP.message(diagnostic.help.as_str()));
     }
     group
+}
+
+/// Both ends of a message that quotes something very long.
+fn short(message: &str) -> Cow<'_, str> {
+    const HEAD: usize = 200;
+    const TAIL: usize = 80;
+    let at = |(at, _)| at;
+    let head = message.char_indices().nth(HEAD).map(at);
+    let tail = message.char_indices().nth_back(TAIL).map(at);
+    match (head, tail) {
+        (Some(head), Some(tail)) if head < tail => {
+            Cow::Owned(format!("{}…{}", &message[..head], &message[tail..]))
+        }
+        _ => Cow::Borrowed(message),
+    }
 }
 
 /// The lines that the diagnostic is about, and no more of the file.

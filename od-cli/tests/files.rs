@@ -188,3 +188,13 @@ fn closed_pipes_are_no_panic() {
         assert!(matches!(code, Some(1 | 2)), "{args:?}: {code:?}");
     }
 }
+
+#[test]
+fn check_does_not_echo_long_lines_whole() {
+    let text = format!("{BROKEN}{}\n", "ä".repeat(100_000));
+    let path = file("long.eds", &text).display().to_string();
+    let check = odkit(&["check", &path], "");
+    assert_eq!(check.code, 1);
+    assert!(check.out.contains("ä…ä"), "{:.5000}", check.out);
+    assert!(check.out.len() < 5000, "{} bytes", check.out.len());
+}

@@ -96,6 +96,50 @@ fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
 }
 
 #[test]
+fn long_lines_are_not_echoed_whole() {
+    let long = "x".repeat(1_000_000);
+    for (script, code) in [
+        (format!("{long}\n"), 2),
+        (format!("wait {long}\n"), 2),
+        (format!("use {long}\n"), 2),
+        (format!("device {long}\n"), 2),
+        (format!("sdo read {long}\n"), 2),
+        (format!("expect value 6004h = {long}\n"), 2),
+        (format!("sdo write 6004h = {long} as u16\n"), 2),
+        (format!("expect {}701#05\n", " ".repeat(1_000_000)), 1),
+    ] {
+        let run = odkit(&["run", "-"], &script);
+        let start: String = script.chars().take(20).collect();
+        assert_eq!(run.code, code, "{start}");
+        assert!(
+            run.err.len() < 2000,
+            "{start}: {} bytes\n{:.2000}",
+            run.err.len(),
+            run.err
+        );
+    }
+    let run = odkit(&["run", "-"], &long);
+    let quoted = format!("-:1:1: `{}…` begins no statement", "x".repeat(60));
+    assert!(run.err.starts_with(&quoted), "{:.2000}", run.err);
+}
+
+#[test]
+fn time_has_an_end() {
+    for line in [
+        "at 18446744073709.551615s nmt start",
+        "wait 18446744073709.551615s",
+        "(0.5) 601#\n(18446744073709.551615) 601#",
+        "power cycle 99999999999999999999min",
+        "send 080# 2 times every 3153600001s",
+        "expect silence 3153600001s",
+    ] {
+        let run = odkit(&["run", "-"], line);
+        assert_eq!(run.code, 2, "{line}: {}", run.err);
+        assert!(run.err.contains("the limit is 100 years"), "{}", run.err);
+    }
+}
+
+#[test]
 fn eds_files_are_devices_too() {
     let eds = repository("tests/interop/strings.eds");
     let script = "expect 707#00\nsdo read 2000h = \"The quick brown fox jumps over the lazy dog\"\n\

@@ -172,12 +172,14 @@ pub enum Reason {
 
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "line {} at {:?} s: {}", self.line, self.at, self.text)?;
+        let text = words::line(&self.text);
+        writeln!(f, "line {} at {:?} s: {text}", self.line, self.at)?;
         match &self.reason {
             Reason::Failed { expected, got } => {
+                let (expected, got) = (words::brief(expected), words::brief(got));
                 write!(f, "  expected  {expected}\n  but       {got}")
             }
-            Reason::Impossible(why) => write!(f, "  {why}"),
+            Reason::Impossible(why) => write!(f, "  {}", words::brief(why)),
         }
     }
 }

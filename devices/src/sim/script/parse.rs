@@ -8,7 +8,7 @@ use od_runtime::{Instant, NodeId};
 
 use super::parse_expect::{expect, repeated, sdo};
 use super::statement::{Action, Power, Shaft, Statement, Timing, When};
-use super::words::Words;
+use super::words::{Words, is_decimal};
 use super::{Pattern, Problem, Script};
 use crate::sim::{candump, faults};
 
@@ -108,12 +108,19 @@ fn time(words: &mut Words<'_>, origin: &mut Option<u64>) -> Result<When, Problem
     let inner = stamp
         .strip_prefix('(')
         .and_then(|rest| rest.strip_suffix(')'));
-    let Some(micros) = inner.and_then(candump::seconds) else {
-        let message = format!("`{stamp}` is no time stamp");
-        return Err(here.problem(message, "write seconds in parentheses, like (0.100000)"));
+    let micros = match inner {
+        Some(inner) if is_decimal(inner) => match candump::seconds(inner) {
+            Some(micros) => micros,
+            None => return here.limited(None).map(|_| When::Next),
+        },
+        _ => {
+            let message = format!("`{stamp}` is no time stamp");
+            return Err(here.problem(message, "write seconds in parentheses, like (0.100000)"));
+        }
     };
     let first = *origin.get_or_insert(if micros >= WALL_CLOCK { micros } else { 0 });
-    Ok(When::At(Instant::from_micros(micros.saturating_sub(first))))
+    here.limited(Some(micros.saturating_sub(first)))
+        .map(|micros| When::At(Instant::from_micros(micros)))
 }
 
 /// A line of a log, or a frame as `cansend` takes it, blanks between its bytes allowed.
@@ -136,12 +143,14 @@ fn frame(words: &mut Words<'_>) -> Result<Action, Problem> {
 
 /// `send 080# 3 times every 10ms`.
 fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
     let (head, times, timing) = repeated(words)?;
     let every = match timing {
         Timing::Now => 0,
         Timing::Every(micros) => micros,
         _ => return Err(words.problem("a sent frame has no such time", "write `every 10ms`")),
     };
+    here.limited_turns(times, every)?;
     match candump::parse_frame(head.rest()) {
         Ok(frame) => Ok(Action::Send {
             frame,
@@ -285,12 +294,13 @@ fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {
 }
 
 fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
     let mut data = vec![];
     let (mut times, mut every) = (1, 0);
     if words.take("counter") {
         data.push(words.number(1, 240)? as u8);
     }
-    if words.peek().parse::<u32>().is_ok() {
+    if words.at_number() {
         times = words.number(1, 1_000_000)? as u32;
         if !words.take("times") {
             return Err(words.problem("`times` is missing", "write `sync 15 times every 10ms`"));
@@ -299,6 +309,7 @@ fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {
     if words.take("every") {
         every = words.duration()?;
     }
+    here.limited_turns(times, every)?;
     let frame = od_runtime::Frame::standard(0x80, &data);
     Ok(Action::Send {
         frame,
@@ -355,6 +366,43 @@ mod tests {
         check("wait", "1:5: a duration is missing; write it like 500ms");
         check("\n  wait 5", "2:8: `5` is no duration");
         check("wait 99999999999999999999s", "1:6: `99");
+        check(
+            "at 18446744073709.551615s nmt start",
+            "1:4: `18446744073709.551615s` is too long; the limit is 100 years, 3153600000s",
+        );
+        check("wait 3153600000.000001s", "1:6: `3153600000.000001s` is");
+        check("wait 52560001min", "1:6: `52560001min` is too long");
+        check("wait 3153600000s\nafter 52560000min", "2 lines");
+        check("(3153600001) 601#\n(5000000000) 601#", "2 lines");
+        check(
+            "(0.5) 601#\n(5000000000) 601#",
+            "2:1: `(5000000000)` is too long",
+        );
+        check(
+            "(99999999999999999999) 601#",
+            "1:1: `(99999999999999999999)` is too",
+        );
+        check("expect 581#* within 99999999999999s", "1:21: `9999");
+        check("sync 5 times every 3153600001s", "1:20: `3153600001s` is");
+        for line in ["sync", "send 080#", "expect 080#", "expect 080# every 5ms"] {
+            for number in ["18446744073709551615", "9".repeat(30).as_str(), "0", "-1"] {
+                let column = line.chars().count() + 2;
+                check(
+                    &format!("{line} {number} times"),
+                    &format!(
+                        "1:{column}: `{number}` does not fit; write a number from 1 to 1000000"
+                    ),
+                );
+            }
+        }
+        check("sync 1000000 times", "1 lines");
+        check("sync 1000000 times every 3153s", "1 lines");
+        for line in ["sync 1000000", "send 080# 1000000"] {
+            check(
+                &format!("{line} times every 3154s"),
+                "1:6: `1000000 times` is too long; the limit is 100 years",
+            );
+        }
         check("device", "1:7: a device name is missing");
         check(
             "device gxmm node 128",
@@ -377,6 +425,37 @@ mod tests {
         check("(1.2.3) 601#", "1:1: `(1.2.3)` is no time stamp");
         check("power on now", "1:10: `now` is too much here");
         check("after 5ms wait 5ms", "1:11: a time and a wait");
+    }
+
+    #[test]
+    fn long_lines_are_cut_where_they_are_quoted() {
+        let long = "ä".repeat(100_000);
+        for line in [
+            "{}",
+            "{}#40",
+            "601#40 {}",
+            "({})",
+            "wait {}",
+            "nmt {}",
+            "sync {}",
+            "sync 5{} times",
+            "expect {}",
+            "expect {}#40",
+            "expect state {}",
+            "shaft {}",
+            "fault {} on",
+            "device gxmm {}",
+            "sdo read 6004h aborts {}",
+            "{}` `{}",
+        ] {
+            for problem in parse(&line.replace("{}", &long)).expect_err(line) {
+                let length = problem.to_string().chars().count();
+                assert!(length < 600, "{line}: {length} characters");
+            }
+        }
+        let problem = &parse(&"x".repeat(61)).expect_err("no statement")[0];
+        let message = format!("`{}…` begins no statement", "x".repeat(60));
+        assert_eq!(problem.message, message);
     }
 
     #[test]

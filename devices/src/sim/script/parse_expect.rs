@@ -18,7 +18,7 @@ pub(super) fn repeated<'t>(words: &mut Words<'t>) -> Result<(Words<'t>, u32, Tim
         times = head.split_last().number(1, 1_000_000)? as u32;
     }
     let timing = timing(words)?;
-    if times == 1 && words.peek().parse::<u32>().is_ok() {
+    if times == 1 && words.at_number() {
         times = words.number(1, 1_000_000)? as u32;
         if !words.take("times") {
             return Err(words.problem("`times` is missing", "write `5 times`"));

@@ -6,6 +6,11 @@ use std::prelude::v1::*;
 use super::Problem;
 use crate::sim::candump;
 
+/// How far a moment or a duration may go: 100 years of 365 days, in microseconds.
+const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
+
+const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
+
 /// A stretch of a line, to be taken apart from the front.
 #[derive(Clone, Copy)]
 pub(super) struct Words<'t> {
@@ -118,7 +123,7 @@ impl<'t> Words<'t> {
         Problem {
             line: self.line,
             column: self.column,
-            message: message.into(),
+            message: brief(&message.into()),
             help: help.into(),
         }
     }
@@ -142,6 +147,31 @@ impl<'t> Words<'t> {
         ))
     }
 
+    /// Does a number begin here, whether it fits or not?
+    pub(super) fn at_number(&self) -> bool {
+        let word = self.peek();
+        word.strip_prefix('-')
+            .unwrap_or(word)
+            .starts_with(|c: char| c.is_ascii_digit())
+    }
+
+    /// A moment or a duration of this line, `None` where it is past counting.
+    pub(super) fn limited(&self, micros: Option<u64>) -> Result<u64, Problem> {
+        self.within(self.peek(), micros)
+    }
+
+    /// So many turns of a line must not take longer, either.
+    pub(super) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
+        let micros = every.checked_mul(u64::from(times));
+        self.within(&format!("{times} times"), micros).map(|_| ())
+    }
+
+    fn within(&self, shown: &str, micros: Option<u64>) -> Result<u64, Problem> {
+        micros
+            .filter(|micros| *micros <= LONGEST)
+            .ok_or_else(|| self.problem(format!("`{shown}` is too long"), TOO_LONG))
+    }
+
     /// A duration in microseconds: `500ms`, `1.5s`, `20us`, `2min`.
     pub(super) fn duration(&mut self) -> Result<u64, Problem> {
         let here = *self;
@@ -157,13 +187,14 @@ impl<'t> Words<'t> {
             "min" => micros.checked_mul(60),
             _ => None,
         });
-        micros.ok_or_else(|| {
-            let message = match word {
-                "" => String::from("a duration is missing"),
-                _ => format!("`{word}` is no duration"),
-            };
-            here.problem(message, "write it like 500ms, 1.5s, 20us or 2min")
-        })
+        if micros.is_some() || (is_decimal(number) && matches!(unit, "us" | "ms" | "s" | "min")) {
+            return here.limited(micros);
+        }
+        let message = match word {
+            "" => String::from("a duration is missing"),
+            _ => format!("`{word}` is no duration"),
+        };
+        Err(here.problem(message, "write it like 500ms, 1.5s, 20us or 2min"))
     }
 
     /// A whole number in a range.
@@ -181,4 +212,49 @@ impl<'t> Words<'t> {
                 here.problem(message, format!("write a number from {low} to {high}"))
             })
     }
+}
+
+/// Digits with at most one point among them, as many as there are.
+pub(super) fn is_decimal(text: &str) -> bool {
+    text.matches('.').count() <= 1
+        && text.bytes().any(|byte| byte.is_ascii_digit())
+        && text
+            .bytes()
+            .all(|byte| byte.is_ascii_digit() || byte == b'.')
+}
+
+/// Characters of a line that are shown.
+const SHOWN: usize = 60;
+/// Characters of a message that are shown.
+const MESSAGE: usize = 400;
+
+/// The beginning of a text, with `…` where more of it stood.
+fn cut(text: &str, limit: usize) -> String {
+    match text.char_indices().nth(limit) {
+        Some((at, _)) => format!("{}…", &text[..at]),
+        None => text.to_owned(),
+    }
+}
+
+/// A line as messages show it.
+pub(super) fn line(text: &str) -> String {
+    cut(text, SHOWN)
+}
+
+/// A message whose quotes are not longer than a line is shown.
+pub(super) fn brief(message: &str) -> String {
+    if message.len() <= SHOWN {
+        return message.to_owned();
+    }
+    let mut brief = String::new();
+    for (number, piece) in message.split('`').enumerate() {
+        if number > 0 {
+            brief.push('`');
+        }
+        match number % 2 {
+            1 => brief.push_str(&line(piece)),
+            _ => brief.push_str(piece),
+        }
+    }
+    cut(&brief, MESSAGE)
 }
