@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::net::{SocketAddr, TcpListener, ToSocketAddrs};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant as Clock};
 
@@ -55,6 +57,10 @@ fn position(text: &str) -> Result<u64, String> {
 
 /// Inputs that may wait for the bus; more make their senders wait.
 const INPUTS: usize = 1024;
+/// Bytes of clients that the bus takes in one turn, before its answers go out.
+const TURN: usize = 16 * 1024;
+/// An input counts as so many bytes at least.
+const INPUT: usize = 64;
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut device = Source::find(&args.device)?.device(args.node_id)?;
@@ -67,16 +73,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let listener = listen(&args.slcan)?;
     let address = listener.local_addr()?;
     let (inputs, waiting) = sync_channel(INPUTS);
-    let stop = inputs.clone();
+    let (wake, stop) = (inputs.clone(), Arc::new(AtomicBool::new(false)));
+    let stopped = Arc::clone(&stop);
     ctrlc::set_handler(move || {
-        // Where the bus has ended already, so has the program.
-        let _ = stop.send(Input::Stop);
+        stop.store(true, Ordering::Relaxed);
+        // Where this finds no room the bus is awake, and where the bus has ended already,
+        // so has the program.
+        let _ = wake.try_send(Input::Stop);
     })
     .map_err(|error| Failure::Failed(format!("Ctrl-C cannot be watched: {error}")))?;
     let mut live = Live::new(device);
     live.greet(args, address)?;
     clients::accept(listener, inputs);
-    live.run(&waiting);
+    live.run(&waiting, &stopped);
     Ok(())
 }
 
@@ -159,17 +168,37 @@ impl Live {
         Instant::ZERO + self.start.elapsed()
     }
 
-    fn run(&mut self, waiting: &Receiver<Input>) {
+    fn run(&mut self, waiting: &Receiver<Input>, stopped: &AtomicBool) {
         loop {
             self.catch_up();
-            let input = match self.bus.next_deadline() {
+            self.flush();
+            let first = match self.bus.next_deadline() {
                 Some(at) => waiting.recv_timeout(at - self.now()),
                 None => waiting.recv_timeout(Duration::from_secs(3600)),
             };
-            match input {
-                Ok(Input::Stop) | Err(RecvTimeoutError::Disconnected) => break,
-                Ok(input) => self.take(input),
-                Err(RecvTimeoutError::Timeout) => {}
+            let first = match first {
+                Ok(input) => Some(input),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            // What waits already belongs to this turn, as far as it has room.
+            let mut room = TURN;
+            for input in first.into_iter().chain(waiting.try_iter()) {
+                if stopped.load(Ordering::Relaxed) {
+                    break;
+                }
+                let size = match &input {
+                    Input::Bytes(_, bytes) => bytes.len().max(INPUT),
+                    _ => INPUT,
+                };
+                self.take(input);
+                room = room.saturating_sub(size);
+                if room == 0 {
+                    break;
+                }
+            }
+            if stopped.load(Ordering::Relaxed) {
+                break;
             }
         }
         self.bus.with(0, VirtualDevice::power_off);
@@ -196,14 +225,25 @@ impl Live {
         }
     }
 
+    /// What the turn has brought goes out, each client's share as one message.
+    fn flush(&mut self) {
+        for seat in self.seats.values_mut() {
+            seat.client.flush();
+        }
+    }
+
     /// A frame for every client but the one it is from.
     fn pass_on(&mut self, frame: &Frame, from: Option<u64>) {
         let millis = self.bus.now().as_micros() / 1000;
+        // Without and with a time stamp; clients of a kind get the same line.
+        let mut lines = [Vec::new(), Vec::new()];
         for (number, seat) in &mut self.seats {
             if Some(*number) != from && seat.channel.is_open() {
-                let mut line = Vec::with_capacity(32);
-                seat.channel.encode(frame, millis, &mut line);
-                seat.client.send(line);
+                let line = &mut lines[usize::from(seat.channel.stamps())];
+                if line.is_empty() {
+                    seat.channel.encode(frame, millis, line);
+                }
+                seat.client.push(line);
             }
         }
     }
@@ -221,7 +261,9 @@ impl Live {
                 );
             }
             Input::Gone(number) => {
-                if let Some(seat) = self.seats.remove(&number) {
+                if let Some(mut seat) = self.seats.remove(&number) {
+                    // It may have ended its own side only, and read on.
+                    seat.client.flush();
                     note!("{} left", seat.client.address);
                 }
             }
@@ -241,19 +283,19 @@ impl Live {
             steps.push((std::mem::take(reply), frame));
         });
         for (reply, frame) in steps {
-            self.reply(number, reply);
+            self.reply(number, &reply);
             self.frames += 1;
             self.catch_up();
             self.bus.receive(&frame);
             self.pass_on(&frame, Some(number));
             self.deliver();
         }
-        self.reply(number, reply);
+        self.reply(number, &reply);
     }
 
-    fn reply(&mut self, number: u64, reply: Vec<u8>) {
+    fn reply(&mut self, number: u64, reply: &[u8]) {
         if let Some(seat) = self.seats.get_mut(&number) {
-            seat.client.send(reply);
+            seat.client.push(reply);
         }
     }
 

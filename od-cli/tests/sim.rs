@@ -161,3 +161,69 @@ fn ctrl_c_ends_it_cleanly() {
     assert!(kill.expect("kill").success());
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
 }
+
+#[test]
+fn a_flood_reaches_every_client_in_order() {
+    const REQUEST: &str = "t60184000100000000000\r";
+    const ANSWER: &str = "t58184300100096010200\r";
+    let sim = Sim::start(&["gxmm"]);
+    let mut listeners: Vec<_> = (0..20).map(|_| sim.client()).collect();
+    for listener in &mut listeners {
+        say(listener, "O\r", "\r");
+    }
+    let mut talker = sim.client();
+    say(&mut talker, "O\r", "\r");
+    // Each acknowledgement stands before the answer that its frame brings about.
+    let sent = format!("{REQUEST}V\r").repeat(1000);
+    say(
+        &mut talker,
+        &sent,
+        &format!("z\r{ANSWER}V1013\r").repeat(1000),
+    );
+    for listener in &mut listeners {
+        say(listener, "", &format!("{REQUEST}{ANSWER}").repeat(1000));
+    }
+}
+
+#[test]
+fn who_has_said_all_still_gets_the_answers() {
+    let sim = Sim::start(&["gxmm"]);
+    let mut client = sim.client();
+    client
+        .write_all(b"O\rt60184000100000000000\r")
+        .expect("it reads");
+    client
+        .shutdown(std::net::Shutdown::Write)
+        .expect("half of it ends");
+    let mut answer = String::new();
+    client.read_to_string(&mut answer).expect("an answer");
+    assert_eq!(answer, "\rz\rt58184300100096010200\r");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_it_under_a_flood() {
+    let mut sim = Sim::start(&["gxmm"]);
+    let floods: Vec<_> = (0..4)
+        .map(|_| {
+            let mut client = sim.client();
+            std::thread::spawn(move || {
+                let requests = "t60184000100000000000\r".repeat(2000);
+                let _ = client.write_all(b"O\r");
+                while client.write_all(requests.as_bytes()).is_ok() {}
+            })
+        })
+        .collect();
+    std::thread::sleep(Duration::from_millis(300));
+    let pid = sim.child.id().to_string();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &pid])
+        .status();
+    assert!(kill.expect("kill").success());
+    let asked = std::time::Instant::now();
+    assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
+    assert!(asked.elapsed() < Duration::from_secs(5));
+    for flood in floods {
+        flood.join().expect("no panic");
+    }
+}

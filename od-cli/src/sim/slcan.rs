@@ -30,6 +30,11 @@ impl Channel {
         self.open
     }
 
+    /// Does a time stamp stand behind each frame?
+    pub(super) fn stamps(&self) -> bool {
+        self.time_stamps
+    }
+
     /// Bytes from the client: what is answered goes to `reply`, frames go to `frame`.
     pub(super) fn receive(
         &mut self,
