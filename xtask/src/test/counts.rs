@@ -15,6 +15,8 @@ impl Counts {
         // Python says how many ran first, and how many of them failed after that.
         let mut python_ran = None;
         for line in log.lines() {
+            // trybuild colours its lines, terminal or not, and resets the colour in the next.
+            let line = without_colours(line);
             let line = line.trim();
             if let Some(rest) = line.strip_prefix("test result: ") {
                 sum.add(cargo(rest));
@@ -61,8 +63,7 @@ fn cargo(line: &str) -> Counts {
 /// `ui/wrong_type.rs ... ok`: trybuild's files, which cargo counts as one test together.
 fn trybuild(line: &str) -> Counts {
     let mut counts = Counts::default();
-    let plain = without_colours(line);
-    if let Some((file, result)) = plain.split_once(" ... ")
+    if let Some((file, result)) = line.split_once(" ... ")
         && (file.ends_with(".rs") || file.ends_with(".rs [should pass]"))
     {
         if result == "ok" {
@@ -166,11 +167,12 @@ mod tests {
         check(
             "test ui/wrong_type.rs ... ok\n\
              test \u{1b}[0m\u{1b}[1mui/b.rs\u{1b}[0m [should pass] ... \u{1b}[32mok\u{1b}[0m\n\
+             \u{1b}[0mtest \u{1b}[0m\u{1b}[1mui/d.rs\u{1b}[0m ... \u{1b}[0m\u{1b}[32mok\n\
              test ui/c.rs ... mismatch\n\
              test module::name ... ok\n\
              test src/lib.rs - Thing (line 3) ... ok\n\
              test result: ok. 1 passed; 0 failed; 0 ignored\n",
-            3,
+            4,
             1,
             0,
         );
