@@ -28,6 +28,7 @@ use core::fmt;
 use crate::{Access, Address, DataType, Diagnostic, Group, Kind, ObjectCode, Span, Spanned};
 
 mod apply;
+mod count;
 mod find;
 mod raw;
 

@@ -1,14 +1,13 @@
 //! Edits applied: strictly, in their order, with a finding for each that cannot be.
 
-use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::count::{count_members, count_sections, counted, counts_sections};
 use super::{Action, Change, Edit, Raw, Target, finding, missing};
 use crate::{
-    Access, DataType, Description, Diagnostic, EntryDescription, ObjectDescription, Span, Spanned,
-    Value,
+    DataType, Description, Diagnostic, EntryDescription, ObjectDescription, Span, Spanned, Value,
 };
 
 /// Applies the edits in their order and returns what was wrong with them.
@@ -38,40 +37,6 @@ pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Diagnostic> {
         }
     }
     findings
-}
-
-/// The objects that get or lose members and whose sub-index 0 follows, with the place
-/// of the last edit that makes it.
-fn counted(description: &Description, edits: &[Edit]) -> BTreeMap<u16, Span> {
-    let mut counted = BTreeMap::new();
-    for edit in edits {
-        let index = edit.target.index;
-        let follows = match (edit.action, description.objects.get(&index)) {
-            (Action::Modify, _) => false,
-            (_, None) => true,
-            (_, Some(object)) => edit.target.sub.is_some() && is_counted(object),
-        };
-        if follows {
-            counted.insert(index, edit.target.span);
-        }
-    }
-    for edit in edits.iter().filter(|edit| edit.target.sub == Some(0)) {
-        counted.remove(&edit.target.index);
-    }
-    counted
-}
-
-/// Does sub-index 0 hold the highest sub-index?
-fn is_counted(object: &ObjectDescription) -> bool {
-    let highest = object.entries.keys().next_back().copied();
-    let count = object
-        .entries
-        .get(&0)
-        .and_then(|entry| entry.default.as_ref());
-    match (count.map(|count| &count.value), highest) {
-        (Some(Value::Unsigned(count)), Some(highest)) => *count == u64::from(highest),
-        _ => false,
-    }
 }
 
 fn remove(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnostic>) {
@@ -377,35 +342,4 @@ fn value_of_container(at: Span, target: Target, change: &Change) -> Diagnostic {
         "name the member, for example `0x{:04X}sub1`",
         target.index
     ))
-}
-
-/// Makes sub-index 0 hold the highest sub-index, and be there.
-fn count_members(object: &mut ObjectDescription, span: Span) {
-    if !object.code.has_members() {
-        return;
-    }
-    let highest = object.entries.keys().next_back().copied().unwrap_or(0);
-    let entry = object.entries.entry(0).or_insert_with(|| {
-        let mut entry = EntryDescription::new("Highest sub-index supported", DataType::Unsigned8);
-        entry.access = Spanned::new(Access::Const, span);
-        entry.span = span;
-        entry
-    });
-    entry.default = Some(Spanned::new(Value::Unsigned(u64::from(highest)), span));
-}
-
-/// Is SubNumber the number of sub-indices?
-fn counts_sections(object: &ObjectDescription) -> bool {
-    let number = object
-        .sub_number
-        .as_ref()
-        .map(|number| number.value as usize);
-    number == Some(object.entries.len())
-}
-
-fn count_sections(object: &mut ObjectDescription, counted: bool) {
-    if let (Some(number), true) = (&mut object.sub_number, counted) {
-        // At most 256 sub-indices.
-        number.value = object.entries.len() as u32;
-    }
 }
