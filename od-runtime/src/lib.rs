@@ -76,6 +76,7 @@ mod error_control;
 mod fifo;
 mod frame;
 mod ids;
+mod limits;
 mod lss;
 mod node;
 mod objects;

@@ -144,3 +144,16 @@ fn storage_that_fails_says_so_and_keeps_the_last_set() {
     cycle(&mut bench);
     assert_eq!(values(&bench), [9, 9, 9]);
 }
+
+#[test]
+fn a_stored_value_that_the_object_cannot_have_is_left_out() {
+    let mut bench = bench();
+    change(&mut bench, 9);
+    // 2006h is a BOOLEAN: a damaged device saves a 2.
+    let slot = bench.entry(od_model::Address::new(0x2006, 0)).slot;
+    bench.values[slot.offset as usize] = 2;
+    command(&mut bench, "10", 1);
+    cycle(&mut bench);
+    assert_eq!(bench.value(0x2006, 0), 0);
+    assert_eq!(values(&bench), [9, 9, 9], "the rest is loaded");
+}

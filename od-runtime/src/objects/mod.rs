@@ -1,11 +1,11 @@
 //! The one way to read and write an object: SDO server and RPDOs come through here.
 
 mod communication;
-mod limits;
 
 use od_model::{Address, Dictionary, Entry, Missing};
 
 use crate::fifo::Fifo;
+use crate::limits::{self, Outside};
 use crate::storage::Storage;
 use crate::{AbortCode, Application, Context, Instant, NodeId, Profile, Reset, Signals, Store};
 
@@ -191,7 +191,7 @@ impl<'c> Objects<'c> {
         if let Some(signature) = communication::command(address) {
             return self.command(entry, signature, bytes);
         }
-        limits::check(&self.store, self.profile, entry, bytes)?;
+        limits::check(&self.store, entry, bytes).map_err(|outside| self.refusal(outside))?;
         if address.index < 0x2000 {
             self.check_communication(entry, bytes)?;
         }
@@ -203,6 +203,16 @@ impl<'c> Objects<'c> {
         self.application(|application, context| application.written(context, address));
         self.effect(Effect::Written(address));
         Ok(())
+    }
+
+    /// How an SDO is told that a value is out of its limits.
+    fn refusal(&self, outside: Outside) -> AbortCode {
+        match outside {
+            Outside::Above => AbortCode::ValueTooHigh,
+            Outside::Below => self.profile.sdo.below_limit,
+            Outside::NotAllowed => AbortCode::ValueRange,
+            Outside::Length => AbortCode::Length,
+        }
     }
 
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.

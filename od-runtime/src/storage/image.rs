@@ -19,10 +19,10 @@
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
-use od_model::{Dictionary, Entry, Group, Kind, Literal};
+use od_model::{Dictionary, Entry, Group, Literal};
 
 use super::{Storage, StorageError};
-use crate::Store;
+use crate::{Store, limits};
 
 mod bank;
 mod merge;
@@ -117,7 +117,7 @@ pub fn load(
             Some(entry) if record.len <= MAX_VALUE => {
                 let value = &mut value[..record.len];
                 storage.read(record.at, value)?;
-                if !is_in_limits(store, entry, value) || store.put(entry, value).is_err() {
+                if limits::check(store, entry, value).is_err() || store.put(entry, value).is_err() {
                     skipped = skipped.saturating_add(1);
                 }
             }
@@ -188,22 +188,6 @@ pub fn erase(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<()
         };
         if goes { Fate::Drop } else { Fate::Keep }
     })
-}
-
-/// Does a value of the right length lie in the entry's limits?
-fn is_in_limits(store: &Store<'_>, entry: &Entry, value: &[u8]) -> bool {
-    use od_model::typed::Scalar;
-    let number = match entry.data_type.kind() {
-        Kind::Unsigned | Kind::Boolean => i128::from(u64::from_wire(value)),
-        Kind::Signed => i128::from(i64::from_wire(value)),
-        _ => return true,
-    };
-    let node_id = store.node_id().raw();
-    entry.low.integer(node_id).is_none_or(|low| number >= low)
-        && entry
-            .high
-            .integer(node_id)
-            .is_none_or(|high| number <= high)
 }
 
 #[cfg(test)]
