@@ -1,1 +1,3 @@
-//! odkit.
+//! What the tests of odkit share.
+
+pub mod scripts;

@@ -1,6 +1,7 @@
 //! Every script under `tests/conformance` runs, and everything it expects holds.
 //!
 //! A new case is a new file. `odkit run --echo tests/conformance/…/x.script` shows its frames.
+//! A script with a line `# Devices: a b` and no `device` line is played on each of them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,21 +13,24 @@ use od_devices::sim::script::{Bare, Host, Origin, Script, run};
 use od_devices::sim::{EdsOptions, VirtualDevice};
 use od_model::eds;
 use od_runtime::{Frame, NodeId};
+use od_tests::scripts::{self, Header};
 
 /// The built-in devices, and EDS files beside the script.
-struct Bench {
+struct Bench<'a> {
     folder: PathBuf,
+    /// What a script without a `device` line runs on.
+    device: Option<&'a str>,
     trace: String,
 }
 
-impl Host for Bench {
+impl Host for Bench<'_> {
     fn device(
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, String> {
         let Some(file) = name.filter(|name| name.contains('.')) else {
-            return Bare.device(name, node_id);
+            return Bare.device(name.or(self.device), node_id);
         };
         let path = self.folder.join(file);
         let bytes = fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -45,7 +49,7 @@ impl Host for Bench {
     }
 }
 
-/// Runs a script; the answer is its trace, or what is wrong with it.
+/// Runs a script on each of its devices; the answer is its trace, or what is wrong with it.
 fn check(path: &Path, text: &str) -> Result<String, String> {
     let script = Script::parse(text).map_err(|problems| {
         problems
@@ -57,16 +61,29 @@ fn check(path: &Path, text: &str) -> Result<String, String> {
     if script.expectations() == 0 {
         return Err("the script expects nothing".into());
     }
-    let comment = text.lines().next().unwrap_or_default();
-    if !comment.starts_with("# ") {
-        return Err("the first line is a comment that names the object or chapter".into());
+    let header = Header::parse(text)?;
+    let names_device = text.lines().any(|line| line.starts_with("device "));
+    match (names_device, header.devices.is_empty()) {
+        (true, true) => play(path, &script, None),
+        (false, false) => {
+            let mut traces = String::new();
+            for device in &header.devices {
+                traces += &play(path, &script, Some(device))
+                    .map_err(|what| format!("on {device}: {what}"))?;
+            }
+            Ok(traces)
+        }
+        _ => Err("the script has either a `device` line or a `# Devices:` line".into()),
     }
-    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+}
+
+fn play(path: &Path, script: &Script, device: Option<&str>) -> Result<String, String> {
     let mut bench = Bench {
-        folder,
+        folder: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+        device,
         trace: String::new(),
     };
-    match run(&script, &mut bench) {
+    match run(script, &mut bench) {
         Ok(_) => Ok(bench.trace),
         Err(stop) => {
             let tail: Vec<_> = bench.trace.lines().rev().take(6).collect();
@@ -80,41 +97,18 @@ fn check(path: &Path, text: &str) -> Result<String, String> {
     }
 }
 
-fn scripts(folder: &Path, found: &mut Vec<PathBuf>) {
-    let entries = fs::read_dir(folder).expect("the folder of the conformance scripts");
-    for entry in entries {
-        let path = entry.expect("an entry of the folder").path();
-        if path.is_dir() {
-            scripts(&path, found);
-        } else if path
-            .extension()
-            .is_some_and(|extension| extension == "script")
-        {
-            found.push(path);
-        }
-    }
-}
-
 /// Runs the scripts whose path contains one of the words on the command line, each twice.
 fn main() -> ExitCode {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance");
     let words: Vec<String> = std::env::args()
         .skip(1)
         .filter(|arg| !arg.starts_with('-'))
         .collect();
-    let mut paths = Vec::new();
-    scripts(&root, &mut paths);
-    paths.sort();
-    let all = paths.len();
+    let files = scripts::all();
+    let all = files.len();
     assert!(all >= 25, "{all} scripts are left of more than 70");
     let start = Instant::now();
     let (mut passed, mut failed) = (0, 0);
-    for path in &paths {
-        let name = path
-            .strip_prefix(&root)
-            .unwrap_or(path)
-            .display()
-            .to_string();
+    for scripts::File { name, path } in &files {
         if !words.is_empty() && !words.iter().any(|word| name.contains(word)) {
             continue;
         }
