@@ -116,6 +116,7 @@ pub(crate) const fn kind(
         dictionary,
         profile: &PROFILE,
         encoder: &ENCODER,
+        channels: 1,
     }
 }
 

@@ -17,10 +17,13 @@
 extern crate std;
 
 pub mod bus_cover;
+pub mod eam;
+pub mod en580c;
 #[cfg(feature = "sim")]
 pub mod sim;
 
 use bus_cover::gxmm;
+use eam::eam_mt;
 use od_model::Dictionary;
 use od_runtime::Profile;
 use od_runtime::encoder::{Encoder, EncoderProfile};
@@ -38,6 +41,9 @@ pub struct DeviceKind {
     pub profile: &'static Profile,
     /// What its family does differently from CiA 406.
     pub encoder: &'static EncoderProfile,
+    /// Channels on its shaft: nodes of their own on one bus, all of this kind. 2 in a
+    /// redundant encoder, else 1.
+    pub channels: u8,
 }
 
 impl DeviceKind {
@@ -65,6 +71,28 @@ pub const DEVICES: &[DeviceKind] = &[
         "GBAM, multivoPlus singleturn",
         gxmm::gbam::DICTIONARY,
     ),
+    eam::kind(
+        "eam_mt",
+        "EAM, magnetic multiturn",
+        eam_mt::DICTIONARY,
+        &eam::ENCODER,
+        1,
+    ),
+    eam::kind(
+        "eam_st",
+        "EAM, magnetic singleturn",
+        eam_mt::eam_st::DICTIONARY,
+        &eam::SINGLETURN,
+        1,
+    ),
+    eam::kind(
+        "eam_red",
+        "EAM, magnetic multiturn, redundant",
+        eam_mt::eam_red::DICTIONARY,
+        &eam::REDUNDANT,
+        2,
+    ),
+    en580c::kind("en580c", "EN580C, optical multiturn"),
 ];
 
 /// The device with this name, in any case.

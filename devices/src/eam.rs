@@ -1,0 +1,183 @@
+//! Magnetic encoders EAM: multiturn, singleturn, and the redundant version.
+//!
+//! Source: manual 001, chapters 4 to 12; `DECISIONS.md`, parts B and E, where it contradicts
+//! itself or is silent. The dictionary says what the objects are; the profiles here say what
+//! the manual has the family do differently from CiA 301 and CiA 406.
+//!
+//! The redundant version is two channels on one shaft, behind one connector: two nodes, each
+//! with electronics, battery, memory and serial number of its own (chapter 4.5).
+
+use od_model::{Address, Dictionary};
+use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
+use od_runtime::{
+    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+};
+
+use crate::DeviceKind;
+
+od_macros::object_dictionary! {
+    /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 show by default, and 18 bits
+    /// of revolutions.
+    ///
+    /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
+    /// (`Encoder::with_serial_number`).
+    pub mod eam_mt {
+        eds = "../eds/EAM_MT.eds";
+        profile = cia406;
+
+        /// `EAMxxx ST`, singleturn (C-EAM-16).
+        variant eam_st {
+            modify 0x1000 { default = 0x0001_0196 }
+            modify 0x1008 { default = "EAMxxx ST" }
+            modify 0x1018sub2 { default = 0x71 }
+            modify 0x6002 { default = 0x4000 }
+            modify 0x6502 { default = 1 }
+        }
+
+        /// One channel of the redundant `EAMxxx MT`: without electronic gear, which is for
+        /// encoders that are not redundant.
+        variant eam_red {
+            remove 0x2001;
+        }
+    }
+}
+
+/// A device of the family.
+pub(crate) const fn kind(
+    name: &'static str,
+    title: &'static str,
+    dictionary: Dictionary<'static>,
+    encoder: &'static EncoderProfile,
+    channels: u8,
+) -> DeviceKind {
+    DeviceKind {
+        name,
+        title,
+        dictionary,
+        profile: &PROFILE,
+        encoder,
+        channels,
+    }
+}
+
+/// What the services do differently: chapters 5 to 11.
+pub static PROFILE: Profile = Profile {
+    sdo: SdoProfile {
+        min_dlc: 8,
+        // The list of abort codes has none for lengths; CiA's general one (U-16).
+        length: LengthRule {
+            too_long: Some(AbortCode::Length),
+            too_short: AbortCode::Length,
+        },
+        // Segmented for reading (chapter 6.1).
+        segmented: true,
+        block: false,
+        // Of the two codes for values, the one that is not "too great" (U-05).
+        below_limit: AbortCode::ValueRange,
+        // U-10.
+        unused_error: Some(AbortCode::NoData),
+    },
+    pdo: PdoProfile {
+        // Chapter 7.2.
+        tpdo_types: &[(1, 240), (253, 255)],
+        event_on_change: false,
+        // A new COB-ID acts at once (chapter 7.3).
+        direct_cob_id: true,
+        repeat_counter: None,
+    },
+    store: StoreProfile {
+        // Chapter 6.3.2.
+        restore: Restore::AfterReset,
+        failed: AbortCode::LocalControl,
+    },
+    // Chapter 11: index 5 is reserved by CiA 305.
+    lss: Some(LssProfile {
+        stopped_only: true,
+        node_id: Address::new(0x2101, 0),
+        bit_rate: Address::new(0x2100, 0),
+        bit_rates: &[
+            Some(8),
+            Some(7),
+            Some(6),
+            Some(5),
+            Some(4),
+            None,
+            Some(2),
+            Some(1),
+            Some(0),
+        ],
+        // Chapter 14: not implemented (C-EAM-22).
+        identify_remote: false,
+        non_configured: true,
+        fastscan: true,
+        inquire_node_id: true,
+    }),
+    guarding_switch: None,
+    // Chapters 5.1.1 and 5.1.2.
+    reset_node_us: 170_000,
+    reset_communication_us: 5_000,
+};
+
+const SENSOR: Sensor = Sensor {
+    steps: 0x1_0000,
+    turns: 0x4_0000,
+};
+
+const BASE: EncoderProfile = EncoderProfile {
+    sensor: Some(SENSOR),
+    total: Total::Revolutions,
+    signed_offset: true,
+    // 6002h = 0 stands for 2^32 steps.
+    zero_is_full: true,
+    operating_bits: 0x0005,
+    below_limit: AbortCode::ValueRange,
+    lists: &[
+        // C-X-16.
+        (Address::new(0x1029, 1), &[0, 1, 2]),
+        (Address::new(0x1029, 2), &[0, 1, 2]),
+        (Address::new(0x1029, 3), &[0, 1, 2]),
+        // C-EAM-34.
+        (Address::new(0x1F80, 0), &[0, 8]),
+        (Address::new(0x2001, 1), &[1, 2]),
+        (Address::new(0x6041, 1), &[1, 2]),
+    ],
+    options: None,
+    node_id: Some(0x2101),
+    bit_rate: Some(0x2100),
+    bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
+    // There are no switches.
+    switch_rates: &[],
+    seconds: None,
+    // C-EAM-11: not supported.
+    operating_time: false,
+    reports: &[
+        Report {
+            fault: Fault::Battery,
+            code: 0xFF00,
+            register: 0,
+            alarm: 0,
+            warning: 0x0010,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Watchdog,
+            code: 0x6100,
+            register: 0,
+            alarm: 0,
+            warning: 0x0004,
+            counter: None,
+        },
+    ],
+};
+
+/// How the multiturn encoder works: chapters 4.4, 9 and 12.3.
+pub static ENCODER: EncoderProfile = BASE;
+
+/// How the singleturn encoder works.
+pub static SINGLETURN: EncoderProfile = EncoderProfile {
+    sensor: Some(Sensor { turns: 1, ..SENSOR }),
+    ..BASE
+};
+
+/// How one channel of the redundant encoder works (chapter 9.2).
+pub static REDUNDANT: EncoderProfile = BASE;

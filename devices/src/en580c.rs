@@ -1,0 +1,165 @@
+//! The optical encoder EN580C: multiturn, electronic gear, endless mode.
+//!
+//! Source: manual 003, chapters 5 to 7; `DECISIONS.md`, parts C and E, where it contradicts
+//! itself or is silent. The dictionary says what the objects are; the two profiles here say
+//! what the manual has the device do differently from CiA 301 and CiA 406.
+
+use od_model::Address;
+use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
+use od_runtime::{
+    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+};
+
+use crate::DeviceKind;
+
+od_macros::object_dictionary! {
+    /// `EN580C_M`: 24 bits a revolution, of which 6001h takes 21, and 16 bits of revolutions.
+    ///
+    /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one
+    /// (`Encoder::with_serial_number`).
+    pub mod en580c {
+        eds = "../eds/EN580C.eds";
+        profile = cia406;
+    }
+}
+
+/// The device.
+pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind {
+    DeviceKind {
+        name,
+        title,
+        dictionary: en580c::DICTIONARY,
+        profile: &PROFILE,
+        encoder: &ENCODER,
+        channels: 1,
+    }
+}
+
+/// What the services do differently: chapter 5.1.
+pub static PROFILE: Profile = Profile {
+    sdo: SdoProfile {
+        min_dlc: 8,
+        // The list of abort codes has one for both (C-X-17).
+        length: LengthRule {
+            too_long: Some(AbortCode::Length),
+            too_short: AbortCode::Length,
+        },
+        // Segmented for reading (chapter 5.1.3).
+        segmented: true,
+        block: false,
+        below_limit: AbortCode::ValueTooLow,
+        unused_error: Some(AbortCode::NoData),
+    },
+    pdo: PdoProfile {
+        // Chapter 5.1.4.1.
+        tpdo_types: &[(1, 240), (254, 255)],
+        event_on_change: false,
+        // Chapter 5.1.4.2: at once.
+        direct_cob_id: true,
+        repeat_counter: None,
+    },
+    store: StoreProfile {
+        // C-EN-05.
+        restore: Restore::AfterReset,
+        failed: AbortCode::Hardware,
+    },
+    // Chapter 5.1.8; 10 and 20 kbit/s are not supported (C-EN-19).
+    lss: Some(LssProfile {
+        stopped_only: true,
+        node_id: Address::new(0x2101, 0),
+        bit_rate: Address::new(0x2100, 0),
+        bit_rates: &[
+            Some(8),
+            Some(7),
+            Some(6),
+            Some(5),
+            Some(4),
+            None,
+            Some(2),
+            None,
+            None,
+        ],
+        identify_remote: false,
+        non_configured: false,
+        fastscan: true,
+        inquire_node_id: true,
+    }),
+    guarding_switch: None,
+    // Chapters 5.1.5.1 and 5.1.5.2 say less than a second.
+    reset_node_us: 500_000,
+    reset_communication_us: 500_000,
+};
+
+/// How the encoder works: chapters 5.1.12, 5.2 and 6.
+pub static ENCODER: EncoderProfile = EncoderProfile {
+    sensor: Some(Sensor {
+        steps: 0x100_0000,
+        turns: 0x1_0000,
+    }),
+    total: Total::Revolutions,
+    signed_offset: true,
+    zero_is_full: false,
+    operating_bits: 0x0005,
+    below_limit: AbortCode::ValueTooLow,
+    lists: &[
+        // C-X-16.
+        (Address::new(0x1029, 1), &[0, 1, 2]),
+        (Address::new(0x1029, 2), &[0, 1, 2]),
+        (Address::new(0x1029, 3), &[0, 1, 2]),
+        (Address::new(0x1F80, 0), &[0, 8]),
+        (Address::new(0x2001, 1), &[0, 1]),
+        (Address::new(0x6031, 1), &[1, 2]),
+        (Address::new(0x6041, 1), &[1, 2]),
+    ],
+    options: None,
+    node_id: Some(0x2101),
+    bit_rate: Some(0x2100),
+    bit_rates: &[0, 0, 50, 100, 125, 250, 500, 800, 1000],
+    // C-EN-29: the table of the bus cover, without what the device does not have.
+    switch_rates: &[0, 0, 50, 125, 250, 500, 800, 1000],
+    seconds: Some(Address::new(0x2A00, 2)),
+    operating_time: true,
+    // Codes and bits of the bus cover (U-09, U-08).
+    reports: &[
+        Report {
+            fault: Fault::Position,
+            code: 0x7320,
+            register: 0x81,
+            alarm: 0x0001,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Internal,
+            code: 0x7510,
+            register: 0x81,
+            alarm: 0,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Memory,
+            code: 0x5530,
+            register: 0x01,
+            alarm: 0,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Watchdog,
+            code: 0x6010,
+            register: 0x01,
+            alarm: 0,
+            warning: 0,
+            counter: None,
+        },
+        Report {
+            fault: Fault::Battery,
+            code: 0xFF00,
+            register: 0x81,
+            alarm: 0,
+            warning: 0x0010,
+            counter: None,
+        },
+    ],
+};
