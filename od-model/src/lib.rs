@@ -38,6 +38,8 @@ mod description;
 #[cfg(feature = "eds")]
 mod diagnostic;
 #[cfg(feature = "eds")]
+pub mod diff;
+#[cfg(feature = "eds")]
 pub mod eds;
 #[cfg(feature = "eds")]
 pub mod patch;
