@@ -4,7 +4,9 @@
 //! writes to a pipe that may close, [`report`] shows diagnostics.
 
 mod check;
+mod diff;
 mod dump;
+mod live;
 mod output;
 mod report;
 mod run;
@@ -31,6 +33,7 @@ enum Command {
     Run(run::Args),
     Check(check::Args),
     Dump(dump::Args),
+    Diff(diff::Args),
 }
 
 /// Why a subcommand did not do what it was asked for.
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Dump(args) => dump::run(&args),
+        Command::Diff(args) => diff::run(&args),
     };
     let (message, code) = match result {
         Ok(()) => return ExitCode::SUCCESS,

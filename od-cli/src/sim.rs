@@ -1,7 +1,7 @@
 //! `odkit sim`: a live node that masters reach over slcan on TCP.
 
 mod clients;
-mod slcan;
+pub(crate) mod slcan;
 
 use std::collections::BTreeMap;
 use std::io::ErrorKind;

@@ -67,17 +67,7 @@ impl Channel {
         if !self.open {
             return;
         }
-        let id = frame.id();
-        let kind = match (frame.is_remote(), id.is_extended()) {
-            (false, false) => 't',
-            (false, true) => 'T',
-            (true, false) => 'r',
-            (true, true) => 'R',
-        };
-        out.extend_from_slice(format!("{kind}{id}{}", frame.dlc()).as_bytes());
-        for byte in frame.data() {
-            out.extend_from_slice(format!("{byte:02X}").as_bytes());
-        }
+        write_frame(frame, out);
         if self.time_stamps {
             out.extend_from_slice(format!("{:04X}", millis % 60_000).as_bytes());
         }
@@ -130,6 +120,29 @@ impl Channel {
         };
         reply.extend_from_slice(answer);
         None
+    }
+}
+
+/// A frame as a line without its CR.
+pub(crate) fn write_frame(frame: &Frame, out: &mut Vec<u8>) {
+    let id = frame.id();
+    let kind = match (frame.is_remote(), id.is_extended()) {
+        (false, false) => 't',
+        (false, true) => 'T',
+        (true, false) => 'r',
+        (true, true) => 'R',
+    };
+    out.extend_from_slice(format!("{kind}{id}{}", frame.dlc()).as_bytes());
+    for byte in frame.data() {
+        out.extend_from_slice(format!("{byte:02X}").as_bytes());
+    }
+}
+
+/// The frame of a line without its CR, if it is one.
+pub(crate) fn frame_of(line: &[u8]) -> Option<Frame> {
+    match line {
+        [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => parse_frame(*kind, rest),
+        _ => None,
     }
 }
 

@@ -1,0 +1,112 @@
+//! `odkit diff`: what two dictionaries say differently, or a file and a device on a bus.
+
+mod device;
+mod show;
+
+use od_model::diff::{Difference, Impact, compare};
+use od_model::{Dictionary, Tables, eds};
+use od_runtime::NodeId;
+
+use crate::source::{self, Source};
+use crate::{Failure, live};
+
+/// Compare two object dictionaries, or one with a device on a bus
+///
+/// What stands in the second alone is added, what stands in the first alone is removed. A
+/// difference breaks where a master that was set up for the first may fail with the second.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Built-in device, or EDS or DCF file
+    #[arg(value_name = "DEVICE|FILE")]
+    before: String,
+    /// What it is compared with
+    #[arg(
+        value_name = "DEVICE|FILE",
+        required_unless_present = "live",
+        conflicts_with = "live"
+    )]
+    after: Option<String>,
+    /// Compare with the device on this bus: slcan:HOST:PORT
+    #[arg(long, value_name = "LINK")]
+    live: Option<String>,
+    /// Node ID of the device on the bus
+    #[arg(long, value_name = "ID", default_value = "1", value_parser = source::node_id, requires = "live")]
+    node_id: NodeId,
+    /// Also list values on the device that are not the defaults
+    #[arg(long, requires = "live")]
+    values: bool,
+    /// How to show it
+    #[arg(long, value_enum, default_value = "text")]
+    format: show::Format,
+    /// Exit code 1 if there is such a difference
+    #[arg(long, value_enum, value_name = "WHAT")]
+    fail_on: Option<FailOn>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum FailOn {
+    /// Something that a master may fail over
+    Breaking,
+    /// Anything at all
+    Any,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let before = Loaded::find(&args.before)?;
+    let (found, titles) = match (&args.after, &args.live) {
+        (Some(after), _) => {
+            let loaded = Loaded::find(after)?;
+            let found = compare(before.dictionary(), loaded.dictionary());
+            (found, [args.before.clone(), after.clone()])
+        }
+        (None, Some(link)) => {
+            let mut open = live::open(link)?;
+            let mut client = live::Client::new(&mut *open, args.node_id);
+            let found = device::compare(before.dictionary(), &mut client, args)?;
+            let title = format!("node {} on {link}", args.node_id.raw());
+            (found, [args.before.clone(), title])
+        }
+        // The argument parser asks for one of them.
+        (None, None) => (Vec::new(), [args.before.clone(), String::new()]),
+    };
+    show::print(args.format, &titles, &found)?;
+    let fails = |difference: &Difference| match args.fail_on {
+        Some(FailOn::Any) => true,
+        Some(FailOn::Breaking) => difference.impact == Impact::Breaking,
+        None => false,
+    };
+    if found.iter().any(fails) {
+        return Err(Failure::Reported(1));
+    }
+    Ok(())
+}
+
+/// A dictionary, wherever it comes from.
+enum Loaded {
+    Compiled(Dictionary<'static>),
+    File(Box<Tables>),
+}
+
+impl Loaded {
+    fn find(name: &str) -> Result<Self, Failure> {
+        match Source::find(name)? {
+            Source::BuiltIn(kind) => Ok(Self::Compiled(kind.dictionary)),
+            Source::File { path, text } => {
+                let tables = Tables::new(&eds::parse(&text).description);
+                if tables.objects().is_empty() {
+                    return Err(Failure::Failed(format!(
+                        "{path} describes no object; is it an EDS or DCF file?"
+                    )));
+                }
+                Ok(Self::File(Box::new(tables)))
+            }
+        }
+    }
+
+    fn dictionary(&self) -> Dictionary<'_> {
+        match self {
+            Self::Compiled(dictionary) => *dictionary,
+            Self::File(tables) => tables.dictionary(),
+        }
+    }
+}

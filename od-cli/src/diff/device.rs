@@ -1,0 +1,140 @@
+//! A dictionary against a device on a bus: what it has, what it answers.
+
+use od_devices::sim::values;
+use od_model::diff::{Difference, Field, Impact};
+use od_model::{Access, Address, Dictionary, Entry, Object};
+use od_runtime::AbortCode;
+
+use super::Args;
+use crate::Failure;
+use crate::live::Client;
+
+/// Reads every object that can be read. What a device has besides them cannot be told from
+/// what it has not without asking for all 65,536, so nothing is ever "added" here.
+pub(super) fn compare(
+    dictionary: Dictionary<'_>,
+    client: &mut Client<'_>,
+    args: &Args,
+) -> Result<Vec<Difference>, Failure> {
+    let mut found = Vec::new();
+    for object in dictionary.objects() {
+        for entry in dictionary.members(object) {
+            if !entry.access.readable() {
+                continue;
+            }
+            let (field, before, after, impact) = match client.upload(entry.address)? {
+                Ok(bytes) => match value(dictionary, entry, &bytes, args) {
+                    Some(difference) => difference,
+                    None => continue,
+                },
+                Err(code) if code == AbortCode::NoObject.code() => {
+                    let has = format!("{} {}", object.code.name(), entry.data_type.name());
+                    found.push(at(
+                        dictionary,
+                        object,
+                        entry.address,
+                        (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
+                    ));
+                    break;
+                }
+                Err(code) if code == AbortCode::NoSubIndex.code() => (
+                    Field::EntryRemoved,
+                    format!("{} {}", entry.data_type.name(), entry.access.name()),
+                    String::new(),
+                    Impact::Breaking,
+                ),
+                Err(code) if code == AbortCode::WriteOnly.code() => (
+                    Field::Access,
+                    entry.access.name().into(),
+                    Access::Wo.name().into(),
+                    Impact::Breaking,
+                ),
+                // No error is logged, no data is there now: nothing is said of the object.
+                Err(code) if code == AbortCode::NoData.code() => continue,
+                Err(code) => (
+                    Field::Access,
+                    entry.access.name().into(),
+                    match AbortCode::from_code(code) {
+                        Some(code) => format!("abort {code}"),
+                        None => format!("abort {code:08X}h"),
+                    },
+                    Impact::Breaking,
+                ),
+            };
+            found.push(at(
+                dictionary,
+                object,
+                entry.address,
+                (field, before, after, impact),
+            ));
+        }
+    }
+    Ok(found)
+}
+
+type What = (Field, String, String, Impact);
+
+fn at(dictionary: Dictionary<'_>, object: &Object, address: Address, what: What) -> Difference {
+    let (field, before, after, impact) = what;
+    let whole = field == Field::ObjectRemoved || !object.code.has_members();
+    let name = match dictionary.find(address) {
+        Ok(entry) if field != Field::ObjectRemoved => entry.name,
+        _ => object.name,
+    };
+    Difference {
+        index: address.index,
+        sub: (!whole).then_some(address.sub),
+        name: dictionary.text(name).into(),
+        field,
+        before,
+        after,
+        impact,
+    }
+}
+
+/// What a value that was read says: its length, and what it is where it should not change.
+fn value(dictionary: Dictionary<'_>, entry: &Entry, bytes: &[u8], args: &Args) -> Option<What> {
+    let data_type = entry.data_type;
+    if data_type.size().is_some_and(|size| size != bytes.len()) {
+        return Some((
+            Field::DataType,
+            data_type.name().into(),
+            format!("{} bytes: {}", bytes.len(), values::hex(bytes)),
+            Impact::Breaking,
+        ));
+    }
+    let default = default_bytes(dictionary, entry, args)?;
+    // Serial numbers are each device's own; what a master can write, and what the device
+    // measures, differs for good reasons.
+    let is_fixed = match (entry.address.index, entry.address.sub) {
+        (0x1000, 0) | (0x1018, 0..=3) | (0x1008..=0x100A, 0) => true,
+        _ => entry.access == Access::Const,
+    };
+    if default == bytes || !(is_fixed || args.values) {
+        return None;
+    }
+    let breaks = matches!(
+        (entry.address.index, entry.address.sub),
+        (0x1000, 0) | (0x1018, 1 | 2)
+    );
+    Some((
+        Field::Default,
+        values::show(data_type, &default),
+        values::show(data_type, bytes),
+        if breaks {
+            Impact::Breaking
+        } else {
+            Impact::Compatible
+        },
+    ))
+}
+
+/// The default as it would go over the bus; `None` where the dictionary gives none.
+fn default_bytes(dictionary: Dictionary<'_>, entry: &Entry, args: &Args) -> Option<Vec<u8>> {
+    if let Some(number) = entry.default.integer(args.node_id.raw()) {
+        let size = entry.data_type.size()?;
+        return Some(number.to_le_bytes().get(..size)?.to_vec());
+    }
+    let bytes = dictionary.literal_bytes(entry.default);
+    (!bytes.is_empty()).then(|| bytes.to_vec())
+}
