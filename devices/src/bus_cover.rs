@@ -9,7 +9,9 @@
 use od_model::{Address, Dictionary};
 use od_runtime::encoder::{EncoderProfile, Fault, Options, Report, Total};
 use od_runtime::{
-    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
+    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
+    SdoProfile, StoreProfile,
 };
 
 use crate::DeviceKind;
@@ -132,12 +134,15 @@ pub static PROFILE: Profile = Profile {
             too_short: AbortCode::General,
         },
         // The list of commands has the expedited ones alone.
-        segmented: false,
+        segmented_upload: false,
+        segmented_download: false,
         block: false,
         // Of the two codes for values, the one that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // An entry of 1003h without an error reads 0 (U-10).
         unused_error: None,
+        // The mapping is read only.
+        mapping_in_use: AbortCode::UnsupportedAccess,
     },
     pdo: PdoProfile {
         // 1800h:02: every n-th SYNC, or cyclic by the event timer.
@@ -146,11 +151,19 @@ pub static PROFILE: Profile = Profile {
         // A new COB-ID acts at once (U-18).
         direct_cob_id: true,
         repeat_counter: Some(0x2800),
+        // 2110h bit 7, together with bit 6.
+        sync_only: Some((0x2110, 1 << 6 | 1 << 7)),
     },
     store: StoreProfile {
         // 1011h overwrites RAM and makes the EEPROM invalid (C-GX-22).
         restore: Restore::AtOnce,
         failed: AbortCode::LocalControl,
+        answer: SaveAnswer::AfterStoring,
+        duration_us: 0,
+        // U-33.
+        cut: CutSave::LastSet,
+        // A user's value stays absolute (U-04).
+        cob_ids: SavedCobIds::Absolute,
     },
     // Chapter 4.3.7; the table runs opposite to the codes of 2100h (C-GX-36).
     lss: Some(LssProfile {
@@ -172,12 +185,46 @@ pub static PROFILE: Profile = Profile {
         non_configured: false,
         fastscan: false,
         inquire_node_id: false,
+        // Silence for the delay, the new rate afterwards (C-GX-57).
+        second_delay: false,
     }),
     // 2110h bit 5: node guarding takes the place of heartbeat.
     guarding_switch: Some((0x2110, 1 << 5)),
-    // The manual gives no durations (C-X-20).
-    reset_node_us: 0,
-    reset_communication_us: 0,
+    nmt: NmtProfile {
+        // The manual gives no durations (C-X-20).
+        reset_node_us: 0,
+        reset_communication_us: 0,
+        reset_communication: CommunicationReset::Communication,
+        self_start: None,
+        // 2110h bit 10: reset node begins the NMT state anew.
+        reset_node_light: Some((0x2110, 1 << 10)),
+    },
+    // Chapter 4.3.5 and object 1029h; bits of 1001h: U-08.
+    errors: ErrorProfile {
+        lost: Notice {
+            code: 0x8130,
+            register: 0x11,
+        },
+        // The list of codes has none for the CAN controller's states; 1001h names overrun.
+        bus_warning: None,
+        bus_passive: None,
+        bus_off: 0x11,
+        bus_recovered: None,
+        overrun: Some(Notice {
+            code: 0x8110,
+            register: 0x11,
+        }),
+        reset: ErrorReset::EachError,
+        behaviour: &[(1 << 4, 1)],
+        // U-32.
+        operational_only: false,
+        // 2110h bit 3 (U-22).
+        off: BusOffProfile {
+            restart: Some((0x2110, 1 << 3)),
+            boots: false,
+            behaviour_if_off: false,
+        },
+    },
 };
 
 /// How the encoder works: chapters 4.3.5, 4.4.2 and 7.2.

@@ -95,7 +95,11 @@ pub use frame::{CanId, Frame};
 pub use ids::{CobId, NodeId};
 pub use node::{Event, Node};
 pub use objects::Device;
-pub use profile::{LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile};
+pub use profile::{
+    BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule, LssProfile,
+    NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,
+    StoreProfile,
+};
 pub use sdo::crc16;
 pub use store::{Store, StoreTooSmall, TextTooLong};
 pub use time::{Duration, Instant};

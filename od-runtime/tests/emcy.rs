@@ -133,7 +133,7 @@ fn an_emcy_that_waits_goes_out_after_the_boot_up() {
         unsigned(500),
     );
     let mut bench = bench(&[inhibit]);
-    bench.profile.reset_communication_us = 60_000;
+    bench.profile.nmt.reset_communication_us = 60_000;
     bench
         .application
         .raise

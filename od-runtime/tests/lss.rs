@@ -59,6 +59,7 @@ const ALL: LssProfile = LssProfile {
     non_configured: true,
     fastscan: true,
     inquire_node_id: true,
+    second_delay: false,
 };
 
 fn select(bench: &mut Bench<Device>) {

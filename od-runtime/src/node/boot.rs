@@ -44,8 +44,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         reset: Reset,
     ) {
         let delay = match reset {
-            Reset::Node => device.profile.reset_node_us,
-            Reset::Communication => device.profile.reset_communication_us,
+            Reset::Node => device.profile.nmt.reset_node_us,
+            Reset::Communication => device.profile.nmt.reset_communication_us,
             Reset::PowerOn | Reset::Defaults => 0,
         };
         self.sdo.reset();

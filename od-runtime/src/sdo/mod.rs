@@ -136,7 +136,7 @@ impl<const N: usize> Server<N> {
                 self.begin(address);
                 match expedited {
                     Some(bytes) => expedited_download(objects, address, size, &bytes, dlc),
-                    None if !profile.segmented => Err(AbortCode::InvalidCommand),
+                    None if !profile.segmented_download => Err(AbortCode::InvalidCommand),
                     None => self.begin_download(objects, address, size),
                 }
             }
@@ -208,7 +208,7 @@ impl<const N: usize> Server<N> {
         objects: &mut Objects<'_>,
         address: Address,
     ) -> Result<[u8; 8], AbortCode> {
-        let segmented = objects.profile.sdo.segmented;
+        let segmented = objects.profile.sdo.segmented_upload;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
         match *bytes {
