@@ -10,7 +10,9 @@
 use od_model::{Address, Dictionary};
 use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
 use od_runtime::{
-    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
+    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
+    SdoProfile, StoreProfile,
 };
 
 use crate::DeviceKind;
@@ -70,12 +72,15 @@ pub static PROFILE: Profile = Profile {
             too_short: AbortCode::Length,
         },
         // Segmented for reading (chapter 6.1).
-        segmented: true,
+        segmented_upload: true,
+        segmented_download: false,
         block: false,
         // Of the two codes for values, the one that is not "too great" (U-05).
         below_limit: AbortCode::ValueRange,
         // U-10.
         unused_error: Some(AbortCode::NoData),
+        // U-19.
+        mapping_in_use: AbortCode::UnsupportedAccess,
     },
     pdo: PdoProfile {
         // Chapter 7.2.
@@ -84,11 +89,19 @@ pub static PROFILE: Profile = Profile {
         // A new COB-ID acts at once (chapter 7.3).
         direct_cob_id: true,
         repeat_counter: None,
+        sync_only: None,
     },
     store: StoreProfile {
         // Chapter 6.3.2.
         restore: Restore::AfterReset,
         failed: AbortCode::LocalControl,
+        // Chapter 6.3.1; the manual gives no duration, this is one of an EEPROM.
+        answer: SaveAnswer::AfterStoring,
+        duration_us: 50_000,
+        // Chapter 6.3.3 (U-33).
+        cut: CutSave::Factory,
+        // Chapters 7.3 and 8.2 (C-EAM-02).
+        cob_ids: SavedCobIds::Difference,
     },
     // Chapter 11: index 5 is reserved by CiA 305.
     lss: Some(LssProfile {
@@ -111,11 +124,53 @@ pub static PROFILE: Profile = Profile {
         non_configured: true,
         fastscan: true,
         inquire_node_id: true,
+        // As CiA 305 has it.
+        second_delay: true,
     }),
     guarding_switch: None,
-    // Chapters 5.1.1 and 5.1.2.
-    reset_node_us: 170_000,
-    reset_communication_us: 5_000,
+    nmt: NmtProfile {
+        // Chapters 5.1.1 and 5.1.2: at most so long.
+        reset_node_us: 170_000,
+        reset_communication_us: 5_000,
+        // Chapter 5.1.2: what was not saved is lost, whatever object it is.
+        reset_communication: CommunicationReset::Everything,
+        // C-EAM-34.
+        self_start: Some((0x1F80, 1 << 3)),
+        reset_node_light: None,
+    },
+    // Chapters 8.4, 9.3 and 9.5.
+    errors: ErrorProfile {
+        // The row has no bit (C-EAM-20).
+        lost: Notice {
+            code: 0x8130,
+            register: 0,
+        },
+        bus_warning: Some(Notice {
+            code: 0x8100,
+            register: 1 << 4,
+        }),
+        bus_passive: Some(Notice {
+            code: 0x8120,
+            register: 1 << 4,
+        }),
+        bus_off: 1 << 4,
+        // C-EAM-41.
+        bus_recovered: None,
+        // The row has no bit; chapter 8.4.1 has one (C-EAM-20).
+        overrun: Some(Notice {
+            code: 0x8110,
+            register: 1 << 4,
+        }),
+        reset: ErrorReset::LastError,
+        behaviour: &[(1 << 4, 1), (1 << 0, 2), (1 << 3, 3)],
+        operational_only: true,
+        // 2110h bit 3.
+        off: BusOffProfile {
+            restart: Some((0x2110, 1 << 3)),
+            boots: true,
+            behaviour_if_off: true,
+        },
+    },
 };
 
 const SENSOR: Sensor = Sensor {

@@ -7,7 +7,9 @@
 use od_model::Address;
 use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
 use od_runtime::{
-    AbortCode, LengthRule, LssProfile, PdoProfile, Profile, Restore, SdoProfile, StoreProfile,
+    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
+    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
+    SdoProfile, StoreProfile,
 };
 
 use crate::DeviceKind;
@@ -45,10 +47,13 @@ pub static PROFILE: Profile = Profile {
             too_short: AbortCode::Length,
         },
         // Segmented for reading (chapter 5.1.3).
-        segmented: true,
+        segmented_upload: true,
+        segmented_download: false,
         block: false,
         below_limit: AbortCode::ValueTooLow,
         unused_error: Some(AbortCode::NoData),
+        // U-19.
+        mapping_in_use: AbortCode::DeviceState,
     },
     pdo: PdoProfile {
         // Chapter 5.1.4.1.
@@ -57,11 +62,19 @@ pub static PROFILE: Profile = Profile {
         // Chapter 5.1.4.2: at once.
         direct_cob_id: true,
         repeat_counter: None,
+        sync_only: None,
     },
     store: StoreProfile {
         // C-EN-05.
         restore: Restore::AfterReset,
         failed: AbortCode::Hardware,
+        // Chapter 5.1.3.1: within a second, in the background.
+        answer: SaveAnswer::AtOnce,
+        duration_us: 500_000,
+        // U-33.
+        cut: CutSave::Factory,
+        // Chapters 5.1.4.2 and 5.2.2.
+        cob_ids: SavedCobIds::Absolute,
     },
     // Chapter 5.1.8; 10 and 20 kbit/s are not supported (C-EN-19).
     lss: Some(LssProfile {
@@ -83,11 +96,45 @@ pub static PROFILE: Profile = Profile {
         non_configured: false,
         fastscan: true,
         inquire_node_id: true,
+        // C-EN-18.
+        second_delay: true,
     }),
     guarding_switch: None,
-    // Chapters 5.1.5.1 and 5.1.5.2 say less than a second.
-    reset_node_us: 500_000,
-    reset_communication_us: 500_000,
+    nmt: NmtProfile {
+        // Chapters 5.1.5.1 and 5.1.5.2 say less than a second of both.
+        reset_node_us: 500_000,
+        reset_communication_us: 500_000,
+        // Both chapters: what was not saved is lost, whatever object it is.
+        reset_communication: CommunicationReset::Everything,
+        // C-EAM-34.
+        self_start: Some((0x1F80, 1 << 3)),
+        reset_node_light: None,
+    },
+    // Chapter 5.2; codes and bits as the bus cover's (U-08, U-09).
+    errors: ErrorProfile {
+        lost: Notice {
+            code: 0x8130,
+            register: 0x11,
+        },
+        bus_warning: None,
+        bus_passive: None,
+        bus_off: 0x11,
+        bus_recovered: None,
+        overrun: Some(Notice {
+            code: 0x8110,
+            register: 0x11,
+        }),
+        reset: ErrorReset::EachError,
+        behaviour: &[(1 << 4, 1)],
+        // U-32.
+        operational_only: false,
+        // 2110h bit 3 (U-22).
+        off: BusOffProfile {
+            restart: Some((0x2110, 1 << 3)),
+            boots: false,
+            behaviour_if_off: false,
+        },
+    },
 };
 
 /// How the encoder works: chapters 5.1.12, 5.2 and 6.
