@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 use std::vec;
 
 use od_model::{Address, Diagnostic, Dictionary, Entry, Tables, eds};
-use od_runtime::encoder::Encoder;
+use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Memory, Storage, image};
 use od_runtime::wire::nmt::State;
 use od_runtime::{
@@ -12,6 +12,7 @@ use od_runtime::{
     Signals, Store,
 };
 
+use super::eeprom::Eeprom;
 use super::{Led, leds};
 use crate::DeviceKind;
 
@@ -68,7 +69,7 @@ pub struct VirtualDevice {
     values: Vec<u8>,
     node: Box<RoomyNode>,
     pub(super) behaviour: Behaviour,
-    storage: Box<dyn Storage>,
+    storage: Eeprom,
     pub(super) profile: &'static Profile,
     wanted_id: NodeId,
     /// When the turning shaft is looked at again.
@@ -136,7 +137,7 @@ impl VirtualDevice {
             values,
             node: Box::new(Node::new(node_id)),
             behaviour,
-            storage: Box::new(Memory::new(erased)),
+            storage: Eeprom::new(Box::new(Memory::new(erased))),
             profile,
             wanted_id: node_id,
             look_at: None,
@@ -146,7 +147,7 @@ impl VirtualDevice {
     /// Another EEPROM, with what is in it. Do it before power comes.
     #[must_use]
     pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
-        self.storage = storage;
+        self.storage = Eeprom::new(storage);
         self
     }
 
@@ -322,12 +323,12 @@ impl VirtualDevice {
             return;
         };
         store.reset(|_| true);
-        let loaded = image::load(&mut **storage, &mut store, &|_: &Entry| true);
+        let loaded = image::load(storage, &mut store, &|_: &Entry| true);
         let own = store.unsigned(index, 0);
         if loaded == Ok(image::Loaded::Blank) && own != u64::from(wanted_id.raw()) {
             store.set_unsigned(Address::new(index, 0), wanted_id.raw().into());
             // Only the group of the object; a storage that fails keeps the default.
-            let _ = image::save(&mut **storage, &store, 4);
+            let _ = image::save(storage, &store, 4);
         }
     }
 
@@ -341,11 +342,14 @@ impl VirtualDevice {
             profile,
             ..
         } = self;
+        if let Behaviour::Encoder(encoder) = behaviour {
+            storage.broken = encoder.is_broken(Fault::Memory);
+        }
         let device = Device {
             dictionary: source.dictionary(),
             values,
             application: behaviour.as_application(),
-            storage: &mut **storage,
+            storage,
             profile,
         };
         (node, device)

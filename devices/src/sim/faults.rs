@@ -11,7 +11,8 @@ pub const NAMES: [&str; 5] = [
     "internal",
 ];
 
-/// The fault with this name. `watchdog` shows after the next reset.
+/// The fault with this name. `watchdog` shows after the next reset; with `eeprom` nothing can
+/// be saved.
 pub fn from_name(name: &str) -> Option<Fault> {
     let at = NAMES.iter().position(|known| *known == name)?;
     [

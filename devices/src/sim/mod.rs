@@ -8,6 +8,7 @@
 pub mod bus;
 pub mod candump;
 mod device;
+mod eeprom;
 pub mod faults;
 mod leds;
 pub mod script;

@@ -292,9 +292,14 @@ fn expedited_download(
 ) -> Answer {
     let entry = objects.writable(address, None)?;
     let given = usize::from(dlc.saturating_sub(4)).min(4);
+    let own = entry.data_type.size();
     let len = match size {
+        // Bytes that do not count need not be there either.
+        Some(size) if objects.profile.sdo.length.too_long.is_none() => {
+            (size as usize).min(own.unwrap_or(4)).min(4)
+        }
         Some(size) => (size as usize).min(4),
-        None => entry.data_type.size().unwrap_or(given),
+        None => own.unwrap_or(given),
     };
     if len > given {
         return Err(objects.profile.sdo.length.too_short);
