@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use od_model::eds::{self, Parsed};
+use od_model::eds::{self, Document, Parsed};
 use od_model::{Severity, Tables, check};
 
 #[test]
@@ -17,7 +17,7 @@ fn diagnostics_are_as_accepted() {
     let mut wrong = Vec::new();
     let cases = cases();
     for case in &cases {
-        let found = rendered(&case.text);
+        let found = rendered(&case.document);
         let path = case.folder.join("diagnostics.txt");
         if env::var_os("ODKIT_ACCEPT").is_some() {
             fs::write(&path, &found).expect("the case's folder is writable");
@@ -39,7 +39,7 @@ fn diagnostics_are_as_accepted() {
 #[test]
 fn every_case_comes_back_from_its_own_text() {
     for case in cases() {
-        if let Err(fault) = round_trip(&case.text) {
+        if let Err(fault) = round_trip(&case.document) {
             panic!("{}: {fault}", case.name);
         }
     }
@@ -50,7 +50,7 @@ fn every_case_comes_back_from_its_own_text() {
 fn every_rule_of_text_and_checks_has_a_case() {
     let mut seen = BTreeMap::new();
     for case in cases() {
-        for finding in eds::load(&case.text).diagnostics {
+        for finding in case.document.load().diagnostics {
             seen.entry(finding.code).or_insert(case.name.clone());
         }
     }
@@ -73,9 +73,9 @@ fn the_corpus_loads_and_comes_back() {
     let mut by_code: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for file in &files {
         let bytes = fs::read(file).expect("a file of the corpus is readable");
-        let text = eds::decode(&bytes);
+        let document = Document::new(bytes);
         let name = file.display();
-        let loaded = round_trip(&text).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+        let loaded = round_trip(&document).unwrap_or_else(|fault| panic!("{name}: {fault}"));
         assert!(!loaded.description.objects.is_empty(), "{name}: no objects");
         let mut codes = BTreeMap::new();
         for finding in &loaded.diagnostics {
@@ -101,7 +101,10 @@ fn the_corpus_loads_and_comes_back() {
 /// `ODKIT_ROUNDS` makes it as long as you like.
 #[test]
 fn broken_texts_are_read_too() {
-    let texts: Vec<String> = cases().into_iter().map(|case| case.text).collect();
+    let texts: Vec<String> = cases()
+        .into_iter()
+        .map(|case| case.document.text().into())
+        .collect();
     let mut random = Xorshift(0x9E37_79B9_7F4A_7C15);
     let rounds = env::var("ODKIT_ROUNDS").ok().and_then(|n| n.parse().ok());
     for round in 0..rounds.unwrap_or(3000) {
@@ -109,9 +112,9 @@ fn broken_texts_are_read_too() {
         for _ in 0..=random.below(6) {
             mutate(&mut bytes, &texts, &mut random);
         }
-        let text = eds::decode(&bytes);
-        if let Err(fault) = round_trip(&text) {
-            panic!("round {round}: {fault}\n{text}");
+        let document = Document::new(bytes);
+        if let Err(fault) = round_trip(&document) {
+            panic!("round {round}: {fault}\n{}", document.text());
         }
     }
 }
@@ -169,8 +172,13 @@ impl Xorshift {
 }
 
 /// Reads, writes and reads again; looks at everything that must hold of any text.
-fn round_trip(text: &str) -> Result<Parsed, String> {
-    let loaded = eds::load(text);
+fn round_trip(document: &Document) -> Result<Parsed, String> {
+    let text = document.text();
+    let loaded = document.load();
+    let mut unedited = document.clone();
+    if unedited.apply(&[]).is_err() || unedited != *document {
+        return Err("an unedited document differs".into());
+    }
     let written = eds::write(&loaded.description);
     let again = eds::parse(&written).description;
     if again != loaded.description {
@@ -213,9 +221,9 @@ fn round_trip(text: &str) -> Result<Parsed, String> {
     Ok(loaded)
 }
 
-fn rendered(text: &str) -> String {
+fn rendered(document: &Document) -> String {
     let mut out = String::new();
-    for finding in eds::load(text).diagnostics {
+    for finding in document.load().diagnostics {
         let place = match finding.span {
             Some(span) => format!("{}:{}", span.line, span.column),
             None => "-".into(),
@@ -256,7 +264,7 @@ fn difference(accepted: &str, found: &str) -> String {
 struct Case {
     name: String,
     folder: PathBuf,
-    text: String,
+    document: Document,
 }
 
 /// Every folder of `tests/cases` with an `input.eds`, by name.
@@ -271,7 +279,7 @@ fn cases() -> Vec<Case> {
         cases.push(Case {
             name: folder.file_name().unwrap_or_default().display().to_string(),
             folder,
-            text: eds::decode(&bytes).into_owned(),
+            document: Document::new(bytes),
         });
     }
     cases.sort_by(|a, b| a.name.cmp(&b.name));

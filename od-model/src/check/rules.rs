@@ -90,6 +90,12 @@ rules! {
     W0110 Warning "section header without name"
         "No reader can ask for such a section. It is kept, and nothing reads it."
         "CiA 306-1, file format"
+    I0111 Info "file is not ASCII"
+        "CiA 306 asks for ASCII. UTF-8, UTF-16 and Windows-1252 are read, with or without a byte order mark; many readers know only one of them."
+        "CiA 306-1, file format"
+    W0112 Warning "byte is no character of the file's encoding"
+        "Two encodings in one file, or a file that was cut. In UTF-8 the byte is read as Windows-1252, in UTF-16 as U+FFFD; a file that is written back keeps it."
+        "CiA 306-1, file format"
 
     // 02: lists and sections
     W0201 Warning "listed object has no section"

@@ -70,6 +70,22 @@ impl<'a> Line<'a> {
     }
 }
 
+/// The character at a byte of a text.
+pub(super) fn span(text: &str, at: usize) -> Span {
+    let found = lines(text)
+        .take_while(|line| line.start <= at)
+        .last()
+        .filter(|line| at <= line.start + line.text.len());
+    match found {
+        Some(line) => {
+            let behind = &line.text[at - line.start..];
+            let len = behind.chars().next().map_or(0, char::len_utf8);
+            line.span(&behind[..len])
+        }
+        None => Span::default(),
+    }
+}
+
 /// The lines of a text; `\n`, `\r\n` and `\r` end one.
 fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     let mut rest = text.strip_prefix('\u{FEFF}').unwrap_or(text);

@@ -19,7 +19,8 @@ use alloc::vec::Vec;
 use crate::{Description, Diagnostic};
 
 mod compact;
-mod decode;
+mod document;
+mod encoding;
 mod entry;
 mod fields;
 mod ini;
@@ -32,7 +33,8 @@ mod sections;
 mod values;
 mod write;
 
-pub use decode::decode;
+pub use document::{Document, Edit, EditError};
+pub use encoding::{Encoding, decode};
 pub use parse::parse;
 pub use write::write;
 
@@ -54,7 +56,11 @@ pub(crate) fn number(text: &str) -> Option<i128> {
 
 /// Reads and checks an EDS or a DCF: [`parse`], then [`check`](crate::check::check).
 pub fn load(text: &str) -> Parsed {
-    let mut parsed = parse(text);
+    checked(parse(text))
+}
+
+/// What was read, with the findings of all checks.
+fn checked(mut parsed: Parsed) -> Parsed {
     parsed
         .diagnostics
         .extend(crate::check::check(&parsed.description));

@@ -32,6 +32,14 @@ pub(super) struct Number {
 }
 
 /// The text in front of a `;` or a `#`.
+pub(super) fn before_comment(text: &str) -> &str {
+    match text.find([';', '#']) {
+        Some(at) => text[..at].trim_end(),
+        None => text,
+    }
+}
+
+/// The text in front of a `;` or a `#`, which is noted.
 pub(super) fn without_comment<'a>(text: &'a str, notes: &mut Vec<Note>) -> &'a str {
     match text.find([';', '#']) {
         Some(at) => {

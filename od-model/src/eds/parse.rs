@@ -10,7 +10,7 @@ use super::fields::{duplicates, same_content};
 use super::ini::{self, Placed};
 use super::object::{self, Sections};
 use super::sections::{List, Place, place};
-use super::{Parsed, compact, lists, number};
+use super::{Document, Encoding, Parsed, compact, lines, lists, number};
 use crate::check::rules;
 use crate::{Address, Diagnostic, Span};
 
@@ -30,6 +30,46 @@ pub fn parse(text: &str) -> Parsed {
         sorted.add(section);
     }
     sorted.parsed()
+}
+
+/// Reads a file; what there is to say of its encoding comes first.
+pub(super) fn document(document: &Document) -> Parsed {
+    let mut parsed = parse(document.text());
+    parsed.diagnostics.extend(encoded(document));
+    crate::check::sort(&mut parsed.diagnostics);
+    parsed
+}
+
+/// What other readers may not expect of the characters.
+fn encoded(document: &Document) -> Vec<Diagnostic> {
+    let (text, encoding) = (document.text(), document.encoding());
+    let mut found = Vec::new();
+    let first = text.find(|c: char| !c.is_ascii());
+    let marked = match document.has_mark() {
+        true => ", with a byte order mark",
+        false => "",
+    };
+    if encoding != Encoding::Ascii {
+        found.push(
+            rules::I0111
+                .at(
+                    lines::span(text, first.unwrap_or(0)),
+                    format!("the file is {encoding}{marked}"),
+                )
+                .with_help("where another reader fails, save it as ASCII"),
+        );
+    }
+    if let Some(at) = document.first_wrong() {
+        found.push(
+            rules::W0112
+                .at(
+                    lines::span(text, at),
+                    format!("here is a byte that is no character of {encoding}"),
+                )
+                .with_help("write the character anew, or save the file in one encoding"),
+        );
+    }
+    found
 }
 
 /// The sections of a file by what they are about.

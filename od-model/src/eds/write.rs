@@ -42,6 +42,13 @@ pub fn write(description: &Description) -> String {
     out.0
 }
 
+/// The sections of one object.
+pub(super) fn object(index: u16, object: &ObjectDescription) -> String {
+    let mut out = Text(String::new());
+    out.object(index, object);
+    out.0
+}
+
 struct Text(String);
 
 impl Text {
