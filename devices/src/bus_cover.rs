@@ -7,7 +7,7 @@
 //! differently from each other is in their dictionaries alone.
 
 use od_model::{Address, Dictionary};
-use od_runtime::encoder::{EncoderProfile, Fault, Options, Report, Total};
+use od_runtime::encoder::{EncoderProfile, Fault, OperatingTime, Options, Report, Total};
 use od_runtime::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
@@ -245,6 +245,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         keep_offset: 1 << 9,
         delay_timer: 1 << 8,
         delay_ms: 2,
+        ..Options::NONE
     }),
     node_id: Some(0x2101),
     bit_rate: Some(0x2100),
@@ -252,7 +253,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     // Chapter 7.2.2: not the codes of 2100h, there is no 100 kbit/s (C-GX-35).
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
     seconds: Some(Address::new(0x2201, 2)),
-    operating_time: true,
+    operating_time: OperatingTime::SinceStart,
     // Bits of 1001h: U-08.
     reports: &[
         Report {
@@ -262,6 +263,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0x0001,
             warning: 0,
             counter: Some(Address::new(0x2201, 1)),
+            ..Report::BASE
         },
         Report {
             fault: Fault::Internal,
@@ -270,6 +272,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Memory,
@@ -278,6 +281,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Watchdog,
@@ -286,6 +290,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0x0004,
             counter: Some(Address::new(0x2201, 3)),
+            ..Report::BASE
         },
         Report {
             fault: Fault::Battery,
@@ -294,6 +299,8 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0x0010,
             counter: None,
+            ..Report::BASE
         },
     ],
+    ..EncoderProfile::CIA406
 };

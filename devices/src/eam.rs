@@ -8,14 +8,17 @@
 //! with electronics, battery, memory and serial number of its own (chapter 4.5).
 
 use od_model::{Address, Dictionary};
-use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
+use od_runtime::encoder::{
+    Counter, EncoderProfile, Gear, GearKind, Injection, Movement, OperatingTime, Options, Quantity,
+    RangeRule, Sensor, Source, Total,
+};
 use od_runtime::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
     SdoProfile, StoreProfile,
 };
 
-use crate::DeviceKind;
+use crate::{DeviceKind, eam_diagnosis};
 
 od_macros::object_dictionary! {
     /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 show by default, and 18 bits
@@ -173,6 +176,7 @@ pub static PROFILE: Profile = Profile {
     },
 };
 
+/// Raw resolution (C-EAM-15), and the revolutions of 6502h.
 const SENSOR: Sensor = Sensor {
     steps: 0x1_0000,
     turns: 0x4_0000,
@@ -180,11 +184,58 @@ const SENSOR: Sensor = Sensor {
 
 const BASE: EncoderProfile = EncoderProfile {
     sensor: Some(SENSOR),
-    total: Total::Revolutions,
+    // U-34.
+    unscaled_steps: Some(0x4000),
+    // With 4 steps a revolution the range has 2^30 revolutions; half of them are the limit
+    // that chapter 4.4.6 names for turning without power.
+    counter: Counter::Kept { turns: 1 << 30 },
+    // 6502h follows 6001h and 6002h (C-EAM-17), and 6002h goes by powers of two (C-EAM-18).
+    total: Total::Shown,
+    range_rule: RangeRule::PowerOfTwo,
     signed_offset: true,
     // 6002h = 0 stands for 2^32 steps.
     zero_is_full: true,
     operating_bits: 0x0005,
+    // Chapter 4.4.6; C-X-06.
+    gear: Some(Gear {
+        index: 0x2001,
+        on: 2,
+        kind: GearKind::Position,
+    }),
+    raw_position: None,
+    movements: &[
+        // Chapter 4.4.4.
+        Movement {
+            value: Address::new(0x6030, 1),
+            quantity: Quantity::Speed,
+            selector: None,
+            sources: &[(1, Source::Position)],
+            interval: Address::new(0x4001, 0),
+            factor: None,
+        },
+        Movement {
+            value: Address::new(0x2118, 0),
+            quantity: Quantity::Speed,
+            selector: None,
+            sources: &[(1, Source::Revolutions)],
+            interval: Address::new(0x4001, 0),
+            factor: None,
+        },
+        // Chapter 4.4.5; C-EAM-07.
+        Movement {
+            value: Address::new(0x6040, 1),
+            quantity: Quantity::Acceleration,
+            selector: Some(Address::new(0x6041, 1)),
+            sources: &[(1, Source::Position), (2, Source::Fixed(0x1_0000))],
+            interval: Address::new(0x6041, 2),
+            factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
+        },
+    ],
+    // C-EAM-04, C-EAM-28.
+    links: &[
+        (Address::new(0x6003, 0), Address::new(0x6010, 1)),
+        (Address::new(0x6509, 0), Address::new(0x650C, 1)),
+    ],
     below_limit: AbortCode::ValueRange,
     lists: &[
         // C-X-16.
@@ -194,45 +245,50 @@ const BASE: EncoderProfile = EncoderProfile {
         // C-EAM-34.
         (Address::new(0x1F80, 0), &[0, 8]),
         (Address::new(0x2001, 1), &[1, 2]),
-        (Address::new(0x6041, 1), &[1, 2]),
     ],
-    options: None,
+    // C-EAM-33.
+    options: Some(Options {
+        index: 0x2110,
+        ignore_sense: 1 << 0,
+        ..Options::NONE
+    }),
     node_id: Some(0x2101),
     bit_rate: Some(0x2100),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     // There are no switches.
     switch_rates: &[],
     seconds: None,
+    seconds_since_start: None,
+    cycles: None,
     // C-EAM-11: not supported.
-    operating_time: false,
-    reports: &[
-        Report {
-            fault: Fault::Battery,
-            code: 0xFF00,
-            register: 0,
-            alarm: 0,
-            warning: 0x0010,
-            counter: None,
-        },
-        Report {
-            fault: Fault::Watchdog,
-            code: 0x6100,
-            register: 0,
-            alarm: 0,
-            warning: 0x0004,
-            counter: None,
-        },
-    ],
+    operating_time: OperatingTime::Constant,
+    // U-27.
+    time_stamp: Some(Address::new(0x2120, 0)),
+    reports: eam_diagnosis::SINGLE,
+    // 6504h and 6506h do not have all the bits that chapter 9.5 sets (C-EAM-09, C-EAM-10).
+    by_support: false,
+    diagnosis: Some(eam_diagnosis::DIAGNOSIS),
+    // Chapter 9.4; C-EAM-12.
+    injection: Some(Injection {
+        code: Address::new(0x2116, 1),
+        offset: Address::new(0x2116, 2),
+    }),
 };
 
 /// How the multiturn encoder works: chapters 4.4, 9 and 12.3.
 pub static ENCODER: EncoderProfile = BASE;
 
-/// How the singleturn encoder works.
+/// How the singleturn encoder works: it counts revolutions as long as it has power, and the
+/// gear with them (chapter 4.4.6).
 pub static SINGLETURN: EncoderProfile = EncoderProfile {
     sensor: Some(Sensor { turns: 1, ..SENSOR }),
+    counter: Counter::Volatile,
     ..BASE
 };
 
 /// How one channel of the redundant encoder works (chapter 9.2).
-pub static REDUNDANT: EncoderProfile = BASE;
+pub static REDUNDANT: EncoderProfile = EncoderProfile {
+    gear: None,
+    reports: eam_diagnosis::REDUNDANT,
+    ..BASE
+};

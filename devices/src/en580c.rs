@@ -5,7 +5,10 @@
 //! what the manual has the device do differently from CiA 301 and CiA 406.
 
 use od_model::Address;
-use od_runtime::encoder::{EncoderProfile, Fault, Report, Sensor, Total};
+use od_runtime::encoder::{
+    Counter, EncoderProfile, Fault, Gear, GearKind, Movement, OperatingTime, Quantity, RangeRule,
+    Report, Sensor, Source, Total,
+};
 use od_runtime::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
@@ -139,14 +142,44 @@ pub static PROFILE: Profile = Profile {
 
 /// How the encoder works: chapters 5.1.12, 5.2 and 6.
 pub static ENCODER: EncoderProfile = EncoderProfile {
+    // 6501h says 2^24, of which 21 bits are used (C-EN-06, C-EN-07).
     sensor: Some(Sensor {
-        steps: 0x100_0000,
+        steps: 0x20_0000,
         turns: 0x1_0000,
     }),
+    // Chapter 6.11: half of 16 bits of revolutions either way without power.
+    counter: Counter::Kept { turns: 0x1_0000 },
     total: Total::Revolutions,
+    range_rule: RangeRule::Turns,
     signed_offset: true,
     zero_is_full: false,
     operating_bits: 0x0005,
+    // Chapter 6.6; C-EN-04, C-EN-09.
+    gear: Some(Gear {
+        index: 0x2001,
+        on: 1,
+        kind: GearKind::Output,
+    }),
+    raw_position: Some(Address::new(0x600C, 0)),
+    // Chapters 6.2 to 6.5.
+    movements: &[
+        Movement {
+            value: Address::new(0x6030, 1),
+            quantity: Quantity::Speed,
+            selector: Some(Address::new(0x6031, 1)),
+            sources: SOURCES,
+            interval: Address::new(0x6031, 2),
+            factor: Some((Address::new(0x6031, 3), Address::new(0x6031, 4))),
+        },
+        Movement {
+            value: Address::new(0x6040, 1),
+            quantity: Quantity::Acceleration,
+            selector: Some(Address::new(0x6041, 1)),
+            sources: SOURCES,
+            interval: Address::new(0x6041, 2),
+            factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
+        },
+    ],
     below_limit: AbortCode::ValueTooLow,
     lists: &[
         // C-X-16.
@@ -155,8 +188,6 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         (Address::new(0x1029, 3), &[0, 1, 2]),
         (Address::new(0x1F80, 0), &[0, 8]),
         (Address::new(0x2001, 1), &[0, 1]),
-        (Address::new(0x6031, 1), &[1, 2]),
-        (Address::new(0x6041, 1), &[1, 2]),
     ],
     options: None,
     node_id: Some(0x2101),
@@ -165,7 +196,10 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     // C-EN-29: the table of the bus cover, without what the device does not have.
     switch_rates: &[0, 0, 50, 125, 250, 500, 800, 1000],
     seconds: Some(Address::new(0x2A00, 2)),
-    operating_time: true,
+    seconds_since_start: Some(Address::new(0x2A00, 1)),
+    cycles: Some(Address::new(0x2A01, 0)),
+    // The scope is not said (C-X-09); CiA 406 has it count over the life of the encoder.
+    operating_time: OperatingTime::Total,
     // Codes and bits of the bus cover (U-09, U-08).
     reports: &[
         Report {
@@ -175,6 +209,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0x0001,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Internal,
@@ -183,6 +218,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Memory,
@@ -191,6 +227,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Watchdog,
@@ -199,6 +236,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0,
             counter: None,
+            ..Report::BASE
         },
         Report {
             fault: Fault::Battery,
@@ -207,6 +245,11 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             alarm: 0,
             warning: 0x0010,
             counter: None,
+            ..Report::BASE
         },
     ],
+    ..EncoderProfile::CIA406
 };
+
+/// What 6031h:01 and 6041h:01 select.
+const SOURCES: &[(u8, Source)] = &[(1, Source::Position), (2, Source::Raw)];

@@ -18,6 +18,7 @@ extern crate std;
 
 pub mod bus_cover;
 pub mod eam;
+mod eam_diagnosis;
 pub mod en580c;
 #[cfg(feature = "sim")]
 pub mod sim;

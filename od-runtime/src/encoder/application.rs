@@ -3,7 +3,7 @@
 use od_model::typed::{Scalar, Var};
 use od_model::{Address, Entry, Kind};
 
-use super::Encoder;
+use super::{Encoder, OperatingTime};
 use crate::{AbortCode, Application, Context, Instant, NodeId, Reset, Store};
 
 const POSITION: u16 = 0x6004;
@@ -230,7 +230,7 @@ impl Encoder {
             cx.store
                 .set_unsigned(seconds, self.seconds_at(cx.now).into());
         }
-        if self.profile.operating_time {
+        if self.profile.operating_time == OperatingTime::SinceStart {
             let time = self.micros(cx.now) / SIX_MINUTES;
             cx.store
                 .set_unsigned(OPERATING_TIME, time.min(u32::MAX.into()));

@@ -2,7 +2,7 @@
 
 use od_model::Address;
 
-use super::profile::{Fault, Report};
+use super::{Fault, Report};
 use crate::{Context, Error, Store};
 
 const ALARMS: Address = Address::new(0x6503, 0);
@@ -19,13 +19,13 @@ pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Faults {
     /// What the host broke.
-    broken: u8,
+    broken: u32,
     /// What the device knows of.
-    reported: u8,
+    reported: u32,
     /// The last reset was by the watchdog.
     watchdog: bool,
     /// How often each came, as the device remembers it without power.
-    counts: [u32; Fault::ALL.len()],
+    counts: [u32; Fault::NAMES.len()],
 }
 
 impl Faults {
@@ -34,7 +34,7 @@ impl Faults {
             broken: 0,
             reported: 0,
             watchdog: false,
-            counts: [0; Fault::ALL.len()],
+            counts: [0; Fault::NAMES.len()],
         }
     }
 
@@ -115,6 +115,6 @@ fn change(cx: &mut Context<'_, '_>, address: Address, bits: u16, on: bool) {
     cx.store.set_unsigned(address, new);
 }
 
-const fn bit(fault: Fault) -> u8 {
+const fn bit(fault: Fault) -> u32 {
     1 << fault as u8
 }

@@ -5,6 +5,7 @@
 //! differently stands in an [`EncoderProfile`].
 
 mod application;
+mod fault;
 mod faults;
 mod position;
 mod profile;
@@ -15,9 +16,13 @@ use od_model::{Address, DataType, Dictionary};
 
 use crate::{Instant, Store};
 
+pub use fault::{Appears, Fault, Report, Until};
 use faults::Faults;
 pub use position::{Scale, Sensor};
-pub use profile::{EncoderProfile, Fault, Options, Report, Total};
+pub use profile::{
+    Counter, EncoderProfile, Gear, GearKind, Injection, Mirror, Movement, OperatingTime, Options,
+    Quantity, RangeRule, Source, Total,
+};
 pub use shaft::{Angle, Shaft};
 
 /// Rotary and DIP switches in the cover.
@@ -226,7 +231,7 @@ impl Encoder {
         let total = some(0x6502).unwrap_or(1);
         let turns = match self.profile.total {
             Total::Steps => total / steps,
-            Total::Revolutions => total,
+            Total::Revolutions | Total::Shown => total,
         };
         Sensor {
             steps: u32::try_from(steps).unwrap_or(u32::MAX),

@@ -2,7 +2,7 @@
 
 use od_model::Address;
 
-use super::Sensor;
+use super::{Fault, Report, Sensor};
 use crate::AbortCode;
 
 /// What object 6502h counts.
@@ -12,6 +12,137 @@ pub enum Total {
     Steps,
     /// Revolutions (CiA 406).
     Revolutions,
+    /// Revolutions of the range that is shown: 6502h follows 6002h / 6001h, rounded down.
+    Shown,
+}
+
+/// How revolutions are counted past what the sensor tells apart, and without power.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Counter {
+    /// With power, on and on; without, whole ranges of the sensor are not noticed. A range
+    /// of more revolutions than the sensor's begins anew where the sensor does.
+    Sensor,
+    /// On and on. Without power half this many revolutions either way are noticed; who turns
+    /// the shaft further finds a position that is wrong by a multiple of them.
+    Kept {
+        /// Revolutions that the counter tells apart.
+        turns: u32,
+    },
+    /// On and on while there is power; each start begins within the first revolution.
+    Volatile,
+}
+
+/// What 6002h takes beside the limits of the dictionary.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RangeRule {
+    /// 1 to what the sensor tells apart in all; above is 06090031h.
+    Sensor,
+    /// 6001h times a power of two, and 0 where that stands for 2³²; else 06090030h.
+    PowerOfTwo,
+    /// At most 6001h times the sensor's revolutions; above is 06090031h. Only a write of
+    /// 6002h is checked, so that 6001h first and 6002h second always works.
+    Turns,
+}
+
+/// An electronic gear: numerator and denominator at sub-indices 2 and 3 of an object.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Gear {
+    /// Index of the object.
+    pub index: u16,
+    /// Value of sub-index 1 that switches it on.
+    pub on: u8,
+    /// What it divides.
+    pub kind: GearKind,
+}
+
+/// The two ways in which a gear can be meant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum GearKind {
+    /// The position is that of the encoder divided by the factor, modulo the same range. A
+    /// gear that is in the store at a start (power-on, NMT reset node) acts from then on.
+    Position,
+    /// 6002h is one revolution of the output, which is as many of the encoder as the factor
+    /// says. It acts at once; 6001h shows steps per revolution of the encoder, rounded down,
+    /// and writing it changes nothing.
+    Output,
+}
+
+/// What a speed or an acceleration is made of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Source {
+    /// Whole revolutions: a speed is per minute.
+    Revolutions,
+    /// Steps of 6004h; sense of rotation and resolution count, offset and range do not. A
+    /// [`GearKind::Output`] counts, a [`GearKind::Position`] does not.
+    Position,
+    /// So many steps per revolution, whatever the scaling; the sense of rotation counts.
+    Fixed(u32),
+    /// Steps of the sensor, without the sense of rotation.
+    Raw,
+}
+
+/// What is derived from the movement of the shaft.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Quantity {
+    /// Steps per second, or revolutions per minute.
+    Speed,
+    /// Steps per second squared.
+    Acceleration,
+}
+
+/// A speed or an acceleration that can be read: the mean over an interval, times a
+/// multiplier, by a divider, rounded towards zero, held in the limits of its object.
+///
+/// It is 0 until a whole interval has passed since the start, or since the interval or the
+/// source was changed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Movement {
+    /// Where it is read; 8, 16 or 32 bits, signed.
+    pub value: Address,
+    /// What it is.
+    pub quantity: Quantity,
+    /// Object that selects the source; values that `sources` has not are answered with
+    /// 06090030h.
+    pub selector: Option<Address>,
+    /// The sources by the selector's value; the first stands where there is no selector.
+    pub sources: &'static [(u8, Source)],
+    /// Object with the interval in milliseconds; 0 counts as 1.
+    pub interval: Address,
+    /// Objects with multiplier and divider. A divider of 0 cannot be written.
+    pub factor: Option<(Address, Address)>,
+}
+
+/// Objects that fake something for a test; what they do is lost at a start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Injection {
+    /// Takes the codes of [`Report::injection`] one after another; 0 ends them all, what is
+    /// no code of the table is answered with 06090030h. A report that nothing ends
+    /// ([`Until::Ever`]) outlasts a start here, too.
+    pub code: Address,
+    /// Steps that are added to the position.
+    pub offset: Address,
+}
+
+/// A bit that shows a bit of another object.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Mirror {
+    /// Index of the object with the bit, sub-index 0.
+    pub from: u16,
+    /// The bit there.
+    pub bit: u8,
+    /// The bit here.
+    pub shown: u8,
+}
+
+/// What 6508h says.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OperatingTime {
+    /// What the dictionary has.
+    Constant,
+    /// Six minutes each, since the last start.
+    SinceStart,
+    /// Six minutes each, over the device's life.
+    Total,
 }
 
 /// An object of manufacturer options whose bits change the encoder (2110h).
@@ -25,49 +156,19 @@ pub struct Options {
     pub delay_timer: u32,
     /// By how much, in milliseconds.
     pub delay_ms: u16,
+    /// Bits that keep the sense of rotation (6000h) out of speed and acceleration.
+    pub ignore_sense: u32,
 }
 
-/// Something that can break.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Fault {
-    /// The sensor's position is not to be trusted.
-    Position,
-    /// The battery of the multiturn counter is nearly empty.
-    Battery,
-    /// The last reset was by the watchdog; seen after the next reset.
-    Watchdog,
-    /// The non-volatile memory failed.
-    Memory,
-    /// The electronics cannot reach the sensor.
-    Internal,
-}
-
-impl Fault {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Position,
-        Self::Battery,
-        Self::Watchdog,
-        Self::Memory,
-        Self::Internal,
-    ];
-}
-
-/// How a family reports a fault.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Report {
-    /// Which.
-    pub fault: Fault,
-    /// EMCY code.
-    pub code: u16,
-    /// Bits of 1001h.
-    pub register: u8,
-    /// Bits of 6503h; the fault exists only where 6504h has them.
-    pub alarm: u16,
-    /// Bits of 6505h; the fault exists only where 6506h has them.
-    pub warning: u16,
-    /// Object that counts how often it came.
-    pub counter: Option<Address>,
+impl Options {
+    /// No bit means anything; for `..Options::NONE`.
+    pub const NONE: Self = Self {
+        index: 0x2110,
+        keep_offset: 0,
+        delay_timer: 0,
+        delay_ms: 0,
+        ignore_sense: 0,
+    };
 }
 
 /// What the encoder needs to know of its family besides the dictionary.
@@ -75,14 +176,29 @@ pub struct Report {
 pub struct EncoderProfile {
     /// The sensor; `None`: 6501h and 6502h describe it.
     pub sensor: Option<Sensor>,
+    /// Steps per revolution with scaling off; `None`: the sensor's.
+    pub unscaled_steps: Option<u32>,
+    /// How revolutions are counted.
+    pub counter: Counter,
     /// What 6502h counts.
     pub total: Total,
+    /// What 6002h takes.
+    pub range_rule: RangeRule,
     /// 6509h is signed (CiA 406), else modulo the range.
     pub signed_offset: bool,
     /// 6002h = 0 stands for 2³².
     pub zero_is_full: bool,
     /// Bits of 6000h that 6500h shows.
     pub operating_bits: u16,
+    /// The electronic gear.
+    pub gear: Option<Gear>,
+    /// Object with the sensor's position modulo 2³² (600Ch); no scaling, sense or offset.
+    pub raw_position: Option<Address>,
+    /// Speeds and accelerations.
+    pub movements: &'static [Movement],
+    /// Objects that are one value: whatever is written to one stands in the other. After a
+    /// start the one that storage held rules, the first if both.
+    pub links: &'static [(Address, Address)],
     /// Answer to a value below its lower limit.
     pub below_limit: AbortCode,
     /// Objects that take these values and no others; the answer else is 06090030h.
@@ -95,24 +211,45 @@ pub struct EncoderProfile {
     pub bit_rate: Option<u16>,
     /// Bit rates by that code, in kbit/s; 0 where a code has none.
     pub bit_rates: &'static [u16],
-    /// Bit rates by the DIP switches, in kbit/s.
+    /// Bit rates by the DIP switches, in kbit/s; at 0 `bit_rate` decides. A device without
+    /// any has no switches for the node ID either.
     pub switch_rates: &'static [u16],
     /// Object with the operating time since the first power-on, in seconds.
     pub seconds: Option<Address>,
-    /// 6508h counts six minutes each, since the last reset.
-    pub operating_time: bool,
-    /// How faults are reported.
+    /// Object with the seconds since the last start.
+    pub seconds_since_start: Option<Address>,
+    /// Object that counts how often power came.
+    pub cycles: Option<Address>,
+    /// What 6508h says.
+    pub operating_time: OperatingTime,
+    /// Object with the moment of the position, in microseconds modulo 65,536.
+    pub time_stamp: Option<Address>,
+    /// How faults are reported; at most 32.
     pub reports: &'static [Report],
+    /// A report exists only where 6504h and 6506h have its bits (by them, variants differ);
+    /// else all do.
+    pub by_support: bool,
+    /// The object with diagnostic bits, and whose bits it shows.
+    pub diagnosis: Option<(Address, &'static [Mirror])>,
+    /// Objects for tests.
+    pub injection: Option<Injection>,
 }
 
 impl EncoderProfile {
     /// CiA 406 and nothing else: what an encoder of an unknown EDS gets.
     pub const CIA406: Self = Self {
         sensor: None,
+        unscaled_steps: None,
+        counter: Counter::Sensor,
         total: Total::Revolutions,
+        range_rule: RangeRule::Sensor,
         signed_offset: true,
         zero_is_full: false,
         operating_bits: 0x0005,
+        gear: None,
+        raw_position: None,
+        movements: &[],
+        links: &[],
         below_limit: AbortCode::ValueTooLow,
         lists: &[],
         options: None,
@@ -121,40 +258,41 @@ impl EncoderProfile {
         bit_rates: &[],
         switch_rates: &[],
         seconds: None,
-        operating_time: true,
+        seconds_since_start: None,
+        cycles: None,
+        operating_time: OperatingTime::SinceStart,
+        time_stamp: None,
         reports: &[
             Report {
                 fault: Fault::Position,
                 code: 0x7320,
                 register: 0x01,
                 alarm: 0x0001,
-                warning: 0,
-                counter: None,
+                ..Report::BASE
             },
             Report {
                 fault: Fault::Battery,
                 code: 0xFF00,
                 register: 0x81,
-                alarm: 0,
                 warning: 0x0010,
-                counter: None,
+                ..Report::BASE
             },
             Report {
                 fault: Fault::Watchdog,
                 code: 0x6010,
                 register: 0x01,
-                alarm: 0,
                 warning: 0x0004,
-                counter: None,
+                ..Report::BASE
             },
             Report {
                 fault: Fault::Memory,
                 code: 0x5530,
                 register: 0x01,
-                alarm: 0,
-                warning: 0,
-                counter: None,
+                ..Report::BASE
             },
         ],
+        by_support: true,
+        diagnosis: None,
+        injection: None,
     };
 }

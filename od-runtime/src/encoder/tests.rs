@@ -20,6 +20,7 @@ static PROFILE: EncoderProfile = EncoderProfile {
         keep_offset: 1 << 9,
         delay_timer: 1 << 8,
         delay_ms: 2,
+        ..Options::NONE
     }),
     node_id: Some(0x2101),
     bit_rate: Some(0x2100),
