@@ -21,6 +21,8 @@ pub mod eam;
 mod eam_diagnosis;
 pub mod en580c;
 #[cfg(feature = "sim")]
+mod export;
+#[cfg(feature = "sim")]
 pub mod sim;
 
 use bus_cover::gxmm;

@@ -6,6 +6,7 @@
 mod check;
 mod diff;
 mod dump;
+mod export;
 mod live;
 mod output;
 mod report;
@@ -33,6 +34,7 @@ enum Command {
     Run(run::Args),
     Check(check::Args),
     Dump(dump::Args),
+    Export(export::Args),
     Diff(diff::Args),
 }
 
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Dump(args) => dump::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Diff(args) => diff::run(&args),
     };
     let (message, code) = match result {

@@ -1,7 +1,6 @@
 //! The bus-cover family as manual 000 has it, device by device and frame by frame.
 
 mod bench;
-mod checks;
 mod models;
 mod objects;
 mod position;

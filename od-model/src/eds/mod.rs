@@ -19,6 +19,7 @@ use alloc::vec::Vec;
 use crate::{Description, Diagnostic};
 
 mod compact;
+mod describe;
 mod document;
 mod encoding;
 mod entry;
@@ -33,6 +34,7 @@ mod sections;
 mod values;
 mod write;
 
+pub use describe::{About, describe};
 pub use document::{Document, Edit, EditError};
 pub use encoding::{Encoding, decode};
 pub use parse::parse;

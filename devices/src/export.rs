@@ -1,0 +1,44 @@
+//! A compiled device as an EDS, for masters and tools that want a file.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::eds;
+
+use crate::DeviceKind;
+
+/// The day of the facts; the texts of a device do not change by being written.
+const DATE: &str = "11-21-2026";
+
+const COMMENTS: &[&str] = &[
+    "Written by odkit from the facts of the manual; not the manufacturer's file.",
+    "StorageLocation comments name the group of 1010h that saves a value.",
+];
+
+impl DeviceKind {
+    /// Name of its EDS file: its own in capitals.
+    pub fn eds_name(&self) -> String {
+        format!("{}.eds", self.name.to_uppercase())
+    }
+
+    /// Its EDS. Read again it gives the same dictionary.
+    ///
+    /// ```
+    /// let gcam = od_devices::find("gcam").unwrap();
+    /// assert!(gcam.eds().contains("ProductName=GCAM\n"));
+    /// ```
+    pub fn eds(&self) -> String {
+        let file = self.eds_name();
+        let about = eds::About {
+            file: &file,
+            description: self.title,
+            date: DATE,
+            vendor: "odkit virtual devices",
+            bit_rates: self.encoder.bit_rates,
+            lss: self.profile.lss.is_some(),
+            simple_boot_up: true,
+            comments: COMMENTS,
+        };
+        eds::write(&eds::describe(self.dictionary, &about))
+    }
+}

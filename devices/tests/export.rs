@@ -1,0 +1,75 @@
+//! The EDS that a device writes is the device.
+#![cfg(feature = "sim")]
+
+use od_devices::DEVICES;
+use od_model::{Tables, check, eds};
+
+#[test]
+fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
+    for kind in DEVICES {
+        let text = kind.eds();
+        let loaded = eds::load(&text);
+        assert_eq!(loaded.diagnostics, [], "{}", kind.name);
+        assert_eq!(check::check(&loaded.description), [], "{}", kind.name);
+        let tables = Tables::new(&loaded.description);
+        assert!(tables.dictionary() == kind.dictionary, "{}", kind.name);
+        assert_eq!(eds::write(&loaded.description), text, "{}", kind.name);
+    }
+}
+
+#[test]
+fn what_is_said_of_the_device_is_what_its_objects_say() {
+    for kind in DEVICES {
+        let description = eds::parse(&kind.eds()).description;
+        let info = description.section("DeviceInfo").unwrap();
+        let value = |key| info.get(key).unwrap().value.clone();
+        let number = |sub| {
+            let entry = kind.dictionary.entry(0x1018, sub).unwrap();
+            entry.default.integer(0).unwrap()
+        };
+        for (key, sub) in [
+            ("VendorNumber", 1),
+            ("ProductNumber", 2),
+            ("RevisionNumber", 3),
+        ] {
+            assert_eq!(
+                value(key),
+                format!("0x{:08X}", number(sub)),
+                "{}",
+                kind.name
+            );
+        }
+        assert_eq!(value("NrOfTXPDO"), "2");
+        assert_eq!(value("NrOfRXPDO"), "0");
+        assert_eq!(value("LSS_Supported"), "1");
+        assert_eq!(value("SimpleBootUpSlave"), "1");
+        // 10 kbit/s is code 0 of 2100h, which an EN580C does not have.
+        let slow = if kind.name == "en580c" { "0" } else { "1" };
+        assert_eq!(value("BaudRate_10"), slow, "{}", kind.name);
+    }
+}
+
+#[test]
+fn the_files_of_the_project_say_what_an_export_says() {
+    for (name, text) in [
+        ("gxmm", include_str!("../eds/GXMM.eds")),
+        ("eam_mt", include_str!("../eds/EAM_MT.eds")),
+        ("en580c", include_str!("../eds/EN580C.eds")),
+    ] {
+        let exported = eds::parse(&od_devices::find(name).unwrap().eds()).description;
+        let written = eds::load(text);
+        assert_eq!(written.diagnostics, [], "{name}");
+        for key in ["DeviceInfo", "DummyUsage"] {
+            let pairs = |d: &od_model::Description| {
+                let section = d.section(key).unwrap();
+                let same = section
+                    .pairs
+                    .iter()
+                    .filter(|(key, _)| **key != *"Granularity");
+                same.map(|(k, v)| (k.value.clone(), v.value.clone()))
+                    .collect::<Vec<_>>()
+            };
+            assert_eq!(pairs(&exported), pairs(&written.description), "{name}");
+        }
+    }
+}
