@@ -76,6 +76,9 @@ pub struct VirtualDevice {
     look_at: Option<Instant>,
 }
 
+/// Bit 4 of 1001h.
+const COMMUNICATION: u64 = 1 << 4;
+
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
@@ -300,7 +303,20 @@ impl VirtualDevice {
     pub fn leds(&self) -> (Led, Led) {
         let bits = |index| self.stored(index, 0).unwrap_or(0);
         let warning = bits(0x6505) != 0;
-        let error = bits(0x6503) != 0 || (bits(0x1001) != 0 && !warning);
+        // 1001h does not tell a warning from an error beside it; bit 4 never warns.
+        let broken = match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                let reports = encoder.profile().reports.iter();
+                let mut errors = reports.filter(|report| report.warning == 0);
+                errors.any(|report| encoder.is_broken(report.fault))
+            }
+            Behaviour::Nothing(_) => false,
+        };
+        let register = bits(0x1001);
+        let error = broken
+            || bits(0x6503) != 0
+            || register & COMMUNICATION != 0
+            || (register != 0 && !warning);
         leds::dual(self.is_powered(), self.state(), warning, error)
     }
 

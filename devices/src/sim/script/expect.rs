@@ -55,6 +55,13 @@ impl Runner<'_> {
                 }
             }
             Expect::Led { green, led } => self.led(*green, *led)?,
+            Expect::BitRate(wanted) => match self.device().bit_rate() {
+                Some(rate) if rate == *wanted => {}
+                Some(rate) => {
+                    return failed(format!("{wanted} kbit/s"), format!("it is {rate} kbit/s"));
+                }
+                None => return impossible("this device has no bit rate of its own"),
+            },
         }
         self.held += 1;
         Ok(())

@@ -142,6 +142,10 @@ pub(super) fn expect(words: &mut Words<'_>) -> Result<Expect, Problem> {
                 None => Err(start.problem("what LED does", "there are off, flashing, on")),
             }
         }
+        "bitrate" => {
+            let kbit = words.number(1, 1000)?;
+            Ok(Expect::BitRate(kbit as u16))
+        }
         "abort" => {
             let code = abort(words)?;
             Ok(Expect::Abort {

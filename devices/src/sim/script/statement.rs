@@ -74,6 +74,8 @@ pub(super) enum Expect {
         green: bool,
         led: Led,
     },
+    /// In kbit/s, since the last start.
+    BitRate(u16),
 }
 
 /// How an SDO transfer has to end.
