@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::ops::Deref;
 
 use crate::Address;
+use crate::fix::Fix;
 
 /// How bad it is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -64,6 +65,8 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// What is allowed, or what to write instead; empty if the message says it.
     pub help: String,
+    /// How to mend it without asking, where that can be done.
+    pub fix: Option<Fix>,
 }
 
 impl Diagnostic {
@@ -92,6 +95,7 @@ impl Diagnostic {
             address: None,
             labels: Vec::new(),
             help: String::new(),
+            fix: None,
         }
     }
 
@@ -126,6 +130,13 @@ impl Diagnostic {
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = help.into();
+        self
+    }
+
+    /// Mends it by these edits; by none if one of them has no place in a text.
+    #[must_use]
+    pub fn with_fix(mut self, fix: Fix) -> Self {
+        self.fix = fix.placed();
         self
     }
 

@@ -42,6 +42,8 @@ pub mod diff;
 #[cfg(feature = "eds")]
 pub mod eds;
 #[cfg(feature = "eds")]
+pub mod fix;
+#[cfg(feature = "eds")]
 pub mod patch;
 #[cfg(feature = "eds")]
 mod tables;

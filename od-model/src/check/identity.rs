@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 
 use super::{rules, start_number};
 use crate::eds::number;
+use crate::fix::Fix;
 use crate::{Address, Description, Diagnostic};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -38,7 +39,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 )
                 .with_address(address)
                 .with_label(object.span, "the object's value is here")
-                .with_help(format!("write `{key}=0x{value:X}`, or mend the object")),
+                .with_help(format!("write `{key}=0x{value:X}`, or mend the object"))
+                .with_fix(Fix::guess().replace(given.span, format!("0x{value:X}"))),
         );
     }
 }

@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::{place, rules, text};
+use crate::fix::Fix;
 use crate::{DataType, Description, Diagnostic, Spanned, Value};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -33,7 +34,12 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     )
                     .with_address(address)
                     .with_label(high.span, "HighLimit is here")
-                    .with_help("swap the two, or leave both empty"),
+                    .with_help("swap the two, or leave both empty")
+                    .with_fix(
+                        Fix::guess()
+                            .replace(low.span, text::shown(high))
+                            .replace(high.span, text::shown(low)),
+                    ),
             );
             continue;
         }

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::rules::{self, Rule};
 use super::{named, place};
+use crate::fix::Fix;
 use crate::{
     Address, DataType, Description, Diagnostic, EntryDescription, ObjectCode, ObjectDescription,
 };
@@ -102,7 +103,8 @@ fn code(
             format!("{index:04X}h must be a {right}, but is a {}", *object.code),
         )
         .with_address(address)
-        .with_help(format!("write `ObjectType=0x{:X}`", right.code())),
+        .with_help(format!("write `ObjectType=0x{:X}`", right.code()))
+        .with_fix(Fix::guess().replace(object.code.span, format!("0x{:X}", right.code()))),
     );
 }
 
@@ -121,7 +123,8 @@ fn entry(
                 format!("{shown} must be {data_type}, but is {}", *given),
             )
             .with_address(address)
-            .with_help(format!("write `DataType=0x{:04X}`", data_type.code())),
+            .with_help(format!("write `DataType=0x{:04X}`", data_type.code()))
+            .with_fix(Fix::guess().replace(given.span, format!("0x{:04X}", data_type.code()))),
         );
     }
     if entry.access.writable() {
@@ -131,7 +134,8 @@ fn entry(
                 format!("{shown} must be read only, but is {}", *entry.access),
             )
             .with_address(address)
-            .with_help("write `AccessType=ro`"),
+            .with_help("write `AccessType=ro`")
+            .with_fix(Fix::guess().replace(entry.access.span, "ro")),
         );
     }
 }

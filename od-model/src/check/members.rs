@@ -7,6 +7,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::{place, rules};
+use crate::fix::Fix;
 use crate::{Address, Description, Diagnostic, ObjectCode, ObjectDescription};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -43,7 +44,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                         ),
                     )
                     .with_address(address)
-                    .with_help(format!("write `SubNumber={count}`")),
+                    .with_help(format!("write `SubNumber={count}`"))
+                    .with_fix(Fix::safe().replace(number.span, format!("{count}"))),
             );
         }
         if *object.code == ObjectCode::Array {
@@ -74,7 +76,8 @@ fn one_type(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnosti
                 .with_address(Address::new(index, *sub))
                 .with_label(first.span, format!("{} is declared here", first.name()))
                 .with_label(object.code.span, "ARRAY is declared here")
-                .with_help("write `ObjectType=0x9` (RECORD) if the types are right"),
+                .with_help("write `ObjectType=0x9` (RECORD) if the types are right")
+                .with_fix(Fix::guess().replace(object.code.span, "0x9")),
         );
     }
 }

@@ -8,6 +8,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::{place, rules, start_number};
+use crate::fix::Fix;
 use crate::{Address, DataType, Description, Diagnostic, ObjectDescription};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -62,7 +63,10 @@ fn communication(
                         format!("the {what} must be {data_type}, but is {}", *given),
                     )
                     .with_address(address)
-                    .with_help(format!("write `DataType=0x{:04X}`", data_type.code())),
+                    .with_help(format!("write `DataType=0x{:04X}`", data_type.code()))
+                    .with_fix(
+                        Fix::guess().replace(given.span, format!("0x{:04X}", data_type.code())),
+                    ),
             );
         }
     }

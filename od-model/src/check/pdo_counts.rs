@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 
 use super::rules;
 use crate::eds::number;
+use crate::fix::Fix;
 use crate::{Description, Diagnostic};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -41,7 +42,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                         given.span,
                         format!("{key} is {number}, but there are {count} objects {what}"),
                     )
-                    .with_help(format!("write `{key}={count}`")),
+                    .with_help(format!("write `{key}={count}`"))
+                    .with_fix(Fix::safe().replace(given.span, format!("{count}"))),
             ),
             _ => {}
         }

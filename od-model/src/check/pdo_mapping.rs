@@ -10,6 +10,7 @@ use alloc::vec::Vec;
 
 use super::{named, place, rules, start_number};
 use crate::eds::number;
+use crate::fix::Fix;
 use crate::{Address, DataType, Description, Diagnostic, ObjectDescription, Spanned};
 
 /// What one mapping entry says, and where.
@@ -62,7 +63,8 @@ fn mapping(
                         format!("a mapping entry must be UNSIGNED32, but is {}", *given),
                     )
                     .with_address(address)
-                    .with_help("write `DataType=0x0007`"),
+                    .with_help("write `DataType=0x0007`")
+                    .with_fix(Fix::guess().replace(given.span, "0x0007")),
             );
             continue;
         }
@@ -133,7 +135,8 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
                 )
                 .with_help(format!(
                     "write `PDOMapping=1` for {shown}, or map another object"
-                )),
+                ))
+                .with_fix(Fix::guess().replace(entry.mappable.span, "1")),
         );
     }
     let direction = match mapped.rpdo {
@@ -174,6 +177,7 @@ fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Diagnostic {
         (1, 8) => rules::W0513,
         _ => rules::E0504,
     };
+    let mended = format!("0x{:04X}{:02X}{right:02X}", target.index, target.sub);
     rule.at(
         bits.span,
         format!(
@@ -182,10 +186,8 @@ fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Diagnostic {
             bits.value
         ),
     )
-    .with_help(format!(
-        "write `0x{:04X}{:02X}{right:02X}`",
-        target.index, target.sub
-    ))
+    .with_help(format!("write `{mended}`"))
+    .with_fix(Fix::guess().replace(bits.span, mended))
 }
 
 /// A data type as a placeholder for bits that the device ignores.
@@ -209,13 +211,16 @@ fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
         return Some(wrong_length(mapped, &shown, right));
     }
     let key = format!("Dummy{index:04X}");
-    let allowed = description
-        .section("DummyUsage")
-        .and_then(|section| section.get(&key))
-        .and_then(|value| number(value));
-    if allowed == Some(1) {
+    let usage = description.section("DummyUsage");
+    let given = usage.and_then(|section| section.get(&key));
+    if given.and_then(|value| number(value)) == Some(1) {
         return None;
     }
+    let fix = match (given, usage) {
+        (Some(value), _) => Fix::guess().replace(value.span, "1"),
+        (None, Some(usage)) => Fix::guess().below(usage.name.span, format!("{key}=1")),
+        (None, None) => Fix::guess(),
+    };
     Some(
         rules::W0506
             .at(
@@ -223,6 +228,7 @@ fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
                 format!("[DummyUsage] does not allow the dummy {index:04X}h"),
             )
             .with_address(mapped.entry)
-            .with_help(format!("write `{key}=1` in [DummyUsage]")),
+            .with_help(format!("write `{key}=1` in [DummyUsage]"))
+            .with_fix(fix),
     )
 }

@@ -10,7 +10,8 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::{place, rules, start_number};
-use crate::{Address, DataType, Description, Diagnostic, ObjectCode};
+use crate::fix::Fix;
+use crate::{Address, DataType, Description, Diagnostic, ObjectCode, ObjectDescription};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     for (index, object) in &description.objects {
@@ -28,7 +29,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     .with_address(address)
                     .with_help(format!(
                         "write a section [{index:04X}sub0] with `DataType=0x0005` and the highest sub-index as its DefaultValue"
-                    )),
+                    ))
+                    .with_fix(missing(*index, object)),
             );
             continue;
         };
@@ -40,7 +42,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                         format!("sub-index 0 must be UNSIGNED8, but is {}", data_type.name()),
                     )
                     .with_address(address)
-                    .with_help("write `DataType=0x0005`"),
+                    .with_help("write `DataType=0x0005`")
+                    .with_fix(Fix::guess().replace(data_type.span, "0x0005")),
             );
             continue;
         }
@@ -79,9 +82,26 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         findings.push(
             rule.at(place(&[number.span, count.span]), message)
                 .with_address(address)
-                .with_help(format!("write `DefaultValue={highest}`")),
+                .with_help(format!("write `DefaultValue={highest}`"))
+                .with_fix(Fix::guess().replace(number.span, format!("{highest}"))),
         );
     }
+}
+
+/// A sub-index 0, written before the first member.
+fn missing(index: u16, object: &ObjectDescription) -> Fix {
+    let Some((_, first)) = object.entries.first_key_value() else {
+        return Fix::guess();
+    };
+    let highest = object.entries.range(..255).next_back();
+    let highest = highest.map_or(0, |(sub, _)| *sub);
+    Fix::guess().above(
+        first.span,
+        format!(
+            "[{index:04X}sub0]\nParameterName=Highest sub-index supported\nObjectType=0x7\n\
+             DataType=0x0005\nAccessType=ro\nDefaultValue={highest}\nPDOMapping=0\n"
+        ),
+    )
 }
 
 /// Objects whose sub-index 0 changes with what is in them.

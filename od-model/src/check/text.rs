@@ -4,6 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::rules::{self, Rule};
+use crate::fix::Fix;
 use crate::{DataType, Diagnostic, Kind, Span, Spanned, Value};
 
 /// The rule that a value of this key breaks if it is none of its type.
@@ -27,7 +28,7 @@ pub(crate) fn no_value(
     if formula && !data_type.holds_node_id() {
         return no_formula(key, given, span, data_type);
     }
-    rule_of(key)
+    let finding = rule_of(key)
         .at(span, format!("{key} `{given}` is no {name}"))
         .with_label(data_type.span, format!("{name} is declared here"))
         .with_help(match formula {
@@ -36,7 +37,12 @@ pub(crate) fn no_value(
                 true => format!("write {}, or leave it empty", form(*data_type)),
                 false => format!("write {}", form(*data_type)),
             },
-        })
+        });
+    match key.ends_with("Limit") {
+        // It limits nothing, and is left out by those who cannot read it.
+        true => finding.with_fix(Fix::guess().replace(span, "")),
+        false => finding,
+    }
 }
 
 /// The finding that a limit stands where there can be none.
@@ -53,6 +59,7 @@ pub(crate) fn no_limit(
         )
         .with_label(data_type.span, format!("{name} is declared here"))
         .with_help(format!("write `{key}=`, or leave the line out"))
+        .with_fix(Fix::guess().replace(given.span, ""))
 }
 
 /// The finding that a formula stands where the node ID cannot be.

@@ -9,6 +9,7 @@ use super::number::{self, Note};
 use super::values;
 use crate::check::rules;
 use crate::check::text;
+use crate::fix::Fix;
 use crate::{Access, Address, DataType, Diagnostic, EntryDescription, Kind, Span, Spanned, Value};
 
 /// Where the diagnostics of one section go, and what it is about.
@@ -113,7 +114,8 @@ impl Reader<'_> {
             self.report(
                 rules::W0404
                     .at(fields.header, "there is no AccessType")
-                    .with_help("write `AccessType=ro`, which is taken now, or what it is"),
+                    .with_help("write `AccessType=ro`, which is taken now, or what it is")
+                    .with_fix(Fix::guess().below(fields.header, "AccessType=ro")),
             );
             return Spanned::from(Access::Ro);
         };
@@ -161,7 +163,8 @@ impl Reader<'_> {
                             given.span,
                             format!("PDOMapping is 0 or 1, not `{}`", given.value),
                         )
-                        .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`"),
+                        .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`")
+                        .with_fix(Fix::guess().replace(given.span, "0")),
                 );
                 unread.push(("PDOMapping".into(), given.value));
                 false
@@ -182,7 +185,8 @@ impl Reader<'_> {
                 self.report(
                     rules::W0407
                         .at(given.span, format!("`{}` are no ObjFlags", given.value))
-                        .with_help("write `ObjFlags=0`, or leave the line out"),
+                        .with_help("write `ObjFlags=0`, or leave the line out")
+                        .with_fix(Fix::guess().replace(given.span, "0")),
                 );
                 unread.push(("ObjFlags".into(), given.value));
                 0
@@ -257,11 +261,21 @@ impl Reader<'_> {
     ) {
         for note in notes {
             let finding = note_finding(*note, given, given.span);
-            let mended = match note {
+            let mended: String = match note {
                 Note::Comment => number::without_comment(given, &mut Vec::new()).into(),
                 _ => canonical(),
             };
-            self.report(finding.with_help(format!("write `{key}={mended}`")));
+            let fix = match note {
+                // The comment keeps a line of its own.
+                Note::Comment => {
+                    let comment = given.get(mended.len()..).unwrap_or_default().trim();
+                    let comment = format!(";{}", &comment[comment.len().min(1)..]);
+                    Fix::safe().replace(given.span, format!("{mended}\n{comment}"))
+                }
+                _ => Fix::safe().replace(given.span, mended.clone()),
+            };
+            let help = format!("write `{key}={mended}`");
+            self.report(finding.with_help(help).with_fix(fix));
         }
     }
 }

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 
 use super::ini::Placed;
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{Diagnostic, Group, Section, Span, Spanned};
 
 /// The keys of a section that describes an object or a member.
@@ -95,13 +96,18 @@ pub(super) fn duplicates(
     log: &mut Vec<Diagnostic>,
 ) -> Vec<usize> {
     let mut found = Vec::new();
-    let mut report = |first: &Spanned<String>, at: usize| {
+    let mut report = |(first, same): (&Spanned<String>, &Spanned<String>), at: usize| {
         let (key, value) = &pairs[at];
         log.push(
             rules::W0107
                 .at(key.span, format!("`{}` stands twice", key.value))
                 .with_label(first.span, "this one counts")
-                .with_help(format!("remove `{}={}`", key.value, value.value)),
+                .with_help(format!("remove `{}={}`", key.value, value.value))
+                .with_fix(match value == same {
+                    true => Fix::safe().remove_line(key.span),
+                    // Whoever takes the last one reads something else then.
+                    false => Fix::guess().remove_line(key.span),
+                }),
         );
         found.push(at);
     };
@@ -109,18 +115,18 @@ pub(super) fn duplicates(
     if pairs.len() <= 24 {
         for at in 1..pairs.len() {
             let same = |(k, _): &&(Spanned<String>, _)| k.eq_ignore_ascii_case(&pairs[at].0);
-            if let Some((first, _)) = pairs[..at].iter().find(same) {
-                report(first, at);
+            if let Some((first, value)) = pairs[..at].iter().find(same) {
+                report((first, value), at);
             }
         }
     } else {
         let mut seen = BTreeMap::new();
-        for (at, (key, _)) in pairs.iter().enumerate() {
+        for (at, (key, value)) in pairs.iter().enumerate() {
             match seen.entry(key.to_ascii_lowercase()) {
                 alloc::collections::btree_map::Entry::Vacant(entry) => {
-                    entry.insert(key);
+                    entry.insert((key, value));
                 }
-                alloc::collections::btree_map::Entry::Occupied(entry) => report(entry.get(), at),
+                alloc::collections::btree_map::Entry::Occupied(entry) => report(*entry.get(), at),
             }
         }
     }

@@ -9,6 +9,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{Diagnostic, Span, Spanned};
 
 /// A section as it stands in the text.
@@ -167,7 +168,8 @@ impl<'a> Scan<'a> {
                             line.span(trimmed),
                             format!("the section `{name}` has no closing bracket"),
                         )
-                        .with_help(format!("write `[{name}]`")),
+                        .with_help(format!("write `[{name}]`"))
+                        .with_fix(Fix::safe().replace(line.span(name), format!("{name}]"))),
                 );
                 (name, "")
             }
@@ -179,7 +181,11 @@ impl<'a> Scan<'a> {
                         line.span(behind),
                         format!("`{behind}` stands behind the section `[{name}]`"),
                     )
-                    .with_help("give a comment a line of its own that begins with `;`"),
+                    .with_help("give a comment a line of its own that begins with `;`")
+                    .with_fix(Fix::safe().replace(
+                        line.span(behind),
+                        format!("\n;{}", behind.trim_start_matches([';', '#'])),
+                    )),
             );
         }
         if name.is_empty() {
@@ -209,7 +215,8 @@ impl<'a> Scan<'a> {
                         line.span(trimmed),
                         format!("`{trimmed}` is no section, no `key=value` and no comment"),
                     )
-                    .with_help("the line is ignored; begin it with `;` to make it a comment"),
+                    .with_help("the line is ignored; begin it with `;` to make it a comment")
+                    .with_fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
             );
             return;
         };
@@ -221,7 +228,8 @@ impl<'a> Scan<'a> {
                         line.span(trimmed),
                         format!("`{trimmed}` has no key before the `=`"),
                     )
-                    .with_help("the line is ignored; remove it, or name the key"),
+                    .with_help("the line is ignored; remove it, or name the key")
+                    .with_fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
             );
             return;
         }
@@ -232,7 +240,8 @@ impl<'a> Scan<'a> {
                         line.span(&trimmed[at..=at]),
                         format!("`{key}` is separated from its value by `:`"),
                     )
-                    .with_help(format!("write `{key}={value}`")),
+                    .with_help(format!("write `{key}={value}`"))
+                    .with_fix(Fix::safe().replace(line.span(&trimmed[at..=at]), "=")),
             );
         }
         let pair = RawPair {

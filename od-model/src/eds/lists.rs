@@ -9,6 +9,7 @@ use super::ini::Placed;
 use super::number;
 use super::sections::List;
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{Address, Description, Diagnostic, Span, Spanned};
 
 /// Compares the lists of a file with the objects it has.
@@ -82,7 +83,8 @@ fn entries(
                     .at(value.span, format!("{index:04X}h is listed twice"))
                     .with_address(address)
                     .with_label(*first, "it is listed here")
-                    .with_help("remove one of the entries"),
+                    .with_help("remove one of the entries")
+                    .with_fix(Fix::safe().remove_line(value.span)),
             );
             continue;
         }
@@ -95,7 +97,8 @@ fn entries(
                         format!("{index:04X}h is listed, but there is no section [{index:04X}]"),
                     )
                     .with_address(address)
-                    .with_help("write the section, or remove the entry"),
+                    .with_help("write the section, or remove the entry")
+                    .with_fix(Fix::guess().remove_line(value.span)),
             );
         }
         let right = List::of(index);
@@ -127,7 +130,11 @@ fn entries(
                         None => "there is no SupportedObjects".to_string(),
                     },
                 )
-                .with_help(format!("write `SupportedObjects={found}`")),
+                .with_help(format!("write `SupportedObjects={found}`"))
+                .with_fix(match count {
+                    Some(count) => Fix::safe().replace(count.span, found.to_string()),
+                    None => Fix::safe().below(placed.header, format!("SupportedObjects={found}")),
+                }),
         );
     }
 }

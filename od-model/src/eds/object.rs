@@ -10,6 +10,7 @@ use super::entry::{Reader, Unread, extra};
 use super::fields::Fields;
 use super::ini::Placed;
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{
     Address, DataType, Diagnostic, EntryDescription, ObjectCode, ObjectDescription, Spanned,
 };
@@ -83,7 +84,8 @@ pub(super) fn object(
             reader.report(
                 rules::W0317
                     .at(span, "there is no SubNumber")
-                    .with_help(format!("write `SubNumber={counted}`")),
+                    .with_help(format!("write `SubNumber={counted}`"))
+                    .with_fix(Fix::safe().below(span, format!("SubNumber={counted}"))),
             );
             Spanned::from(counted)
         }
@@ -198,7 +200,8 @@ fn object_code(
                         fields.header,
                         "there is no ObjectType, but there are members",
                     )
-                    .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"),
+                    .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
+                    .with_fix(Fix::guess().below(fields.header, "ObjectType=0x9")),
             );
         }
         return Spanned::from(guess);
@@ -240,7 +243,12 @@ fn contradiction(
         .at(span, format!("a {} has no sub-indices", *code))
         .with_label(code.span, "the object code is declared here");
     if count.is_some() {
-        reader.report(finding.with_help("write `ObjectType=0x8` (ARRAY)"));
+        let fix = Fix::guess().replace(code.span, "0x8");
+        reader.report(
+            finding
+                .with_help("write `ObjectType=0x8` (ARRAY)")
+                .with_fix(fix),
+        );
         return Spanned::new(ObjectCode::Array, code.span);
     }
     if fields.has("DataType") {
@@ -250,7 +258,12 @@ fn contradiction(
         members.clear();
         return code;
     }
-    reader.report(finding.with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"));
+    let fix = Fix::guess().replace(code.span, "0x9");
+    reader.report(
+        finding
+            .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
+            .with_fix(fix),
+    );
     Spanned::new(ObjectCode::Record, code.span)
 }
 

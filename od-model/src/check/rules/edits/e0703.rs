@@ -1,0 +1,15 @@
+//! E0703: added member has no object.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0703",
+    severity: Error,
+    title: "added member has no object",
+    why: "A member stands in an object; add the object first.",
+    source: "odkit, object_dictionary!",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

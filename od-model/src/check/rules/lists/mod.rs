@@ -1,0 +1,14 @@
+//! 02: lists, sections and keys against each other. One file a rule.
+
+catalogue! {
+    w0201 W0201
+    w0202 W0202
+    w0203 W0203
+    w0204 W0204
+    w0205 W0205
+    w0206 W0206
+    w0207 W0207
+    e0208 E0208
+    w0209 W0209
+    e0210 E0210
+}

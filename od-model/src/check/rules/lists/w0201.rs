@@ -1,0 +1,15 @@
+//! W0201: listed object has no section.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0201",
+    severity: Warning,
+    title: "listed object has no section",
+    why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0202: object is in no list.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0202",
+    severity: Warning,
+    title: "object is in no list",
+    why: "A reader that follows the lists does not see the object. It is taken to exist.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

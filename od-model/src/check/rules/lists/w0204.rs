@@ -1,0 +1,15 @@
+//! W0204: SupportedObjects does not count its list.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0204",
+    severity: Warning,
+    title: "SupportedObjects does not count its list",
+    why: "Many readers read as many entries as it says and no more. All entries are read.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

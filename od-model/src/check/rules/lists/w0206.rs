@@ -1,0 +1,15 @@
+//! W0206: object is in the wrong list.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0206",
+    severity: Warning,
+    title: "object is in the wrong list",
+    why: "2000h–5FFFh belong to [ManufacturerObjects], the mandatory three to [MandatoryObjects], all others to [OptionalObjects].",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

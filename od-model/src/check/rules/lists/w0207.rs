@@ -1,0 +1,15 @@
+//! W0207: object is listed twice.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0207",
+    severity: Warning,
+    title: "object is listed twice",
+    why: "One entry is enough; some editors make two objects of two.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

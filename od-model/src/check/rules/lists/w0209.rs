@@ -1,0 +1,15 @@
+//! W0209: compact section without CompactSubObj.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0209",
+    severity: Warning,
+    title: "compact section without CompactSubObj",
+    why: "[xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. The section is kept, and nothing reads it.",
+    source: "CiA 306-1, CompactSubObj",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

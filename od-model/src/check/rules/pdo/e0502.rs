@@ -1,0 +1,15 @@
+//! E0502: PDO maps an object that is not mappable.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0502",
+    severity: Error,
+    title: "PDO maps an object that is not mappable",
+    why: "PDOMapping=0 forbids it.",
+    source: "CiA 301, PDO mapping parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

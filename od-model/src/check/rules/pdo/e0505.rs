@@ -1,0 +1,15 @@
+//! E0505: PDO is longer than 64 bits.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0505",
+    severity: Error,
+    title: "PDO is longer than 64 bits",
+    why: "A CAN frame carries eight bytes.",
+    source: "CiA 301, PDO mapping parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0509: PDO communication parameter lacks COB-ID or transmission type.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0509",
+    severity: Error,
+    title: "PDO communication parameter lacks COB-ID or transmission type",
+    why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
+    source: "CiA 301, PDO communication parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0510: mapping entry is no UNSIGNED32.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0510",
+    severity: Error,
+    title: "mapping entry is no UNSIGNED32",
+    why: "A mapping entry is index, sub-index and length in one UNSIGNED32.",
+    source: "CiA 301, PDO mapping parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

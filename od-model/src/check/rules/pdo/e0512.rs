@@ -1,0 +1,15 @@
+//! E0512: PDO maps a sub-index that does not exist.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0512",
+    severity: Error,
+    title: "PDO maps a sub-index that does not exist",
+    why: "The PDO cannot be made.",
+    source: "CiA 301, PDO mapping parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0506: RPDO maps a dummy that [DummyUsage] does not allow.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0506",
+    severity: Warning,
+    title: "RPDO maps a dummy that [DummyUsage] does not allow",
+    why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
+    source: "CiA 306-1, DummyUsage",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0511: transmission type is reserved.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0511",
+    severity: Warning,
+    title: "transmission type is reserved",
+    why: "0–240 and 252–255 have a meaning, for an RPDO 0–240, 254 and 255.",
+    source: "CiA 301, PDO communication parameter",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

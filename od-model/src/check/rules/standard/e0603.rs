@@ -1,0 +1,15 @@
+//! E0603: object 1018h is missing.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0603",
+    severity: Error,
+    title: "object 1018h is missing",
+    why: "Every CANopen device has it; a master identifies the device by it.",
+    source: "CiA 301, object 1018h",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

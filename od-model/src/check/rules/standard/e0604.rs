@@ -1,0 +1,15 @@
+//! E0604: object 1000h is not as CiA 301 says.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0604",
+    severity: Error,
+    title: "object 1000h is not as CiA 301 says",
+    why: "A VAR, UNSIGNED32, read only.",
+    source: "CiA 301, object 1000h",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0605: object 1001h is not as CiA 301 says.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0605",
+    severity: Error,
+    title: "object 1001h is not as CiA 301 says",
+    why: "A VAR, UNSIGNED8, read only.",
+    source: "CiA 301, object 1001h",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

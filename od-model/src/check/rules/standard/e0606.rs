@@ -1,0 +1,15 @@
+//! E0606: object 1018h is not as CiA 301 says.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0606",
+    severity: Error,
+    title: "object 1018h is not as CiA 301 says",
+    why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
+    source: "CiA 301, object 1018h",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

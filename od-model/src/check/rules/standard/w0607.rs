@@ -1,0 +1,15 @@
+//! W0607: identity differs from [DeviceInfo].
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0607",
+    severity: Warning,
+    title: "identity differs from [DeviceInfo]",
+    why: "VendorNumber, ProductNumber and RevisionNumber are the defaults of 1018h; a master picks the EDS by them.",
+    source: "CiA 306-1, DeviceInfo",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0608: number of PDOs differs from [DeviceInfo].
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0608",
+    severity: Warning,
+    title: "number of PDOs differs from [DeviceInfo]",
+    why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
+    source: "CiA 306-1, DeviceInfo",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0303: object or sub-index stands twice with different content.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0303",
+    severity: Error,
+    title: "object or sub-index stands twice with different content",
+    why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

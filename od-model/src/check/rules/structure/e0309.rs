@@ -1,0 +1,15 @@
+//! E0309: sub-index 0 is no UNSIGNED8.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0309",
+    severity: Error,
+    title: "sub-index 0 is no UNSIGNED8",
+    why: "Sub-index 0 is the highest sub-index, an UNSIGNED8, in every ARRAY and RECORD.",
+    source: "CiA 301, object structure",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0310: sub-index 0 promises members that do not exist.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0310",
+    severity: Error,
+    title: "sub-index 0 promises members that do not exist",
+    why: "A master that reads up to the highest sub-index gets an abort. A value that counts entries in use may be lower than the members, never higher.",
+    source: "CiA 301, object structure",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

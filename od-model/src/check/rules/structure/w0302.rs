@@ -1,0 +1,15 @@
+//! W0302: object with members has no ObjectType.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0302",
+    severity: Warning,
+    title: "object with members has no ObjectType",
+    why: "Without ObjectType an object is a VAR, and this one has members. It is taken for a RECORD.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0307: ARRAY or RECORD has no sub-index 0.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0307",
+    severity: Warning,
+    title: "ARRAY or RECORD has no sub-index 0",
+    why: "A master reads sub-index 0 to learn how many members there are.",
+    source: "CiA 301, object structure",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

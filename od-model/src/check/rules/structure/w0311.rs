@@ -1,0 +1,15 @@
+//! W0311: sub-index 0 is lower than the highest member.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0311",
+    severity: Warning,
+    title: "sub-index 0 is lower than the highest member",
+    why: "A master that reads up to sub-index 0 never sees the members above it.",
+    source: "CiA 301, object structure",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

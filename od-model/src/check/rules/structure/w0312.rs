@@ -1,0 +1,15 @@
+//! W0312: members of an ARRAY differ in type.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0312",
+    severity: Warning,
+    title: "members of an ARRAY differ in type",
+    why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
+    source: "CiA 301, object codes",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

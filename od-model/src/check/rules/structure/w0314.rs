@@ -1,0 +1,15 @@
+//! W0314: compact section names a member that does not exist.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0314",
+    severity: Warning,
+    title: "compact section names a member that does not exist",
+    why: "The entry is left out.",
+    source: "CiA 306-1, CompactSubObj",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

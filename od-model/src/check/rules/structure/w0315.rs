@@ -1,0 +1,15 @@
+//! W0315: ParameterName is missing.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0315",
+    severity: Warning,
+    title: "ParameterName is missing",
+    why: "Every object and every member has a name.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

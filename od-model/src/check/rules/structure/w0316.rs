@@ -1,0 +1,15 @@
+//! W0316: SubNumber is no number.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0316",
+    severity: Warning,
+    title: "SubNumber is no number",
+    why: "SubNumber is the number of sub-index sections. They are counted instead.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

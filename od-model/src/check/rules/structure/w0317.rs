@@ -1,0 +1,15 @@
+//! W0317: SubNumber is missing.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0317",
+    severity: Warning,
+    title: "SubNumber is missing",
+    why: "An object with members says how many. They are counted instead.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0101: line is no section, no key and no comment.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0101",
+    severity: Warning,
+    title: "line is no section, no key and no comment",
+    why: "Most readers stop at such a line. It is ignored here.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0102: line has no key before the `=`.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0102",
+    severity: Warning,
+    title: "line has no key before the `=`",
+    why: "Nothing can ask for a value without a key. The line is ignored.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0104: text behind a section header.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0104",
+    severity: Warning,
+    title: "text behind a section header",
+    why: "Most readers stop at such a line. The text is ignored.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0106: section stands twice.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0106",
+    severity: Warning,
+    title: "section stands twice",
+    why: "Readers differ in which one they take. The first counts; both are kept.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

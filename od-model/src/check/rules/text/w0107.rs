@@ -1,0 +1,15 @@
+//! W0107: key stands twice in its section.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0107",
+    severity: Warning,
+    title: "key stands twice in its section",
+    why: "Readers differ in which one they take. The first counts.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

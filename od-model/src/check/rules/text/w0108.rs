@@ -1,0 +1,15 @@
+//! W0108: `:` instead of `=`.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0108",
+    severity: Warning,
+    title: "`:` instead of `=`",
+    why: "Only some readers know it. It is read as `=`.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0401: DataType is missing.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0401",
+    severity: Error,
+    title: "DataType is missing",
+    why: "Nothing is known of a value without a type. It is left out of the dictionary.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

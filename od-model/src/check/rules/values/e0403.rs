@@ -1,0 +1,15 @@
+//! E0403: value has the type of a record.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0403",
+    severity: Error,
+    title: "value has the type of a record",
+    why: "0020h–0023h describe whole objects; a value has one of the basic types. It is left out of the dictionary.",
+    source: "CiA 301, data types",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

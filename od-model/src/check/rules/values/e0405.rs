@@ -1,0 +1,15 @@
+//! E0405: AccessType is none.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0405",
+    severity: Error,
+    title: "AccessType is none",
+    why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0412: DefaultValue is no value of its type.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0412",
+    severity: Error,
+    title: "DefaultValue is no value of its type",
+    why: "The value cannot be what the description says it is. The dictionary has no default there.",
+    source: "CiA 306-1, object sections; CiA 301, data types",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

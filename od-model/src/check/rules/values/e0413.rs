@@ -1,0 +1,15 @@
+//! E0413: ParameterValue is no value of its type.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0413",
+    severity: Error,
+    title: "ParameterValue is no value of its type",
+    why: "The value cannot be what the configuration says it is. The dictionary has the default there.",
+    source: "CiA 306-1, DCF; CiA 301, data types",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

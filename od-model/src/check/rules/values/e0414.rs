@@ -1,0 +1,15 @@
+//! E0414: value is outside its limits.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0414",
+    severity: Error,
+    title: "value is outside its limits",
+    why: "A device refuses to be set to what its own default is.",
+    source: "CiA 306-1, LowLimit and HighLimit",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0415: LowLimit is greater than HighLimit.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0415",
+    severity: Error,
+    title: "LowLimit is greater than HighLimit",
+    why: "No value lies between them.",
+    source: "CiA 306-1, LowLimit and HighLimit",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

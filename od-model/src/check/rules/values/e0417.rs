@@ -1,0 +1,15 @@
+//! E0417: $NODEID where it cannot be.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0417",
+    severity: Error,
+    title: "$NODEID where it cannot be",
+    why: "Only an UNSIGNED8, UNSIGNED16, UNSIGNED24 or UNSIGNED32 can depend on the node ID.",
+    source: "CiA 306-1, $NODEID",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! E0418: $NODEID formula does not fit its type for every node ID.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0418",
+    severity: Error,
+    title: "$NODEID formula does not fit its type for every node ID",
+    why: "The sum with the highest node ID, 127, must fit.",
+    source: "CiA 306-1, $NODEID",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

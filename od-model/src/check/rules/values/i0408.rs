@@ -1,0 +1,15 @@
+//! I0408: number with a leading 0 is octal.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0408",
+    severity: Info,
+    title: "number with a leading 0 is octal",
+    why: "`010` is 8. It is read so, as C reads it; not every reader does.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! I0411: $NODEID is not written as `$NODEID+n`.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0411",
+    severity: Info,
+    title: "$NODEID is not written as `$NODEID+n`",
+    why: "Another order, other case or blanks are read the same; not every reader does.",
+    source: "CiA 306-1, $NODEID",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

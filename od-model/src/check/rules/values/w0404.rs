@@ -1,0 +1,15 @@
+//! W0404: AccessType is missing.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0404",
+    severity: Warning,
+    title: "AccessType is missing",
+    why: "Every value says who may write it. `ro` is taken.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0406: PDOMapping is neither 0 nor 1.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0406",
+    severity: Warning,
+    title: "PDOMapping is neither 0 nor 1",
+    why: "0 is taken.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

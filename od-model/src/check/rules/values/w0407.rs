@@ -1,0 +1,15 @@
+//! W0407: ObjFlags is no number.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0407",
+    severity: Warning,
+    title: "ObjFlags is no number",
+    why: "0 is taken.",
+    source: "CiA 306-1, ObjFlags",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0409: number with a leading 0 is not octal.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0409",
+    severity: Warning,
+    title: "number with a leading 0 is not octal",
+    why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0416: limit is no value of its type.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0416",
+    severity: Warning,
+    title: "limit is no value of its type",
+    why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
+    source: "CiA 306-1, LowLimit and HighLimit",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0420: number has a suffix or a decimal point.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0420",
+    severity: Warning,
+    title: "number has a suffix or a decimal point",
+    why: "`0x10L` and `5.0` are how other languages write integers. The integer is taken; many readers refuse it.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0421: BOOLEAN is neither 0 nor 1.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0421",
+    severity: Warning,
+    title: "BOOLEAN is neither 0 nor 1",
+    why: "`true` and `false` are words of other formats. They are read as 1 and 0.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};
