@@ -372,6 +372,8 @@ fn report_event(event: Event) {
         Event::StorageDamaged => {
             note!("the EEPROM is damaged or of another version; defaults were taken");
         }
+        Event::BusOff { .. } => note!("bus-off"),
+        Event::BusOn => note!("back from bus-off"),
         Event::Error(error) => note!("error {:04X}h", error.code),
         Event::ErrorCleared(code) => note!("error {code:04X}h is over"),
         Event::BitRate(code) => note!("LSS set bit rate {code}; this bus has none"),

@@ -2,12 +2,14 @@
 
 use crate::fifo::Fifo;
 use crate::wire;
-use crate::{CobId, Frame, Instant, Store};
+use crate::{CobId, ErrorReset, Frame, Instant, Store};
 use od_model::Address;
 
-/// Most errors that can be active at once, and that can wait to be sent.
-const ACTIVE: usize = 16;
-const QUEUE: usize = 8;
+/// Most errors that can be active at once, that can come or go in one call, and that can wait
+/// to be sent.
+const ACTIVE: usize = 32;
+const CHANGES: usize = 32;
+const QUEUE: usize = 16;
 
 /// An error: what the EMCY frame says of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -35,12 +37,18 @@ pub enum Change {
 }
 
 /// Changes on their way from the application to the node.
-pub(crate) type Changes = Fifo<Change, QUEUE>;
+pub(crate) type Changes = Fifo<Change, CHANGES>;
 
 /// Stands where no change waits.
 pub(crate) const NO_CHANGE: Change = Change::Cleared {
     code: 0,
     info: [0; 5],
+};
+
+/// Nothing came or went.
+const NO_NEWS: Outcome = Outcome {
+    is_news: false,
+    set: 0,
 };
 
 /// The emergency producer.
@@ -49,6 +57,17 @@ pub(crate) struct Producer {
     active: Fifo<Error, ACTIVE>,
     waiting: Fifo<wire::emcy::Repr, QUEUE>,
     blocked_until: Instant,
+    /// Bits of 1001h that no EMCY stands for.
+    silent: u8,
+}
+
+/// What a change made of the errors.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Outcome {
+    /// The error was not there, or was: the change is one.
+    pub(crate) is_news: bool,
+    /// Bits of 1001h that became set.
+    pub(crate) set: u8,
 }
 
 impl Producer {
@@ -65,6 +84,7 @@ impl Producer {
                 info: [0; 5],
             }),
             blocked_until: Instant::ZERO,
+            silent: 0,
         }
     }
 
@@ -73,41 +93,73 @@ impl Producer {
         *self = Self::new();
     }
 
-    /// Takes a change over into 1001h and 1003h. Answers whether an error came
-    /// that was not there.
+    /// Takes a change over into 1001h and 1003h.
     ///
     /// `send` is false where the NMT state or 1014h forbids the frame; the log
     /// in 1003h is kept all the same.
-    pub(crate) fn change(&mut self, store: &mut Store<'_>, change: Change, send: bool) -> bool {
-        let (code, info, raised) = match change {
+    pub(crate) fn change(
+        &mut self,
+        store: &mut Store<'_>,
+        change: Change,
+        reset: ErrorReset,
+        send: bool,
+    ) -> Outcome {
+        let before = self.register();
+        let (code, info) = match change {
             Change::Raised(error) => {
                 if self.active.iter().any(|known| known.code == error.code) {
-                    return false;
+                    return NO_NEWS;
                 }
                 self.active.push(error);
                 log(store, error.code);
-                (error.code, error.info, true)
+                (error.code, error.info)
             }
             Change::Cleared { code, info } => {
                 if !self.active.remove(|known| known.code == code) {
-                    return false;
+                    return NO_NEWS;
                 }
-                (0, info, false)
+                (0, info)
             }
         };
-        let register = self
-            .active
-            .iter()
-            .fold(0, |bits, error| bits | error.register);
-        store.set_unsigned(Address::new(0x1001, 0), register.into());
-        if send {
+        let register = self.show(store);
+        let is_last = reset == ErrorReset::EachError || self.active.is_empty();
+        if send && (code != 0 || is_last) {
             self.waiting.push(wire::emcy::Repr {
                 code,
                 register,
                 info,
             });
         }
-        raised
+        Outcome {
+            is_news: true,
+            set: register & !before,
+        }
+    }
+
+    /// The bits of 1001h that nobody is told of by EMCY. Answers with those that became set.
+    pub(crate) fn set_silent(&mut self, store: &mut Store<'_>, bits: u8) -> u8 {
+        let before = self.register();
+        self.silent = bits;
+        self.show(store) & !before
+    }
+
+    /// Errors that a reset of the communication ends, without a word.
+    pub(crate) fn forget(&mut self, store: &mut Store<'_>, which: impl Fn(u16) -> bool) {
+        while self.active.remove(|error| which(error.code)) {}
+        self.silent = 0;
+        self.show(store);
+    }
+
+    /// 1001h.
+    pub(crate) fn register(&self) -> u8 {
+        let bits = self.active.iter().map(|error| error.register);
+        bits.fold(self.silent, |all, bits| all | bits)
+    }
+
+    fn show(&self, store: &mut Store<'_>) -> u8 {
+        let register = self.register();
+        store.set_unsigned(Address::new(0x1001, 0), register.into());
+        register
     }
 
     /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.

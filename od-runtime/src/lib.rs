@@ -93,7 +93,7 @@ pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use emcy::{Change as ErrorChange, Error};
 pub use frame::{CanId, Frame};
 pub use ids::{CobId, NodeId};
-pub use node::{Event, Node};
+pub use node::{BusEvent, Event, Node};
 pub use objects::Device;
 pub use profile::{
     BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule, LssProfile,

@@ -333,18 +333,19 @@ impl VirtualDevice {
             values,
             storage,
             wanted_id,
+            profile,
             ..
         } = self;
         let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
             return;
         };
         store.reset(|_| true);
-        let loaded = image::load(storage, &mut store, &|_: &Entry| true);
+        let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
         let own = store.unsigned(index, 0);
         if loaded == Ok(image::Loaded::Blank) && own != u64::from(wanted_id.raw()) {
             store.set_unsigned(Address::new(index, 0), wanted_id.raw().into());
             // Only the group of the object; a storage that fails keeps the default.
-            let _ = image::save(storage, &store, 4);
+            let _ = image::save(storage, &store, &profile.store, 4);
         }
     }
 

@@ -22,9 +22,10 @@ mod error {
 pub(crate) enum Action {
     /// Nothing, or the answer alone.
     Answer(Option<Response>),
-    /// Silence for so many milliseconds, then the bit rate of this index of 2100h.
+    /// Silence for so many milliseconds, then the bit rate of this index of 2100h, then
+    /// silence again where the family has it.
     Activate {
-        /// Silence, in ms.
+        /// Switch delay, in ms.
         delay_ms: u16,
         /// The new bit rate, as the device's own object numbers it.
         bit_rate: u8,
@@ -104,6 +105,10 @@ impl Slave {
                 part,
                 next,
             } if profile.fastscan => {
+                // Who is being configured was found already (CiA 305, chapter 6.3.6).
+                if self.configuration {
+                    return Action::Answer(None);
+                }
                 let seen = self.fastscan.step(number, bit, part, next, address);
                 self.configuration |= seen == identify::Seen::Complete;
                 (seen != identify::Seen::Other).then_some(Response::Identified)
@@ -177,6 +182,8 @@ impl Slave {
             ),
             (profile.bit_rate, self.bit_rate),
         ];
+        // What a save writes in the background is there before anything follows.
+        objects.complete_save();
         for (address, value) in pending {
             if let Some(value) = value
                 && !objects.store.set_unsigned(address, value.into())
@@ -187,7 +194,12 @@ impl Slave {
         let ours = |entry: &od_model::Entry| {
             entry.address == profile.node_id || entry.address == profile.bit_rate
         };
-        match crate::storage::image::save_only(objects.storage, &objects.store, &ours) {
+        match crate::storage::image::save_only(
+            objects.storage,
+            &objects.store,
+            &objects.profile.store,
+            &ours,
+        ) {
             Ok(()) => error::NONE,
             Err(_) => error::ACCESS,
         }

@@ -1,10 +1,12 @@
 //! Power-on, the two NMT resets, and how the services get their configuration.
 
-use super::{Core, Event};
+use super::{BusEvent, Core, Event};
 use crate::objects::{Device, Objects, Outbox};
 use crate::storage::image::{self, Loaded};
 use crate::wire::nmt::State;
-use crate::{CobId, Frame, Instant, LssProfile, Reset, StoreTooSmall, lss, pdo};
+use crate::{
+    CobId, CommunicationReset, Frame, Instant, LssProfile, Reset, StoreTooSmall, lss, pdo,
+};
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// See [`Node::power_on`](super::Node::power_on).
@@ -20,17 +22,19 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
         self.now = now;
         self.powered = true;
+        self.mute = None;
         self.discard_frames();
         self.reset(device, outbox, now, Reset::PowerOn);
         Ok(())
     }
 
     /// Power goes: silence until [`power_on`](Self::power_on).
-    pub(super) fn power_off(&mut self) {
+    pub(super) fn power_off(&mut self, outbox: &mut Outbox) {
         self.powered = false;
+        self.drop_save(outbox);
         self.discard_frames();
         self.emcy.reset();
-        self.sdo.reset();
+        self.sdo.forget();
         self.stop_pdos();
         self.state = State::Initialising;
         self.boot_at = None;
@@ -43,29 +47,56 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         now: Instant,
         reset: Reset,
     ) {
+        let light = reset == Reset::Node && self.is_light(device, outbox, now);
         let delay = match reset {
             Reset::Node => device.profile.nmt.reset_node_us,
             Reset::Communication => device.profile.nmt.reset_communication_us,
             Reset::PowerOn | Reset::Defaults => 0,
         };
-        self.sdo.reset();
+        self.sdo.forget();
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();
         self.lss = lss::Slave::new();
+        if self.is_bus_off() {
+            self.events.push(Event::BusOn);
+        }
         self.mute = None;
+        self.bus = BusEvent::Active;
         self.reset_due = false;
+        self.lost = false;
         self.tick_at = None;
         self.state = State::Initialising;
-        if reset != Reset::Communication {
-            self.emcy.reset();
+        if light {
+            // Nothing of the device is reset, and a save goes on.
+            self.forget_bus_errors(device, outbox, now);
+        } else {
+            self.drop_save(outbox);
+            if reset == Reset::Communication {
+                self.forget_bus_errors(device, outbox, now);
+            } else {
+                self.emcy.reset();
+            }
+            self.load(device, outbox, now, reset);
         }
-        self.load(device, outbox, now, reset);
         self.events.push(Event::Reset(reset, self.node_id));
         self.boot_at = Some(now.plus_micros(delay.into()));
         if delay == 0 {
             self.boot_up(device, outbox, now);
         }
+    }
+
+    /// Does NMT reset node begin the NMT state alone anew?
+    fn is_light(&self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) -> bool {
+        let switch = device.profile.nmt.reset_node_light;
+        let objects = device.objects(self.node_id, now, outbox);
+        objects.is_some_and(|objects| switch.is_some_and(|switch| objects.has_bits(switch)))
+    }
+
+    /// A save that was not complete will not be.
+    fn drop_save(&mut self, outbox: &mut Outbox) {
+        outbox.saving = None;
+        self.save_at = None;
     }
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
@@ -77,19 +108,24 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 return;
             };
             // Reset communication takes 1000h–1FFFh back, and what the device starts on the
-            // bus with; it leaves the errors that last.
+            // bus with, or all that can be saved or written; it leaves the errors that last.
             let lss = objects.profile.lss;
+            let scope = objects.profile.nmt.reset_communication;
             let which = |entry: &od_model::Entry| {
                 let starts_with =
                     |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
                 all || match entry.address.index {
                     0x1001 | 0x1003 => false,
                     0x1000..=0x1FFF => true,
+                    _ if scope == CommunicationReset::Everything => {
+                        image::is_kept(entry) || entry.access.writable()
+                    }
                     _ => lss.is_some_and(starts_with),
                 }
             };
             objects.store.reset(which);
-            let loaded = image::load(objects.storage, &mut objects.store, &which);
+            let profile = &objects.profile.store;
+            let loaded = image::load(objects.storage, &mut objects.store, profile, &which);
             if pass == 0
                 && !matches!(
                     loaded,
@@ -123,7 +159,13 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             .configure(&objects.store, objects.profile, now);
         self.monitor.configure(&objects.store, objects.profile);
         self.tick_at = objects.application(|application, context| application.tick(context));
+        let self_start = objects.profile.nmt.self_start;
+        if self_start.is_some_and(|switch| objects.has_bits(switch)) {
+            self.enter(&mut objects, State::Operational);
+            self.react_to_lasting(&mut objects);
+        }
         self.finish(&mut objects);
+        self.reset_if_due(device, outbox, now);
     }
 
     /// Every service reads its objects again.

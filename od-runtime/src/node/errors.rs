@@ -1,12 +1,31 @@
-//! What the node does when the other side is lost (CiA 301, object 1029h).
+//! What the node does when an error comes: the other side is lost, or a bit of 1001h becomes
+//! set (CiA 301, object 1029h).
 
-use super::Core;
-use crate::Error;
+use super::{Core, Event};
 use crate::objects::Objects;
 use crate::wire::nmt::State;
+use crate::{Error, ErrorChange, Notice, emcy};
 
-/// EMCY code of a life guarding or heartbeat error (CiA 301, table 26).
-const LOST: u16 = 0x8130;
+/// What 1029h asks for, the gravest last.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Behaviour {
+    Nothing,
+    /// From Operational alone; what CiA 301 asks for without the object (chapter 7.5.2.32).
+    PreOperational,
+    Stopped,
+    Reset,
+}
+
+impl Notice {
+    /// The error that the node tells of.
+    pub(super) const fn error(self, info: [u8; 5]) -> Error {
+        Error {
+            code: self.code,
+            register: self.register,
+            info,
+        }
+    }
+}
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// Takes over what the monitor has to say.
@@ -20,30 +39,76 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// Somebody was lost, or everybody is back.
     #[cold]
     fn tell(&mut self, objects: &mut Objects<'_>, lost: bool) {
+        let notice = objects.profile.errors.lost;
         let info = objects.application.error_info(&objects.store);
         if lost {
-            objects.outbox.signals.raise(Error {
-                code: LOST,
-                register: 0x11,
-                info,
-            });
-            self.react(objects);
+            objects.outbox.signals.raise(notice.error(info));
         } else {
-            objects.outbox.signals.clear(LOST, info);
+            objects.outbox.signals.clear(notice.code, info);
+        }
+        self.lost = lost;
+    }
+
+    /// Errors set `bits` of 1001h, or Operational begins while they last: 1029h acts. The
+    /// EMCYs that tell of them go out first.
+    #[cold]
+    pub(super) fn react(&mut self, objects: &mut Objects<'_>, bits: u8, lost: bool) {
+        let profile = &objects.profile.errors;
+        let operational = self.state == State::Operational;
+        if self.state == State::Initialising || profile.operational_only && !operational {
+            return;
+        }
+        let asked = profile.behaviour.iter().filter(|(of, _)| of & bits != 0);
+        let subs = asked.map(|(_, sub)| *sub).chain(lost.then_some(1));
+        let mut gravest = Behaviour::Nothing;
+        for sub in subs {
+            gravest = gravest.max(match objects.store.try_unsigned(0x1029, sub) {
+                None | Some(0) if operational => Behaviour::PreOperational,
+                Some(2) => Behaviour::Stopped,
+                // Of the families that take the value, the bus covers alone have it.
+                Some(3) => Behaviour::Reset,
+                _ => Behaviour::Nothing,
+            });
+        }
+        if gravest >= Behaviour::Stopped && self.sends_emcy() {
+            while let Some(frame) = self.emcy.poll(&objects.store, objects.now) {
+                self.out.push(frame);
+            }
+        }
+        match gravest {
+            Behaviour::Nothing => {}
+            Behaviour::PreOperational => self.enter(objects, State::PreOperational),
+            Behaviour::Stopped => self.enter(objects, State::Stopped),
+            Behaviour::Reset => self.reset_due = true,
         }
     }
 
-    /// Communication error: what 1029h:01 asks for. Without that object it is
-    /// Pre-operational, from Operational (chapter 7.5.2.32).
-    pub(super) fn react(&mut self, objects: &mut Objects<'_>) {
-        match objects.store.try_unsigned(0x1029, 1) {
-            None | Some(0) if self.state == State::Operational => {
-                self.enter(objects, State::PreOperational);
+    /// Operational begins while errors last.
+    pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_>) {
+        let (bits, lost) = (self.emcy.register(), self.monitor.is_lost());
+        if bits != 0 || lost {
+            self.react(objects, bits, lost);
+        }
+    }
+
+    /// Errors that came and went in a call.
+    pub(super) fn take_errors(&mut self, objects: &mut Objects<'_>) {
+        let mut set = 0;
+        while let Some(change) = objects.outbox.signals.errors.pop() {
+            let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
+            let reset = objects.profile.errors.reset;
+            let outcome = self.emcy.change(&mut objects.store, change, reset, send);
+            set |= outcome.set;
+            if outcome.is_news {
+                self.events.push(match change {
+                    ErrorChange::Raised(error) => Event::Error(error),
+                    ErrorChange::Cleared { code, .. } => Event::ErrorCleared(code),
+                });
             }
-            Some(2) => self.enter(objects, State::Stopped),
-            // Of the families that take the value, the bus covers alone have it.
-            Some(3) => self.reset_due = true,
-            _ => {}
+        }
+        let lost = core::mem::take(&mut self.lost);
+        if set != 0 || lost {
+            self.react(objects, set, lost);
         }
     }
 }

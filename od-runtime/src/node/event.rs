@@ -20,8 +20,16 @@ pub enum Event {
     Restored(u8),
     /// LSS activated this bit rate; the number is the device's own (2100h).
     BitRate(u8),
-    /// What storage held was damaged or written by another version; defaults were taken.
+    /// What storage held was damaged, cut by power loss or written by another version, and
+    /// defaults were taken; or a save in the background failed.
     StorageDamaged,
+    /// The CAN controller is bus-off; the node comes back by itself or not.
+    BusOff {
+        /// It begins anew as soon as the bus allows it.
+        restarts: bool,
+    },
+    /// The node is back from bus-off.
+    BusOn,
     /// An error came.
     Error(Error),
     /// The error with this code went.

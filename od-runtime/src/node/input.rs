@@ -1,18 +1,18 @@
 //! What comes in: frames and the passing of time.
 
-use super::{Core, Event};
+use super::{Core, Event, bus};
 use crate::lss::Action;
 use crate::objects::{Device, Effect, Objects, Outbox};
 use crate::pdo::Received;
 use crate::storage::image;
 use crate::wire::nmt::{self, Command, State};
-use crate::{CanId, Error, ErrorChange, Frame, Instant, Reset, emcy, error_control, wire};
+use crate::{CanId, Error, Frame, Instant, Reset, error_control, wire};
 
 /// Sub-index of 1010h, were it one, under which the device saves its own record.
 const LIFE_RECORD: u8 = 0;
 
 /// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
-const PDO_LENGTH: u16 = 0x8210;
+pub(super) const PDO_LENGTH: u16 = 0x8210;
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     #[inline]
@@ -81,9 +81,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         if self.boot_at.is_some_and(|at| at <= now) {
             self.boot_up(device, outbox, now);
         }
-        if let Some((_, bit_rate)) = self.mute.filter(|(until, _)| *until <= now) {
-            self.mute = None;
-            self.events.push(Event::BitRate(bit_rate));
+        if self.mute.is_some_and(|mute| mute.until <= now) {
+            self.end_mute();
         }
         if self.heartbeat.handle_timeout(now) {
             self.out
@@ -97,6 +96,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         };
         self.monitor.handle_timeout(now);
         self.poll_monitor(&mut objects);
+        if self.save_at.is_some_and(|at| at <= now) {
+            self.end_save(&mut objects);
+        }
         if self.tick_at.is_some_and(|at| at <= now) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
@@ -129,7 +131,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
 
     /// Time does not run backwards here, whatever the host's clock says.
     #[inline]
-    fn advance(&mut self, now: Instant) -> Instant {
+    pub(super) fn advance(&mut self, now: Instant) -> Instant {
         self.now = self.now.max(now);
         self.now
     }
@@ -159,10 +161,12 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         };
         if let Some(mut objects) = device.objects(self.node_id, now, outbox) {
             self.enter(&mut objects, state);
-            if state == State::Operational && self.monitor.is_lost() {
-                self.react(&mut objects);
+            if state == State::Operational {
+                self.react_to_lasting(&mut objects);
             }
+            self.finish(&mut objects);
         }
+        self.reset_if_due(device, outbox, now);
     }
 
     /// 7E5h: LSS, where the device has it and the state allows it.
@@ -186,7 +190,12 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                 ));
             }
             Action::Activate { delay_ms, bit_rate } => {
-                self.mute = Some((self.now.plus_millis(delay_ms.into()), bit_rate));
+                let silence_ms = if profile.second_delay { delay_ms } else { 0 };
+                self.mute = Some(bus::Mute {
+                    until: self.now.plus_millis(delay_ms.into()),
+                    bit_rate: Some(bit_rate),
+                    silence_ms,
+                });
             }
         }
         self.finish(&mut objects);
@@ -207,7 +216,12 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
 
     /// The error behaviour asked for NMT reset node.
     #[inline]
-    fn reset_if_due(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) {
+    pub(super) fn reset_if_due(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) {
         if self.reset_due {
             self.reset(device, outbox, now, Reset::Node);
         }
@@ -282,20 +296,30 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         if core::mem::take(&mut objects.outbox.signals.tick) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
-        if core::mem::take(&mut objects.outbox.signals.keep) {
+        // A save that goes on has the record in it.
+        if core::mem::take(&mut objects.outbox.signals.keep) && objects.outbox.saving.is_none() {
             objects.refresh_life_record();
-            if image::save(objects.storage, &objects.store, LIFE_RECORD).is_err() {
+            let profile = &objects.profile.store;
+            if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
                 self.events.push(Event::StorageDamaged);
             }
         }
-        while let Some(change) = objects.outbox.signals.errors.pop() {
-            let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
-            let raised = self.emcy.change(&mut objects.store, change, send);
-            match change {
-                ErrorChange::Raised(error) if raised => self.events.push(Event::Error(error)),
-                ErrorChange::Cleared { code, .. } => self.events.push(Event::ErrorCleared(code)),
-                ErrorChange::Raised(_) => false,
-            };
+        self.take_errors(objects);
+    }
+
+    /// A save that took its time is complete: its request is answered, and the one behind it.
+    #[cold]
+    fn end_save(&mut self, objects: &mut Objects<'_>) {
+        self.save_at = None;
+        let failed = (!objects.complete_save()).then_some(objects.profile.store.failed);
+        let (answer, held) = self.sdo.finish(failed);
+        if let Some(answer) = answer {
+            self.answer(answer);
+        }
+        if let Some((data, dlc)) = held
+            && let Some(answer) = self.sdo.handle(objects, &data, dlc)
+        {
+            self.answer(answer);
         }
     }
 
@@ -314,6 +338,11 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                     Event::Written(address)
                 }
                 Effect::Saved(sub) => Event::Saved(sub),
+                Effect::NotSaved => Event::StorageDamaged,
+                Effect::Saving => {
+                    self.save_at = objects.outbox.saving.map(|saving| saving.due);
+                    continue;
+                }
                 Effect::Restored(sub) => {
                     let at_once = objects.profile.store.restore == crate::Restore::AtOnce;
                     communication |= at_once;
@@ -348,6 +377,8 @@ fn switches(objects: &Objects<'_>, index: u16) -> bool {
 /// Is it an object that SYNC or a PDO takes its configuration from?
 fn is_configuration(objects: &Objects<'_>, index: u16) -> bool {
     let repeat = objects.profile.pdo.repeat_counter;
+    let sync_only = objects.profile.pdo.sync_only;
     matches!(index, 0x1005 | 0x1400..=0x1BFF)
+        || sync_only.is_some_and(|(switch, _)| switch == index)
         || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))
 }

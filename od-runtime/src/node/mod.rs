@@ -9,6 +9,7 @@
 //! frame. Everything is a function of the inputs and their order; nothing else.
 
 mod boot;
+mod bus;
 mod errors;
 mod event;
 mod input;
@@ -18,6 +19,7 @@ use crate::objects::{Device, Objects, Outbox};
 use crate::wire::nmt::State;
 use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, error_control, lss, pdo, sdo};
 
+pub use bus::BusEvent;
 pub use event::Event;
 
 /// A CANopen slave.
@@ -52,10 +54,16 @@ struct Core<const PDO: usize, const SDO: usize> {
     heartbeat: error_control::Producer,
     monitor: error_control::Monitor,
     lss: lss::Slave,
-    /// LSS activates a bit rate: nothing is sent or received until then.
-    mute: Option<(Instant, u8)>,
+    /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
+    mute: Option<bus::Mute>,
+    /// What the CAN controller said last; overruns aside.
+    bus: BusEvent,
     /// The error behaviour wants a reset when the call is over.
     reset_due: bool,
+    /// Somebody was lost in this call, and 1029h:01 has not acted on it yet.
+    lost: bool,
+    /// A save is complete then.
+    save_at: Option<Instant>,
     emcy: emcy::Producer,
     tpdo: [pdo::Tpdo; PDO],
     tpdo_count: usize,
@@ -103,7 +111,7 @@ impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
 
     /// Power goes: silence until [`power_on`](Self::power_on).
     pub fn power_off(&mut self) {
-        self.core.power_off();
+        self.core.power_off(&mut self.outbox);
     }
 
     /// A frame was received.
@@ -121,6 +129,18 @@ impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
     /// The world outside the bus changed (shaft, faults, switches): the application ticks.
     pub fn handle_change(&mut self, device: &mut Device<'_>, now: Instant) {
         self.core.handle_change(device, &mut self.outbox, now);
+    }
+
+    /// The CAN controller changed its state, or lost frames. What is not told is not known:
+    /// a host that never calls this has a bus without errors.
+    pub fn handle_bus(&mut self, device: &mut Device<'_>, now: Instant, event: BusEvent) {
+        self.core.handle_bus(device, &mut self.outbox, now, event);
+    }
+
+    /// Is the CAN controller bus-off, as far as the node was told? It neither sends nor
+    /// receives then.
+    pub const fn is_bus_off(&self) -> bool {
+        self.core.is_bus_off()
     }
 
     /// The next frame to send; `None` when all are out. `now` is the moment of the input
@@ -161,7 +181,10 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             monitor: error_control::Monitor::new(),
             lss: lss::Slave::new(),
             mute: None,
+            bus: BusEvent::Active,
             reset_due: false,
+            lost: false,
+            save_at: None,
             emcy: emcy::Producer::new(),
             tpdo: [pdo::Tpdo::NONE; PDO],
             tpdo_count: 0,
@@ -264,7 +287,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
 
     /// EMCYs wait for the boot-up message, and for the end of Stopped.
     fn sends_emcy(&self) -> bool {
-        matches!(self.state, State::PreOperational | State::Operational)
+        matches!(self.state, State::PreOperational | State::Operational) && self.mute.is_none()
     }
 
     fn poll_timeout(&self) -> Option<Instant> {
@@ -282,12 +305,13 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         consider(self.tick_at);
         consider(self.heartbeat.deadline());
         consider(self.monitor.deadline());
-        consider(self.mute.map(|(until, _)| until));
+        consider(self.mute.map(|mute| mute.until));
         consider(self.sdo.deadline());
+        consider(self.save_at);
         if self.sends_emcy() {
             consider(self.emcy.deadline());
         }
-        if self.state == State::Operational {
+        if self.state == State::Operational && self.mute.is_none() {
             for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
                 consider(pdo.deadline());
             }
@@ -310,7 +334,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             _ => self.stop_pdos(),
         }
         if state == State::Stopped {
-            self.sdo.reset();
+            self.sdo.forget();
         }
     }
 

@@ -48,6 +48,8 @@ impl Objects<'_> {
             (0x1005, 0) => self.cob_id(entry, CobId::new(value as u32), false, |cob| {
                 !cob.produces_sync()
             }),
+            // A node has one heartbeat time (chapter 7.5.2.13).
+            (0x1016, 1..) if self.is_watched_elsewhere(sub, value) => Err(AbortCode::Incompatible),
             (0x1014, 0) => self.cob_id(entry, CobId::new(value as u32), true, |_| true),
             (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => {
                 self.cob_id(entry, CobId::new(value as u32), true, |_| true)
@@ -71,12 +73,27 @@ impl Objects<'_> {
             (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => self.mapping_count(index, value),
             (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
                 if self.store.unsigned(index, 0) != 0 {
-                    return Err(AbortCode::SubZeroFirst);
+                    return Err(self.profile.sdo.mapping_in_use);
+                }
+                // An entry that maps nothing can be written; it cannot be counted.
+                if value == 0 {
+                    return Ok(());
                 }
                 check_mapped(self, index, value as u32).map(|_| ())
             }
             _ => Ok(()),
         }
+    }
+
+    /// Does another entry of 1016h than `sub` have a time for the node of `value`, which has one?
+    fn is_watched_elsewhere(&self, sub: u8, value: u64) -> bool {
+        let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
+        let mut others = (1..=0x7F).filter(|other| *other != sub);
+        let same = |other: u8| {
+            let entry = self.store.unsigned(0x1016, other);
+            entry >> 16 & 0xFF == node && entry & 0xFFFF != 0
+        };
+        time != 0 && (1..=127).contains(&node) && others.any(same)
     }
 
     /// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it

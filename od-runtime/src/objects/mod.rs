@@ -6,8 +6,10 @@ use od_model::{Address, Dictionary, Entry, Missing};
 
 use crate::fifo::Fifo;
 use crate::limits::{self, Outside};
-use crate::storage::Storage;
-use crate::{AbortCode, Application, Context, Instant, NodeId, Profile, Reset, Signals, Store};
+use crate::storage::{Storage, image};
+use crate::{
+    AbortCode, Application, Context, Instant, NodeId, Profile, Reset, SaveAnswer, Signals, Store,
+};
 
 pub(crate) use communication::check_mapped;
 
@@ -34,6 +36,10 @@ pub(crate) enum Effect {
     Written(Address),
     /// 1010h: these groups were saved (sub-index).
     Saved(u8),
+    /// 1010h: a save goes on in the background.
+    Saving,
+    /// A save that had begun failed at its end.
+    NotSaved,
     /// 1011h: these groups were restored (sub-index), at once or at the next reset.
     Restored(u8),
 }
@@ -57,6 +63,20 @@ pub(crate) struct Outbox {
     pub(crate) effects: Fifo<Effect, 8>,
     /// More was written than `effects` could hold.
     pub(crate) overflow: bool,
+    /// A save that is not complete; it outlasts the call.
+    pub(crate) saving: Option<Saving>,
+    /// The request that began it is answered when it is complete.
+    pub(crate) answer_later: bool,
+}
+
+/// A save that takes its time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Saving {
+    pending: image::Pending,
+    /// Sub-index of 1010h.
+    sub: u8,
+    /// It is complete then.
+    pub(crate) due: Instant,
 }
 
 impl Outbox {
@@ -65,6 +85,8 @@ impl Outbox {
             signals: Signals::new(),
             effects: Fifo::new(Effect::Saved(0)),
             overflow: false,
+            saving: None,
+            answer_later: false,
         }
     }
 
@@ -95,6 +117,11 @@ impl Device<'_> {
 }
 
 impl<'c> Objects<'c> {
+    /// Is one of these bits of an object set?
+    pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
+        self.store.unsigned(index, 0) & u64::from(bits) != 0
+    }
+
     /// Calls the application with its context.
     #[inline]
     pub(crate) fn application<R>(
@@ -226,31 +253,61 @@ impl<'c> Objects<'c> {
             return Err(AbortCode::NotStored);
         }
         let sub = entry.address.sub;
+        // What a save writes in the background is there before anything follows.
+        self.complete_save();
         if entry.address.index == 0x1010 {
-            self.refresh_life_record();
-            crate::storage::image::save(self.storage, &self.store, sub)
-                .map_err(|_| self.profile.store.failed)?;
-            self.effect(Effect::Saved(sub));
-            return Ok(());
+            return self.save(sub);
         }
-        crate::storage::image::erase(self.storage, &self.store, sub)
-            .map_err(|_| self.profile.store.failed)?;
-        if self.profile.store.restore == crate::Restore::AtOnce {
-            self.store
-                .reset(|entry| crate::storage::image::restores(entry, sub));
+        let profile = &self.profile.store;
+        image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
+        if profile.restore == crate::Restore::AtOnce {
+            self.store.reset(|entry| image::restores(entry, sub));
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
         self.effect(Effect::Restored(sub));
         Ok(())
     }
 
+    /// 1010h: the values of this moment, complete at once or in a while.
+    fn save(&mut self, sub: u8) -> Result<(), AbortCode> {
+        let profile = &self.profile.store;
+        self.refresh_life_record();
+        let pending =
+            image::begin(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
+        self.outbox.saving = Some(Saving {
+            pending,
+            sub,
+            due: self.now.plus_micros(profile.duration_us.into()),
+        });
+        if profile.duration_us > 0 {
+            self.outbox.answer_later = profile.answer == SaveAnswer::AfterStoring;
+            self.effect(Effect::Saving);
+            Ok(())
+        } else if self.complete_save() {
+            Ok(())
+        } else {
+            Err(profile.failed)
+        }
+    }
+
+    /// Ends a save that goes on, if there is one; `false` where it failed.
+    pub(crate) fn complete_save(&mut self) -> bool {
+        let Some(Saving { pending, sub, .. }) = self.outbox.saving.take() else {
+            return true;
+        };
+        let done = image::commit(self.storage, pending).is_ok();
+        self.effect(if done {
+            Effect::Saved(sub)
+        } else {
+            Effect::NotSaved
+        });
+        done
+    }
+
     /// What the device keeps of its own life is brought up to date before it is saved.
     pub(crate) fn refresh_life_record(&mut self) {
         let entries = self.store.dictionary().entries();
-        for entry in entries
-            .iter()
-            .filter(|entry| crate::storage::image::is_life_record(entry))
-        {
+        for entry in entries.iter().filter(|entry| image::is_life_record(entry)) {
             // A value that cannot be had is saved as it stands.
             let _ = self.refresh(entry.address);
         }

@@ -68,10 +68,15 @@ impl Config {
             .repeat_counter
             .map(|first| first + number);
         let mapping = Mapping::load(objects, mapping);
+        let kind = store.unsigned(parameter, 2) as u8;
+        let sync_only = objects.profile.pdo.sync_only.is_some_and(|(index, bits)| {
+            store.unsigned(index, 0) & u64::from(bits) == u64::from(bits)
+        });
+        let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
         Self {
-            valid: cob_id.is_valid() && mapping.len() > 0,
+            valid: cob_id.is_valid() && mapping.len() > 0 && allowed,
             cob_id,
-            kind: store.unsigned(parameter, 2) as u8,
+            kind,
             inhibit_us: store.unsigned(parameter, 3) * 100,
             event_us: store.unsigned(parameter, 5) * 1000,
             sync_start: store.unsigned(parameter, 6) as u8,

@@ -6,6 +6,7 @@
 mod block_download;
 mod block_upload;
 mod crc;
+mod late;
 mod segmented;
 
 use od_model::Address;
@@ -39,6 +40,9 @@ pub(crate) struct Server<const N: usize> {
     address: Address,
     buffer: [u8; N],
     deadline: Option<Instant>,
+    /// A frame would be the next segment of a block, whatever it says, or has to wait.
+    is_deaf: bool,
+    late: late::Late,
 }
 
 /// What the server answers.
@@ -51,12 +55,21 @@ impl<const N: usize> Server<N> {
             address: Address::new(0, 0),
             buffer: [0; N],
             deadline: None,
+            is_deaf: false,
+            late: late::Late::NONE,
         }
     }
 
-    /// Forgets a transfer without a word, as a change of the NMT state does.
+    /// Forgets everything without a word, as a change of the NMT state does.
+    pub(crate) fn forget(&mut self) {
+        self.reset();
+        self.late = late::Late::NONE;
+        self.is_deaf = false;
+    }
+
+    /// The transfer is over.
     #[inline]
-    pub(crate) fn reset(&mut self) {
+    fn reset(&mut self) {
         self.transfer = Transfer::None;
         self.deadline = None;
     }
@@ -75,7 +88,7 @@ impl<const N: usize> Server<N> {
         let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
         match data[0] {
             // What masters ask for all day comes first.
-            0x40..=0x5F if !self.awaits_segment() => {
+            0x40..=0x5F if !self.is_deaf => {
                 self.begin(address);
                 Some(match self.upload(objects, address) {
                     Ok(answer) => answer,
@@ -86,12 +99,6 @@ impl<const N: usize> Server<N> {
         }
     }
 
-    /// Would a frame be the next segment of a block, whatever it says?
-    #[inline]
-    fn awaits_segment(&self) -> bool {
-        matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
-    }
-
     #[inline(never)]
     fn handle_other(
         &mut self,
@@ -99,6 +106,10 @@ impl<const N: usize> Server<N> {
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
+        if self.late.is_awaited() {
+            self.late.hold(data, dlc);
+            return None;
+        }
         let answer = match self.transfer {
             Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
                 self.block_segment(block, data)
@@ -110,10 +121,18 @@ impl<const N: usize> Server<N> {
             Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
         )
         .then(|| objects.now.plus_micros(BLOCK_TIMEOUT_US));
-        match answer {
+        let is_late = core::mem::take(&mut objects.outbox.answer_later);
+        let answer = match answer {
+            Ok(Some(response)) if is_late => {
+                self.late = late::Late::new(response.emit());
+                None
+            }
             Ok(response) => response.map(Response::emit),
             Err(code) => Some(self.abort(code)),
-        }
+        };
+        self.is_deaf = self.late.is_awaited()
+            || matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
+        answer
     }
 
     fn request(
@@ -274,9 +293,10 @@ impl<const N: usize> Server<N> {
 
     /// Gives up a block transfer whose client is gone.
     pub(crate) fn handle_timeout(&mut self, now: Instant) -> Option<[u8; 8]> {
-        self.deadline
-            .is_some_and(|at| at <= now)
-            .then(|| self.abort(AbortCode::Timeout))
+        self.deadline.is_some_and(|at| at <= now).then(|| {
+            self.is_deaf = false;
+            self.abort(AbortCode::Timeout)
+        })
     }
 }
 

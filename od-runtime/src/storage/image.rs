@@ -14,7 +14,9 @@
 //!
 //! Numbers are little-endian. A save takes the old magic away, writes the records,
 //! then the header, and the magic last of all; so power can go between any two bytes
-//! and leaves the last complete set, never a mixture.
+//! and leaves the last complete set, never a mixture. Where a family wants the factory
+//! values then ([`CutSave::Factory`]), the first byte of the last set's magic is 96h while the
+//! save goes on.
 //!
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
@@ -22,13 +24,15 @@
 use od_model::{Dictionary, Entry, Group, Literal};
 
 use super::{Storage, StorageError};
-use crate::{Store, limits};
+use crate::{CutSave, Store, StoreProfile, limits};
 
 mod bank;
+mod cob_id;
 mod merge;
 
 use bank::{Banks, Records};
-use merge::Fate;
+use merge::{Fate, Next};
+pub(crate) use merge::{Pending, commit};
 
 /// The longest value that is saved, in bytes.
 pub const MAX_VALUE: usize = 1024;
@@ -51,6 +55,9 @@ pub enum Loaded {
     },
     /// The last set is damaged, and the one before it was taken.
     Older,
+    /// A save was cut, on a device that takes the factory values then: the defaults stand,
+    /// but for the record of its life.
+    Cut,
     /// What is there cannot be read, or another version wrote it: the defaults stand.
     Damaged,
 }
@@ -82,6 +89,11 @@ pub const fn is_life_record(entry: &Entry) -> bool {
     matches!(entry.group, Group::Manufacturer) && !entry.access.writable()
 }
 
+/// Is it a setting that is saved, other than the device's own record?
+pub(crate) const fn is_kept(entry: &Entry) -> bool {
+    is_saved(entry) && !is_life_record(entry)
+}
+
 /// Does writing to sub-index `sub` of 1011h take this value back to its default?
 pub const fn restores(entry: &Entry, sub: u8) -> bool {
     entry.group.covered_by(sub) && !is_life_record(entry)
@@ -97,6 +109,7 @@ pub const fn restores(entry: &Entry, sub: u8) -> bool {
 pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
+    profile: &StoreProfile,
     which: &dyn Fn(&Entry) -> bool,
 ) -> Result<Loaded, StorageError> {
     let banks = Banks::survey(storage)?;
@@ -113,11 +126,14 @@ pub fn load(
     while let Some(record) = records.next(storage)? {
         let entry = store.dictionary().find(record.address).ok();
         match entry.filter(|entry| is_saved(entry)) {
-            Some(entry) if !which(entry) => {}
+            Some(entry) if !which(entry) || banks.is_cut() && !is_life_record(entry) => {}
             Some(entry) if record.len <= MAX_VALUE => {
                 let value = &mut value[..record.len];
                 storage.read(record.at, value)?;
-                if limits::check(store, entry, value).is_err() || store.put(entry, value).is_err() {
+                if !cob_id::restore(store, entry, profile.cob_ids, value)
+                    || limits::check(store, entry, value).is_err()
+                    || store.put(entry, value).is_err()
+                {
                     skipped = skipped.saturating_add(1);
                 }
             }
@@ -125,6 +141,7 @@ pub fn load(
         }
     }
     Ok(match skipped {
+        _ if banks.is_cut() => Loaded::Cut,
         _ if banks.lost_newer => Loaded::Older,
         0 => Loaded::Complete,
         skipped => Loaded::Partial { skipped },
@@ -141,15 +158,42 @@ pub fn load(
 /// # Errors
 /// [`StorageError::Full`] where there is not enough room, before anything is written;
 /// others where the storage fails. The last complete set is still there then.
-pub fn save(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(), StorageError> {
+pub fn save(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    profile: &StoreProfile,
+    sub: u8,
+) -> Result<(), StorageError> {
+    let pending = begin(storage, store, profile, sub)?;
+    commit(storage, pending)
+}
+
+/// The first part of [`save`], for a device that takes its time: everything is written, but
+/// counts only after [`commit`].
+pub(crate) fn begin(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    profile: &StoreProfile,
+    sub: u8,
+) -> Result<Pending, StorageError> {
     let banks = Banks::survey(storage)?;
-    merge::write(storage, store, &banks, &|_, entry| match entry {
-        Some(entry) if entry.group.covered_by(sub) || is_life_record(entry) => {
-            let follows = matches!(entry.default, Literal::NodeId(_)) && store.is_default(entry);
-            if follows { Fate::Drop } else { Fate::Store }
-        }
-        _ => Fate::Keep,
-    })
+    let next = Next {
+        plan: &|_, entry| match entry {
+            Some(entry) if entry.group.covered_by(sub) || is_life_record(entry) => {
+                let follows =
+                    matches!(entry.default, Literal::NodeId(_)) && store.is_default(entry);
+                if follows { Fate::Drop } else { Fate::Store }
+            }
+            _ => Fate::Keep,
+        },
+        cut: match sub {
+            // The device's own saves take nothing away when they are cut.
+            0 => CutSave::LastSet,
+            _ => profile.cut,
+        },
+        cob_ids: profile.cob_ids,
+    };
+    merge::begin(storage, store, &banks, next)
 }
 
 /// Saves the values that `which` names, whatever their group; all others stay as they
@@ -160,13 +204,20 @@ pub fn save(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(),
 pub fn save_only(
     storage: &mut dyn Storage,
     store: &Store<'_>,
+    profile: &StoreProfile,
     which: &dyn Fn(&Entry) -> bool,
 ) -> Result<(), StorageError> {
     let banks = Banks::survey(storage)?;
-    merge::write(storage, store, &banks, &|_, entry| match entry {
-        Some(entry) if which(entry) => Fate::Store,
-        _ => Fate::Keep,
-    })
+    let next = Next {
+        plan: &|_, entry| match entry {
+            Some(entry) if which(entry) => Fate::Store,
+            _ => Fate::Keep,
+        },
+        cut: profile.cut,
+        cob_ids: profile.cob_ids,
+    };
+    let pending = merge::begin(storage, store, &banks, next)?;
+    commit(storage, pending)
 }
 
 /// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
@@ -176,18 +227,30 @@ pub fn save_only(
 ///
 /// # Errors
 /// [`StorageError`] where the storage fails. The last complete set is still there then.
-pub fn erase(storage: &mut dyn Storage, store: &Store<'_>, sub: u8) -> Result<(), StorageError> {
+pub fn erase(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    profile: &StoreProfile,
+    sub: u8,
+) -> Result<(), StorageError> {
     let banks = Banks::survey(storage)?;
     if banks.newest.is_none() && !banks.damaged {
         return Ok(());
     }
-    merge::write(storage, store, &banks, &|address, entry| {
-        let goes = match entry {
-            Some(entry) => restores(entry, sub),
-            None => Group::of_index(address.index).covered_by(sub),
-        };
-        if goes { Fate::Drop } else { Fate::Keep }
-    })
+    let next = Next {
+        plan: &|address, entry| {
+            let goes = match entry {
+                Some(entry) => restores(entry, sub),
+                None => Group::of_index(address.index).covered_by(sub),
+            };
+            if goes { Fate::Drop } else { Fate::Keep }
+        },
+        // A restore that is cut leaves what it was to take away.
+        cut: CutSave::LastSet,
+        cob_ids: profile.cob_ids,
+    };
+    let pending = merge::begin(storage, store, &banks, next)?;
+    commit(storage, pending)
 }
 
 #[cfg(test)]

@@ -8,6 +8,9 @@ use crate::storage::{Storage, StorageError};
 
 /// No byte of it is one flipped bit away from 00h or FFh.
 pub(super) const MAGIC: [u8; 4] = *b"\x69odk";
+/// First byte of the magic of a set that a save is about to replace, where a save that is cut
+/// leaves nothing.
+pub(super) const REPLACED: u8 = 0x96;
 pub(super) const VERSION: u16 = 1;
 
 /// A whole bank.
@@ -18,6 +21,8 @@ pub(super) struct Bank {
     /// Bytes of records.
     len: usize,
     pub(super) sequence: u32,
+    /// A save was to replace it. As the newest set it means that the save was cut.
+    pub(super) replaced: bool,
 }
 
 /// What stands in both.
@@ -84,6 +89,11 @@ impl Banks {
         Ok(banks)
     }
 
+    /// Was the last save cut, on a device that takes the factory values then?
+    pub(super) fn is_cut(&self) -> bool {
+        self.newest.is_some_and(|bank| bank.replaced)
+    }
+
     /// The sequence number of the next set.
     pub(super) fn next_sequence(&self) -> u32 {
         self.newest.map_or(1, |bank| bank.sequence.wrapping_add(1))
@@ -98,7 +108,8 @@ fn look(storage: &mut dyn Storage, start: usize, size: usize) -> Result<Found, S
     };
     let sequence = word(8);
     let damaged = Ok(Found::Damaged { sequence });
-    if header[..4] != MAGIC {
+    let replaced = header[0] == REPLACED;
+    if header[1..4] != MAGIC[1..] || !(replaced || header[0] == MAGIC[0]) {
         // What is there while the magic is written or taken away.
         let empty = |(byte, magic): (&u8, &u8)| matches!(byte, 0 | 0xFF) || byte == magic;
         let empty = header.iter().zip(&MAGIC).all(empty);
@@ -125,6 +136,7 @@ fn look(storage: &mut dyn Storage, start: usize, size: usize) -> Result<Found, S
         start,
         len,
         sequence,
+        replaced,
     };
     let mut records = Records::new(bank);
     let mut last = None;

@@ -4,11 +4,11 @@ use core::cmp::Ordering;
 
 use od_model::{Address, Entry};
 
-use super::bank::{Banks, MAGIC, Record, Records, VERSION};
-use super::{HEADER, MAX_VALUE, RECORD, is_saved};
-use crate::Store;
+use super::bank::{Banks, MAGIC, REPLACED, Record, Records, VERSION};
+use super::{HEADER, MAX_VALUE, RECORD, cob_id, is_life_record, is_saved};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
+use crate::{CutSave, SavedCobIds, Store};
 
 /// What becomes of an address in the next set.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -26,18 +26,40 @@ pub(super) type Plan<'p> = &'p dyn Fn(Address, Option<&Entry>) -> Fate;
 
 /// One record of the next set.
 enum Item<'i> {
-    New(Address, &'i [u8]),
+    New(&'i Entry, &'i [u8]),
     Old(Record),
 }
 
-/// Writes the next set into the older bank, the magic last.
-pub(super) fn write(
+/// What the next set is made of, and how.
+#[derive(Clone, Copy)]
+pub(super) struct Next<'n> {
+    pub(super) plan: Plan<'n>,
+    /// What is left where power goes before the end.
+    pub(super) cut: CutSave,
+    pub(super) cob_ids: SavedCobIds,
+}
+
+/// A set that is written but for its magic.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Pending {
+    target: usize,
+    /// The set before it, if it does not count until then.
+    replaced: Option<usize>,
+}
+
+/// Writes the next set into the older bank, all but the magic.
+pub(super) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     banks: &Banks,
-    plan: Plan<'_>,
-) -> Result<(), StorageError> {
+    next: Next<'_>,
+) -> Result<Pending, StorageError> {
     let room = banks.size.checked_sub(HEADER).ok_or(StorageError::Full)?;
+    let plan: Plan<'_> = &|address, entry| match (next.plan)(address, entry) {
+        // After a save that was cut the factory values hold, and they stay.
+        Fate::Keep if banks.is_cut() && !entry.is_some_and(is_life_record) => Fate::Drop,
+        fate => fate,
+    };
     let without_orphans: Plan<'_> = &|address, entry| match entry {
         Some(_) => plan(address, entry),
         None => Fate::Drop,
@@ -53,6 +75,52 @@ pub(super) fn write(
         return Err(StorageError::Full);
     }
 
+    let replaced = match banks.newest {
+        Some(bank) if next.cut == CutSave::Factory && !bank.replaced => Some(bank.start),
+        _ => None,
+    };
+    if let Some(start) = replaced {
+        storage.write(start, &[REPLACED])?;
+        storage.flush()?;
+    }
+    let pending = Pending {
+        target: banks.target,
+        replaced,
+    };
+    match fill(storage, store, banks, plan, len, next.cob_ids) {
+        Ok(()) => Ok(pending),
+        Err(error) => {
+            // Power did not go, so the set before it still counts, if it can be told.
+            let _ = reinstate(storage, pending);
+            Err(error)
+        }
+    }
+}
+
+/// The magic: from now on the next set is the newest.
+pub(crate) fn commit(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
+    storage.write(pending.target, &MAGIC)?;
+    storage.flush()?;
+    reinstate(storage, pending)
+}
+
+/// The set before the next one is what it was.
+fn reinstate(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
+    match pending.replaced {
+        Some(start) => storage.write(start, &MAGIC[..1]),
+        None => Ok(()),
+    }
+}
+
+/// Header and records of the next set.
+fn fill(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    banks: &Banks,
+    plan: Plan<'_>,
+    len: usize,
+    cob_ids: SavedCobIds,
+) -> Result<(), StorageError> {
     storage.write(banks.target, &[0; MAGIC.len()])?;
     storage.flush()?;
     let mut header = [0; HEADER - MAGIC.len()];
@@ -64,7 +132,7 @@ pub(super) fn write(
     writer.crc.update(&header[..12]);
     walk(storage, store, banks, plan, &mut |storage, item| {
         let (address, len) = match item {
-            Item::New(address, bytes) => (address, bytes.len()),
+            Item::New(entry, bytes) => (entry.address, bytes.len()),
             Item::Old(record) => (record.address, record.len),
         };
         let [index_low, index_high] = address.index.to_le_bytes();
@@ -73,15 +141,16 @@ pub(super) fn write(
         let head = [index_low, index_high, address.sub, len_low, len_high];
         writer.put(storage, &head)?;
         match item {
-            Item::New(_, bytes) => writer.put(storage, bytes),
+            Item::New(entry, bytes) => match cob_id::difference(store, entry, cob_ids) {
+                Some(difference) => writer.put(storage, &difference[..len.min(8)]),
+                None => writer.put(storage, bytes),
+            },
             Item::Old(record) => writer.copy(storage, record),
         }
     })?;
     let crc = writer.finish(storage)?;
     header[12..].copy_from_slice(&crc.to_le_bytes());
     storage.write(banks.target + MAGIC.len(), &header)?;
-    storage.flush()?;
-    storage.write(banks.target, &MAGIC)?;
     storage.flush()
 }
 
@@ -150,7 +219,7 @@ fn walk(
         match (plan(address, current), current, old) {
             (Fate::Store, Some(entry), _) => {
                 let mut number = [0; 8];
-                sink(storage, Item::New(address, store.bytes(entry, &mut number)))?;
+                sink(storage, Item::New(entry, store.bytes(entry, &mut number)))?;
             }
             (Fate::Keep, _, Some(old)) => sink(storage, Item::Old(old))?,
             _ => {}

@@ -9,8 +9,10 @@ use od_model::patch::{self, Edit, Raw, Target};
 use od_model::{Access, DataType, Description, Tables};
 
 use super::*;
-use crate::NodeId;
 use crate::storage::Memory;
+use crate::{NodeId, Profile};
+
+const STORE: &StoreProfile = &Profile::CIA301.store;
 
 /// Rows: index, type, access, default.
 fn tables(rows: &[(u16, DataType, Access, Raw)]) -> Tables {
@@ -72,7 +74,7 @@ impl Bench {
     fn start(&mut self, storage: &mut dyn Storage) -> Loaded {
         let mut store = self.store();
         store.reset(|_| true);
-        load(storage, &mut store, &|_| true).unwrap()
+        load(storage, &mut store, STORE, &|_| true).unwrap()
     }
 
     /// Every value as text.
@@ -112,11 +114,11 @@ fn saved_values_come_back() {
     for with in 1..40 {
         bench.fill(with);
         let saved = bench.values();
-        save(&mut memory, &bench.store(), 1).unwrap();
+        save(&mut memory, &bench.store(), STORE, 1).unwrap();
         assert_eq!(bench.start(&mut memory), Loaded::Complete);
         assert_eq!(bench.values(), saved);
     }
-    erase(&mut memory, &bench.store(), 1).unwrap();
+    erase(&mut memory, &bench.store(), STORE, 1).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Complete);
     bench
         .store()
@@ -131,14 +133,14 @@ fn power_can_go_at_any_byte() {
             let (mut bench, mut memory) = (Bench::new(device()), storage());
             for with in 0..saves {
                 bench.fill(7 + with);
-                save(&mut memory, &bench.store(), 1).unwrap();
+                save(&mut memory, &bench.store(), STORE, 1).unwrap();
             }
             bench.start(&mut memory);
             let before = bench.values();
             bench.fill(200);
             let after = bench.values();
             memory.cut_after(cut);
-            let result = save(&mut memory, &bench.store(), 1);
+            let result = save(&mut memory, &bench.store(), STORE, 1);
             memory.restore_power();
             let loaded = bench.start(&mut memory);
             if result.is_ok() {
@@ -156,7 +158,7 @@ fn power_can_go_at_any_byte() {
             // And the next save works.
             bench.fill(99);
             let after = bench.values();
-            save(&mut memory, &bench.store(), 1).unwrap();
+            save(&mut memory, &bench.store(), STORE, 1).unwrap();
             assert_eq!(bench.start(&mut memory), Loaded::Complete);
             assert_eq!(bench.values(), after);
         }
@@ -168,10 +170,10 @@ fn power_can_go_while_a_group_is_erased() {
     for cut in 0.. {
         let (mut bench, mut memory) = (Bench::new(device()), storage());
         bench.fill(5);
-        save(&mut memory, &bench.store(), 1).unwrap();
+        save(&mut memory, &bench.store(), STORE, 1).unwrap();
         let before = bench.values();
         memory.cut_after(cut);
-        let result = erase(&mut memory, &bench.store(), 3);
+        let result = erase(&mut memory, &bench.store(), STORE, 3);
         memory.restore_power();
         assert_eq!(bench.start(&mut memory), Loaded::Complete);
         if result.is_ok() {
@@ -189,11 +191,11 @@ fn a_flipped_bit_is_never_a_value() {
     let defaults = bench.values();
     bench.fill(3);
     let first = bench.values();
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     let one = memory.clone();
     bench.fill(4);
     let second = bench.values();
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     let half = memory.capacity() / 2;
     let used = HEADER + 5 * RECORD + 20;
     for bit in 0..half * 8 {
@@ -268,7 +270,7 @@ fn garbage_is_damaged_and_can_be_saved_over() {
         if round % 60 == 0 {
             bench.fill(9);
             let saved = bench.values();
-            save(&mut memory, &bench.store(), 1).unwrap();
+            save(&mut memory, &bench.store(), STORE, 1).unwrap();
             bench.start(&mut memory);
             assert_eq!(bench.values(), saved);
         }
@@ -279,9 +281,9 @@ fn garbage_is_damaged_and_can_be_saved_over() {
 fn a_group_is_saved_without_the_others() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
-    save(&mut memory, &bench.store(), 2).unwrap();
+    save(&mut memory, &bench.store(), STORE, 2).unwrap();
     bench.fill(6);
-    save(&mut memory, &bench.store(), 3).unwrap();
+    save(&mut memory, &bench.store(), STORE, 3).unwrap();
     bench.fill(7);
     bench.start(&mut memory);
     let mut store = bench.store();
@@ -294,7 +296,7 @@ fn a_group_is_saved_without_the_others() {
         "the life record goes with every save"
     );
     store.set_unsigned(od_model::Address::new(0x2201, 0), 8);
-    save(&mut memory, &store, 0).unwrap();
+    save(&mut memory, &store, STORE, 0).unwrap();
     bench.start(&mut memory);
     assert_eq!(bench.store().unsigned(0x2201, 0), 8, "and alone");
     assert_eq!(bench.store().unsigned(0x6003, 0), 6);
@@ -303,14 +305,14 @@ fn a_group_is_saved_without_the_others() {
 #[test]
 fn a_node_id_default_follows_the_node_id() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     bench.node_id = 9;
     bench.start(&mut memory);
     assert_eq!(bench.store().unsigned(0x1014, 0), 0x89);
     bench
         .store()
         .set_unsigned(od_model::Address::new(0x1014, 0), 0x81);
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     bench.node_id = 2;
     bench.start(&mut memory);
     assert_eq!(
@@ -326,7 +328,7 @@ fn an_image_survives_another_dictionary() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
     let saved = bench.values();
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     // 1017h is shorter, 2101h and 2300h are gone, 6003h stayed, 7000h is new.
     let mut other = Bench::new(tables(&[
         (0x1017, Unsigned16, Access::Rw, Raw::Integer(0)),
@@ -336,7 +338,7 @@ fn an_image_survives_another_dictionary() {
     assert_eq!(other.start(&mut memory), Loaded::Partial { skipped: 5 });
     assert_eq!(other.store().unsigned(0x1017, 0), 0);
     assert_eq!(other.store().unsigned(0x6003, 0), 5);
-    save(&mut memory, &other.store(), 3).unwrap();
+    save(&mut memory, &other.store(), STORE, 3).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Partial { skipped: 1 });
     assert_eq!(bench.values(), saved, "what it did not know, it kept");
 
@@ -351,7 +353,7 @@ fn an_image_survives_another_dictionary() {
             Raw::Text("0123456789".repeat(7)),
         ),
     ]));
-    save(&mut small, &large.store(), 1).unwrap();
+    save(&mut small, &large.store(), STORE, 1).unwrap();
     let before = large.values();
     assert_eq!(
         large.start(&mut small),
@@ -379,7 +381,7 @@ fn limits_hold_for_saved_values() {
     bench
         .store()
         .set_unsigned(od_model::Address::new(0x6001, 0), 0x2000);
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Complete);
     let mut bench = limited(0x1000);
     assert_eq!(bench.start(&mut memory), Loaded::Partial { skipped: 1 });
@@ -390,7 +392,7 @@ fn limits_hold_for_saved_values() {
 fn sequence_numbers_wrap() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(1);
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     let bytes = memory.bytes_mut();
     bytes[8..12].copy_from_slice(&(u32::MAX - 1).to_le_bytes());
     let len = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
@@ -400,7 +402,7 @@ fn sequence_numbers_wrap() {
     bytes[16..20].copy_from_slice(&crc.finish().to_le_bytes());
     for with in 2..8 {
         bench.fill(with);
-        save(&mut memory, &bench.store(), 1).unwrap();
+        save(&mut memory, &bench.store(), STORE, 1).unwrap();
         assert_eq!(bench.start(&mut memory), Loaded::Complete);
         assert_eq!(bench.store().unsigned(0x6003, 0), u64::from(with));
     }
@@ -410,12 +412,12 @@ fn sequence_numbers_wrap() {
 fn another_version_is_not_read() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(1);
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     memory.bytes_mut()[4] = 2;
     assert_eq!(bench.start(&mut memory), Loaded::Damaged);
     assert_eq!(bench.store().unsigned(0x6003, 0), 0);
     // A save leaves it where it is, as long as there is another bank.
-    save(&mut memory, &bench.store(), 1).unwrap();
+    save(&mut memory, &bench.store(), STORE, 1).unwrap();
     assert_eq!(memory.bytes()[..5], *b"\x69odk\x02");
 }
 
@@ -424,16 +426,16 @@ fn too_little_room_is_an_error_before_anything_is_written() {
     let mut bench = Bench::new(device());
     assert_eq!(bench.start(&mut crate::storage::NoStorage), Loaded::Blank);
     assert_eq!(
-        save(&mut crate::storage::NoStorage, &bench.store(), 1),
+        save(&mut crate::storage::NoStorage, &bench.store(), STORE, 1),
         Err(StorageError::Full)
     );
     assert_eq!(
-        erase(&mut crate::storage::NoStorage, &bench.store(), 1),
+        erase(&mut crate::storage::NoStorage, &bench.store(), STORE, 1),
         Ok(())
     );
     for len in 0..120 {
         let mut memory = Memory::new(vec![0xFF; len]);
-        if save(&mut memory, &bench.store(), 1) == Err(StorageError::Full) {
+        if save(&mut memory, &bench.store(), STORE, 1) == Err(StorageError::Full) {
             assert!(memory.bytes().iter().all(|byte| *byte == 0xFF));
         }
         assert!(matches!(

@@ -1,0 +1,205 @@
+//! What the CAN controller has to say, and times of silence.
+
+use super::input::PDO_LENGTH;
+use super::{Core, Event};
+use crate::objects::{Device, Objects, Outbox};
+use crate::wire::nmt::State;
+use crate::{Instant, Notice, Reset};
+
+/// News of the CAN controller (CiA 301, table 26, codes 81xxh).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum BusEvent {
+    /// Error active, with error counters below the warning limit: all is well, or well again,
+    /// and no more frames are lost. After bus-off: the controller could begin anew.
+    Active,
+    /// An error counter passed the warning limit (96).
+    Warning,
+    /// Error passive: an error counter passed 127.
+    Passive,
+    /// Bus-off: the transmit error counter passed 255.
+    Off,
+    /// A received frame was lost, because the one before it was not taken in time.
+    Overrun,
+}
+
+impl BusEvent {
+    /// How bad it is.
+    const fn level(self) -> u8 {
+        match self {
+            Self::Active | Self::Overrun => 0,
+            Self::Warning => 1,
+            Self::Passive => 2,
+            Self::Off => 3,
+        }
+    }
+}
+
+/// Nothing is sent or received.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mute {
+    /// [`Instant::MAX`]: until the CAN controller is back.
+    pub(super) until: Instant,
+    /// LSS: the bit rate that is in force then.
+    pub(super) bit_rate: Option<u8>,
+    /// LSS: silence after that, in milliseconds.
+    pub(super) silence_ms: u16,
+}
+
+impl Mute {
+    const BUS_OFF: Self = Self {
+        until: Instant::MAX,
+        bit_rate: None,
+        silence_ms: 0,
+    };
+}
+
+impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
+    pub(super) const fn is_bus_off(&self) -> bool {
+        matches!(self.bus, BusEvent::Off)
+    }
+
+    pub(super) fn handle_bus(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+        event: BusEvent,
+    ) {
+        let now = self.advance(now);
+        // A controller that is being set up has no news.
+        if !self.powered || self.state == State::Initialising {
+            return;
+        }
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        let profile = objects.profile.errors;
+        let restarts = profile
+            .off
+            .restart
+            .is_none_or(|switch| objects.has_bits(switch));
+        if self.is_bus_off() {
+            if event != BusEvent::Active || !restarts {
+                return;
+            }
+            if profile.off.boots {
+                self.reset(device, outbox, now, Reset::Communication);
+            } else {
+                self.come_back(&mut objects);
+                self.finish(&mut objects);
+            }
+            return;
+        }
+        if event == BusEvent::Off {
+            self.fall_off(&mut objects, restarts);
+        } else {
+            self.take_state(&mut objects, event);
+        }
+        self.finish(&mut objects);
+        self.reset_if_due(device, outbox, now);
+    }
+
+    /// Warning, passive, overrun, and the way back.
+    fn take_state(&mut self, objects: &mut Objects<'_>, event: BusEvent) {
+        let profile = objects.profile.errors;
+        let info = objects.application.error_info(&objects.store);
+        let signals = &mut objects.outbox.signals;
+        if event == BusEvent::Overrun {
+            if let Some(notice) = profile.overrun {
+                signals.raise(notice.error(info));
+            }
+            return;
+        }
+        let worse = event.level() > self.bus.level();
+        self.bus = event;
+        let states = [
+            (BusEvent::Passive, profile.bus_passive),
+            (BusEvent::Warning, profile.bus_warning),
+            (BusEvent::Overrun, profile.overrun),
+        ];
+        for (state, notice) in states {
+            let Some(notice) = notice else { continue };
+            if state == event && worse {
+                signals.raise(notice.error(info));
+            } else if state.level() > event.level() || event == BusEvent::Active {
+                signals.clear(notice.code, info);
+            }
+        }
+    }
+
+    /// Bus-off: nothing goes out or comes in, and 1029h acts as the family has it.
+    fn fall_off(&mut self, objects: &mut Objects<'_>, restarts: bool) {
+        let profile = objects.profile.errors;
+        if let Some(bit_rate) = self.mute.and_then(|mute| mute.bit_rate) {
+            self.events.push(Event::BitRate(bit_rate));
+        }
+        self.bus = BusEvent::Off;
+        self.mute = Some(Mute::BUS_OFF);
+        self.events.push(Event::BusOff { restarts });
+        self.discard_frames();
+        self.sdo.forget();
+        self.stop_pdos();
+        let set = self.emcy.set_silent(&mut objects.store, profile.bus_off);
+        if !(restarts && profile.off.behaviour_if_off) {
+            self.react(objects, set, true);
+        }
+        // The error behaviour may have led to another state, but not back to the bus.
+        self.stop_pdos();
+    }
+
+    /// The CAN controller began anew, and the NMT state goes on.
+    fn come_back(&mut self, objects: &mut Objects<'_>) {
+        self.mute = None;
+        self.events.push(Event::BusOn);
+        self.emcy.set_silent(&mut objects.store, 0);
+        self.take_state(objects, BusEvent::Active);
+        let info = objects.application.error_info(&objects.store);
+        if let Some(notice) = objects.profile.errors.bus_recovered {
+            objects.outbox.signals.raise(notice.error(info));
+            objects.outbox.signals.clear(notice.code, info);
+        }
+        if self.state == State::Operational {
+            self.start_pdos(objects);
+        }
+    }
+
+    /// A switch delay of LSS is over.
+    pub(super) fn end_mute(&mut self) {
+        let Some(mute) = self.mute.take() else { return };
+        if let Some(bit_rate) = mute.bit_rate {
+            self.events.push(Event::BitRate(bit_rate));
+            if mute.silence_ms > 0 {
+                self.mute = Some(Mute {
+                    until: mute.until.plus_millis(mute.silence_ms.into()),
+                    bit_rate: None,
+                    silence_ms: 0,
+                });
+            }
+        }
+    }
+
+    /// A reset ends the errors of communication without a word: whoever was lost is watched
+    /// anew, and the CAN controller begins anew.
+    pub(super) fn forget_bus_errors(
+        &mut self,
+        device: &mut Device<'_>,
+        outbox: &mut Outbox,
+        now: Instant,
+    ) {
+        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+            return;
+        };
+        let profile = objects.profile.errors;
+        let optional = [
+            profile.bus_warning,
+            profile.bus_passive,
+            profile.bus_recovered,
+            profile.overrun,
+        ];
+        let is_of_bus = |code| {
+            let is = |notice: Notice| notice.code == code;
+            code == PDO_LENGTH || is(profile.lost) || optional.into_iter().flatten().any(is)
+        };
+        self.emcy.forget(&mut objects.store, is_of_bus);
+    }
+}
