@@ -6,3 +6,4 @@ mod objects;
 mod position;
 mod storage;
 mod trace;
+mod writes;
