@@ -6,6 +6,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::VirtualDevice;
+use super::wiring::Wiring;
 
 /// A frame that a device on the bus sent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -18,7 +19,8 @@ pub struct Sent {
     pub frame: Frame,
 }
 
-/// A bus without bit times: a frame reaches everybody at the moment it is sent.
+/// A bus without bit times: a frame reaches everybody at the moment it is sent, or everybody
+/// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters.
 ///
 /// What happens at one moment happens in a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
@@ -26,6 +28,7 @@ pub struct Sent {
 #[derive(Default)]
 pub struct Bus {
     devices: Vec<VirtualDevice>,
+    wiring: Wiring,
     now: Instant,
     sent: VecDeque<Sent>,
 }
@@ -42,10 +45,53 @@ impl Bus {
 
     /// Puts a device on the bus; answers with its number. It may be powered or not.
     pub fn add(&mut self, device: VirtualDevice) -> usize {
+        self.put(device, None)
+    }
+
+    /// As [`add`](Self::add), on the shaft of a device that is there already: when one of
+    /// them turns, all do, whoever has power.
+    pub fn add_beside(&mut self, device: VirtualDevice, other: usize) -> usize {
+        self.put(device, Some(other))
+    }
+
+    fn put(&mut self, device: VirtualDevice, beside: Option<usize>) -> usize {
         self.devices.push(device);
+        self.wiring.add(beside);
         let added = self.devices.len() - 1;
+        if let Some(other) = beside {
+            self.turn_along(other);
+        }
         self.settle(added);
         added
+    }
+
+    /// The devices on the shaft of this one follow it.
+    fn turn_along(&mut self, device: usize) {
+        let Some(shaft) = self.devices.get(device).and_then(VirtualDevice::shaft_now) else {
+            return;
+        };
+        for other in self.wiring.beside(device) {
+            self.devices[other].put_on_shaft(shaft, self.now);
+            self.settle(other);
+        }
+    }
+
+    /// The bit rate of what is outside in kbit/s. From now on a device with another one
+    /// neither hears nor is heard, not by the other devices either; `None`, as it is at
+    /// first: everybody hears everybody.
+    pub fn set_bit_rate(&mut self, kbit: Option<u16>) {
+        self.wiring.rate = kbit;
+    }
+
+    /// The bit rate of what is outside in kbit/s, where it matters.
+    pub fn bit_rate(&self) -> Option<u16> {
+        self.wiring.rate
+    }
+
+    /// Does what is outside hear this device, and the device what is outside?
+    fn hears_outside(&self, device: usize) -> bool {
+        let rate = self.devices[device].bit_rate();
+        self.wiring.hears(self.wiring.rate, rate)
     }
 
     /// The devices, in the order they were added.
@@ -66,16 +112,24 @@ impl Bus {
         act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
     ) -> Option<R> {
         let now = self.now;
-        let result = act(self.devices.get_mut(device)?, now);
+        let one = self.devices.get_mut(device)?;
+        let before = one.shaft_now();
+        let result = act(one, now);
+        let turned = one.shaft_now() != before;
         self.settle(device);
+        if turned {
+            self.turn_along(device);
+        }
         Some(result)
     }
 
     /// A frame from outside: every device receives it, and each other's answers.
     pub fn receive(&mut self, frame: &Frame) {
         for device in 0..self.devices.len() {
-            self.devices[device].handle_frame(self.now, frame);
-            self.settle(device);
+            if self.hears_outside(device) {
+                self.devices[device].handle_frame(self.now, frame);
+                self.settle(device);
+            }
         }
     }
 
@@ -139,7 +193,12 @@ impl Bus {
             let Some((from, frame)) = carry.pop_front() else {
                 return;
             };
+            let rate = self.devices[from].bit_rate();
             for other in (0..self.devices.len()).filter(|other| *other != from) {
+                let its = self.devices[other].bit_rate();
+                if !self.wiring.hears(rate, its) {
+                    continue;
+                }
                 self.devices[other].handle_frame(self.now, &frame);
                 self.collect(other, &mut carry);
             }
@@ -148,11 +207,14 @@ impl Bus {
 
     fn collect(&mut self, device: usize, carry: &mut VecDeque<(usize, Frame)>) {
         while let Some(frame) = self.devices[device].poll_transmit(self.now) {
-            self.sent.push_back(Sent {
-                at: self.now,
-                device,
-                frame,
-            });
+            // A device may change its bit rate with what it sent last, so it is asked each time.
+            if self.hears_outside(device) {
+                self.sent.push_back(Sent {
+                    at: self.now,
+                    device,
+                    frame,
+                });
+            }
             if self.devices.len() > 1 {
                 carry.push_back((device, frame));
             }

@@ -1,5 +1,6 @@
 //! One device: dictionary, values, node, behaviour and storage in one piece.
 
+use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
@@ -9,7 +10,7 @@ use od_runtime::storage::{Memory, Storage, image};
 use od_runtime::wire::nmt::State;
 use od_runtime::{
     Application, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
-    Signals, Store,
+    Reset, Signals, Store,
 };
 
 use super::eeprom::Eeprom;
@@ -74,7 +75,16 @@ pub struct VirtualDevice {
     wanted_id: NodeId,
     /// When the turning shaft is looked at again.
     look_at: Option<Instant>,
+    /// The bit rate that LSS activated since the last start, in kbit/s.
+    pub(super) activated: Option<u16>,
+    /// What happened, for [`poll_event`](Self::poll_event).
+    events: VecDeque<Event>,
+    /// Channels on its shaft, as [`DeviceKind::channels`].
+    channels: u8,
 }
+
+/// So many events are kept for whoever asks.
+const EVENTS: usize = 256;
 
 /// Bit 4 of 1001h.
 const COMMUNICATION: u64 = 1 << 4;
@@ -86,7 +96,18 @@ impl VirtualDevice {
             Encoder::new(kind.encoder).with_sensor_of(kind.dictionary),
         ));
         let source = Source::Compiled(kind.dictionary);
-        Self::build(kind.title.into(), source, behaviour, kind.profile, node_id)
+        let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node_id);
+        Self {
+            channels: kind.channels,
+            ..device
+        }
+    }
+
+    /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
+    /// whose channels are nodes of their own. [`Bus::add_beside`](super::Bus::add_beside) puts
+    /// the second one on the bus.
+    pub fn channels(&self) -> u8 {
+        self.channels
     }
 
     /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
@@ -144,6 +165,9 @@ impl VirtualDevice {
             profile,
             wanted_id: node_id,
             look_at: None,
+            activated: None,
+            events: VecDeque::new(),
+            channels: 1,
         }
     }
 
@@ -151,6 +175,15 @@ impl VirtualDevice {
     #[must_use]
     pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
         self.storage = Eeprom::new(storage);
+        self
+    }
+
+    /// With this serial number, where it is an encoder. Do it before power comes.
+    #[must_use]
+    pub fn with_serial_number(mut self, serial_number: u32) -> Self {
+        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+            **encoder = encoder.clone().with_serial_number(serial_number);
+        }
         self
     }
 
@@ -175,6 +208,7 @@ impl VirtualDevice {
         // `build` made room for the values.
         let powered = node.power_on(&mut device, now);
         debug_assert!(powered.is_ok());
+        self.take_events();
     }
 
     /// Power goes. Time goes on, and the shaft with it.
@@ -194,12 +228,14 @@ impl VirtualDevice {
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let (node, mut device) = self.parts();
         node.handle_frame(&mut device, now, frame);
+        self.take_events();
     }
 
     /// Time has passed.
     pub fn handle_timeout(&mut self, now: Instant) {
         let (node, mut device) = self.parts();
         node.handle_timeout(&mut device, now);
+        self.take_events();
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
         }
@@ -209,6 +245,7 @@ impl VirtualDevice {
     pub(super) fn noticed(&mut self, now: Instant) {
         let (node, mut device) = self.parts();
         node.handle_change(&mut device, now);
+        self.take_events();
         self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
     }
 
@@ -231,7 +268,23 @@ impl VirtualDevice {
 
     /// What happened, oldest first.
     pub fn poll_event(&mut self) -> Option<Event> {
-        self.node.poll_event()
+        self.events.pop_front()
+    }
+
+    /// Keeps what happened for whoever asks, and takes what the world outside the node has to
+    /// know of it.
+    fn take_events(&mut self) {
+        while let Some(event) = self.node.poll_event() {
+            match event {
+                Event::BitRate(code) => self.activated = self.bit_rate_of(code),
+                Event::Reset(Reset::PowerOn | Reset::Node, _) => self.activated = None,
+                _ => {}
+            }
+            if self.events.len() == EVENTS {
+                self.events.pop_front();
+            }
+            self.events.push_back(event);
+        }
     }
 
     /// The NMT state.

@@ -2,26 +2,19 @@
 
 use od_runtime::encoder::Fault;
 
-/// The names.
-pub const NAMES: [&str; 5] = [
-    "position-error",
-    "battery-low",
-    "watchdog",
-    "eeprom",
-    "internal",
-];
+/// The names. A device has those that its family reports.
+pub const NAMES: [&str; Fault::NAMES.len()] = {
+    let mut names = [""; Fault::NAMES.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = Fault::NAMES[at].1;
+        at += 1;
+    }
+    names
+};
 
 /// The fault with this name. `watchdog` shows after the next reset; with `eeprom` nothing can
 /// be saved.
 pub fn from_name(name: &str) -> Option<Fault> {
-    let at = NAMES.iter().position(|known| *known == name)?;
-    [
-        Fault::Position,
-        Fault::Battery,
-        Fault::Watchdog,
-        Fault::Memory,
-        Fault::Internal,
-    ]
-    .get(at)
-    .copied()
+    Fault::from_name(name)
 }

@@ -15,6 +15,7 @@ pub mod script;
 #[cfg(test)]
 mod tests;
 pub mod values;
+mod wiring;
 pub mod words;
 mod world;
 

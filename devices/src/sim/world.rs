@@ -1,7 +1,9 @@
 //! The world around a device: its shaft, its switches, what breaks.
 
+use std::prelude::v1::*;
+
 use od_runtime::Instant;
-use od_runtime::encoder::{Angle, Encoder};
+use od_runtime::encoder::{Angle, Encoder, Fault, Shaft};
 
 use super::device::{Behaviour, VirtualDevice};
 use super::faults;
@@ -49,6 +51,19 @@ impl VirtualDevice {
             rpm: f64::from(encoder.shaft.milli_rpm()) / 1000.0,
             raw: encoder.raw_position(now),
         })
+    }
+
+    /// The shaft as it is, for devices that share it.
+    pub(super) fn shaft_now(&self) -> Option<Shaft> {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => Some(encoder.shaft),
+            Behaviour::Nothing(_) => None,
+        }
+    }
+
+    /// Another device turned the shaft that this one sits on, too.
+    pub(super) fn put_on_shaft(&mut self, shaft: Shaft, now: Instant) {
+        self.change(now, |encoder| encoder.shaft = shaft);
     }
 
     /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether
@@ -110,12 +125,31 @@ impl VirtualDevice {
         }
     }
 
-    /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether there is
-    /// such a fault.
+    /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether this
+    /// device has such a fault.
     pub fn set_fault(&mut self, name: &str, broken: bool, now: Instant) -> bool {
-        match faults::from_name(name) {
+        match faults::from_name(name).filter(|fault| self.has_fault(*fault)) {
             Some(fault) => self.change(now, |encoder| encoder.set_fault(fault, broken)),
             None => false,
+        }
+    }
+
+    /// The names of what can break in this device.
+    pub fn faults(&self) -> Vec<&'static str> {
+        let known = Fault::NAMES.iter();
+        known
+            .filter(|(fault, _)| self.has_fault(*fault))
+            .map(|(_, name)| *name)
+            .collect()
+    }
+
+    fn has_fault(&self, fault: Fault) -> bool {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                let mut reports = encoder.profile().reports.iter();
+                reports.any(|report| report.fault == fault)
+            }
+            Behaviour::Nothing(_) => false,
         }
     }
 
@@ -127,12 +161,22 @@ impl VirtualDevice {
         }
     }
 
-    /// The bit rate since the last start in kbit/s, where the device has one of its own.
+    /// The bit rate in kbit/s, where the device has one of its own: that of the last start, or
+    /// what LSS activated since.
     pub fn bit_rate(&self) -> Option<u16> {
         match &self.behaviour {
-            Behaviour::Encoder(encoder) => encoder.bit_rate(),
+            Behaviour::Encoder(encoder) => self.activated.or(encoder.bit_rate()),
             Behaviour::Nothing(_) => None,
         }
+    }
+
+    /// What a code of the device's own (2100h) stands for, in kbit/s.
+    pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return None;
+        };
+        let rate = encoder.profile().bit_rates.get(usize::from(code)).copied();
+        rate.filter(|rate| *rate != 0)
     }
 
     /// While a shaft turns, a device whose PDOs follow their values looks at it every

@@ -16,7 +16,7 @@ use crate::sim::{candump, faults};
 const WALL_CLOCK: u64 = 100_000_000_000_000;
 
 const STATEMENTS: &str = "a line is a frame (601#4004600000000000), or begins with device, use, \
-                          shaft, power, switch, fault, wait, at, after, send, nmt, sync, sdo, \
+                          shaft, power, switch, fault, bus, wait, at, after, send, nmt, sync, sdo, \
                           ignore, skip or expect";
 
 pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
@@ -61,6 +61,7 @@ fn statement(mut words: Words<'_>, origin: &mut Option<u64>) -> Result<(When, Ac
         "power" => power(&mut words)?,
         "switch" => switch(&mut words)?,
         "fault" => fault(&mut words)?,
+        "bus" => bus(&mut words)?,
         "wait" => {
             let micros = words.duration()?;
             words.end()?;
@@ -163,7 +164,7 @@ fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
 
 fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     const HELP: &str = "write `device gxmm`, `device gxmm node 5 as left`, or a file name";
-    let head = words.split_at_word(&["node", "as", "off"]);
+    let head = words.split_at_word(&["node", "as", "on", "off"]);
     let shown = head.rest();
     let name = shown.trim_matches('"').to_owned();
     if name.is_empty() {
@@ -172,12 +173,18 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     if shown.contains(char::is_whitespace) && !shown.starts_with('"') {
         return Err(head.problem("a name with blanks stands in quotes", HELP));
     }
-    let (mut node, mut name_of, mut powered) = (None, None, true);
+    let (mut nodes, mut name_of, mut beside, mut powered) = (Vec::new(), None, None, true);
     while !words.is_empty() {
         if words.take("node") {
-            node = NodeId::new(words.number(1, 127)? as u8);
+            // One for each channel.
+            nodes.clear();
+            while nodes.is_empty() || words.at_number() {
+                nodes.extend(NodeId::new(words.number(1, 127)? as u8));
+            }
         } else if words.take("as") {
             name_of = Some(label(words)?);
+        } else if words.take("on") {
+            beside = Some(label(words)?);
         } else if words.take("off") {
             powered = false;
         } else {
@@ -186,8 +193,9 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     }
     Ok(Action::Device {
         name,
-        node,
+        nodes,
         label: name_of,
+        beside,
         powered,
     })
 }
@@ -270,6 +278,20 @@ fn fault(words: &mut Words<'_>) -> Result<Action, Problem> {
         name: name.to_owned(),
         on,
     })
+}
+
+fn bus(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    match words.next() {
+        "bitrate" if words.take("any") => Ok(Action::BusRate(None)),
+        "bitrate" => words
+            .number(1, 1000)
+            .map(|kbit| Action::BusRate(Some(kbit as u16))),
+        word => Err(here.problem(
+            format!("a bus cannot `{word}`"),
+            "write `bus bitrate 250` (kbit/s) or `bus bitrate any`",
+        )),
+    }
 }
 
 fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {

@@ -26,11 +26,22 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
     })
 }
 
+/// What a `device` line asks for.
+#[derive(Default)]
+struct Wanted<'s> {
+    name: Option<&'s str>,
+    nodes: &'s [NodeId],
+    label: Option<&'s str>,
+    beside: Option<&'s str>,
+}
+
 /// The bench while a script runs.
 pub(super) struct Runner<'h> {
     host: &'h mut dyn Host,
     pub(super) bus: Bus,
     labels: Vec<Option<String>>,
+    /// The first channel of each device.
+    firsts: Vec<usize>,
     current: usize,
     /// Frames that the devices sent and no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
@@ -50,6 +61,7 @@ pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary
         host,
         bus: Bus::new(),
         labels: Vec::new(),
+        firsts: Vec::new(),
         current: 0,
         pending: VecDeque::new(),
         ignored: Vec::new(),
@@ -79,7 +91,7 @@ impl Runner<'_> {
         let now = self.bus.now();
         let names_device = matches!(statement.action, Action::Device { .. });
         if self.labels.is_empty() && !names_device {
-            self.add(None, None, None, true)?;
+            self.add(&Wanted::default(), true)?;
         }
         match statement.when {
             When::Next => {}
@@ -96,20 +108,20 @@ impl Runner<'_> {
         match action {
             Action::Device {
                 name,
-                node,
+                nodes,
                 label,
+                beside,
                 powered,
             } => {
-                self.add(Some(name), *node, label.clone(), *powered)?;
+                let wanted = Wanted {
+                    name: Some(name),
+                    nodes,
+                    label: label.as_deref(),
+                    beside: beside.as_deref(),
+                };
+                self.add(&wanted, *powered)?;
             }
-            Action::Use(label) => {
-                match self.labels.iter().position(|l| l.as_ref() == Some(label)) {
-                    Some(device) => self.current = device,
-                    None => {
-                        return impossible(format!("no `device … as {label}` line stands above"));
-                    }
-                }
-            }
+            Action::Use(label) => self.current = self.labelled(label)?,
             Action::Send {
                 frame,
                 times,
@@ -132,9 +144,13 @@ impl Runner<'_> {
             }
             Action::Fault { name, on } => {
                 if !self.with(|device, now| device.set_fault(name, *on, now)) {
-                    return impossible(format!("this device has no fault `{name}`"));
+                    let known = self.device().faults().join(", ");
+                    return impossible(format!(
+                        "this device has no fault `{name}`; there are {known}"
+                    ));
                 }
             }
+            Action::BusRate(kbit) => self.bus.set_bit_rate(*kbit),
             Action::Wait => {}
             Action::Nmt { command, node } => {
                 let node = node.unwrap_or_else(|| self.device().node_id().raw());
@@ -164,16 +180,60 @@ impl Runner<'_> {
         Ok(())
     }
 
-    fn add(
-        &mut self,
-        name: Option<&str>,
-        node: Option<NodeId>,
-        label: Option<String>,
-        powered: bool,
-    ) -> Result<()> {
-        let device = self.host.device(name, node).or_else(impossible)?;
-        self.current = self.bus.add(device);
-        self.labels.push(label);
+    /// The device of a `device … as` line above; of a redundant one, `name.2` is the second
+    /// channel.
+    fn labelled(&self, label: &str) -> Result<usize> {
+        let find = |name: &str| {
+            let name = Some(name);
+            self.labels
+                .iter()
+                .position(|label| label.as_deref() == name)
+        };
+        match find(label).or_else(|| find(label.strip_suffix(".1")?)) {
+            Some(device) => Ok(device),
+            None => impossible(format!("no `device … as {label}` line stands above")),
+        }
+    }
+
+    /// Puts a device on the bus, all its channels.
+    fn add(&mut self, wanted: &Wanted<'_>, powered: bool) -> Result<()> {
+        let beside = match wanted.beside {
+            Some(label) => Some(self.labelled(label)?),
+            None => None,
+        };
+        let node = wanted.nodes.first().copied();
+        let device = self.host.device(wanted.name, node).or_else(impossible)?;
+        let channels = device.channels();
+        if wanted.nodes.len() > usize::from(channels) {
+            return impossible(format!(
+                "{} has {channels} node ID, not {}",
+                device.title(),
+                wanted.nodes.len()
+            ));
+        }
+        let mut id = node.unwrap_or(NodeId::ONE);
+        let first = match beside {
+            Some(other) => self.bus.add_beside(device, other),
+            None => self.bus.add(device),
+        };
+        self.firsts.push(first);
+        self.labels.push(wanted.label.map(str::to_owned));
+        for channel in 1..channels {
+            let next = wanted.nodes.get(usize::from(channel)).copied();
+            // The next free number, where the line gives none.
+            id = next.or(NodeId::new(id.raw() + 1)).unwrap_or(NodeId::ONE);
+            let device = self
+                .host
+                .device(wanted.name, Some(id))
+                .or_else(impossible)?;
+            let serial_number = u32::from(channel) + 1;
+            self.bus
+                .add_beside(device.with_serial_number(serial_number), first);
+            self.firsts.push(first);
+            let label = wanted.label.map(|label| format!("{label}.{}", channel + 1));
+            self.labels.push(label);
+        }
+        self.current = first;
         if powered {
             let before = self.pending.len();
             self.power(Power::On);
@@ -259,12 +319,27 @@ impl Runner<'_> {
 
     fn power(&mut self, power: Power) {
         match power {
-            Power::On => self.with(|device, now| device.power_on(now)),
-            Power::Off => self.with(|device, now| device.power_off(now)),
+            Power::On => self.supply(true),
+            Power::Off => self.supply(false),
             Power::Cycle(micros) => {
-                self.with(|device, now| device.power_off(now));
+                self.supply(false);
                 self.advance(self.bus.now().plus_micros(micros));
-                self.with(|device, now| device.power_on(now));
+                self.supply(true);
+            }
+        }
+    }
+
+    /// Channels of one device have one connector.
+    fn supply(&mut self, on: bool) {
+        let first = self.firsts[self.current];
+        for channel in 0..self.firsts.len() {
+            if self.firsts[channel] == first {
+                let act = match on {
+                    true => VirtualDevice::power_on,
+                    false => VirtualDevice::power_off,
+                };
+                self.bus.with(channel, act);
+                self.collect();
             }
         }
     }

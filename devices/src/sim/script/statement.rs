@@ -91,8 +91,11 @@ pub(super) enum Outcome {
 pub(super) enum Action {
     Device {
         name: String,
-        node: Option<NodeId>,
+        /// Of each channel.
+        nodes: Vec<NodeId>,
         label: Option<String>,
+        /// The device on whose shaft it sits.
+        beside: Option<String>,
         powered: bool,
     },
     Use(String),
@@ -109,6 +112,8 @@ pub(super) enum Action {
         name: String,
         on: bool,
     },
+    /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
+    BusRate(Option<u16>),
     Wait,
     Nmt {
         command: Command,

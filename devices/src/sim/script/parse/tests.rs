@@ -29,6 +29,19 @@ fn every_kind_of_line_is_read() {
 }
 
 #[test]
+fn several_on_a_bus() {
+    check(
+        "device eam_red node 1 2 as red\nuse red.2\ndevice gxmm node 3 on red\nbus bitrate 250\n\
+         bus bitrate any\nfault temperature on\nexpect bitrate 50",
+        "7 lines",
+    );
+    check("device eam_red node as red", "1:21: `as` does not fit");
+    check("device gxmm on", "1:15: a name is missing");
+    check("bus bitrate 2000", "1:13: `2000` does not fit");
+    check("bus stop", "1:5: a bus cannot `stop`");
+}
+
+#[test]
 fn mistakes_are_found_in_every_line() {
     check("wait", "1:5: a duration is missing; write it like 500ms");
     check("\n  wait 5", "2:8: `5` is no duration");

@@ -1,0 +1,40 @@
+//! What devices of a bus have in common besides it: a shaft, and a bit rate.
+
+use std::prelude::v1::*;
+
+/// Which devices sit on one shaft, and who hears whom.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wiring {
+    /// The shaft of each device: the number of the first device on it.
+    shafts: Vec<usize>,
+    /// Bit rate of what is outside in kbit/s; `None`: bit rates do not matter.
+    pub(super) rate: Option<u16>,
+}
+
+impl Wiring {
+    /// A device more, on the shaft of another one or on its own.
+    pub(super) fn add(&mut self, beside: Option<usize>) {
+        let own = self.shafts.len();
+        let shaft = beside.and_then(|other| self.shafts.get(other).copied());
+        self.shafts.push(shaft.unwrap_or(own));
+    }
+
+    /// The devices that sit on the shaft of this one, without it.
+    pub(super) fn beside(&self, device: usize) -> Vec<usize> {
+        let Some(shaft) = self.shafts.get(device) else {
+            return Vec::new();
+        };
+        let all = self.shafts.iter().enumerate();
+        all.filter(|(other, its)| *other != device && *its == shaft)
+            .map(|(other, _)| other)
+            .collect()
+    }
+
+    /// Do two stations understand each other? A device without bit rate has everyone's.
+    pub(super) fn hears(&self, one: Option<u16>, other: Option<u16>) -> bool {
+        match (self.rate, one, other) {
+            (Some(_), Some(one), Some(other)) => one == other,
+            _ => true,
+        }
+    }
+}
