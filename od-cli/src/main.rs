@@ -4,6 +4,7 @@
 //! writes to a pipe that may close, [`report`] shows diagnostics.
 
 mod check;
+mod convert;
 mod diff;
 mod dump;
 mod export;
@@ -35,6 +36,7 @@ enum Command {
     Check(check::Args),
     Dump(dump::Args),
     Export(export::Args),
+    Convert(convert::Args),
     Diff(diff::Args),
 }
 
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args),
         Command::Dump(args) => dump::run(&args),
         Command::Export(args) => export::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Diff(args) => diff::run(&args),
     };
     let (message, code) = match result {

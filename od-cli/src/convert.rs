@@ -1,0 +1,128 @@
+//! `odkit convert`: a device description in another form.
+
+mod c_header;
+mod dcf;
+mod json;
+
+use std::path::{Path, PathBuf};
+
+use od_model::{Description, Tables, eds};
+use od_runtime::NodeId;
+
+use crate::output::{self, Output};
+use crate::source::{self, Source};
+use crate::{Failure, report};
+
+/// Convert a device description: EDS, DCF, C header, JSON
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Built-in device, or EDS or DCF file
+    #[arg(value_name = "DEVICE|FILE")]
+    input: String,
+    /// What it becomes; the ending of the output file says it, too
+    #[arg(long, value_enum, required_unless_present = "output")]
+    to: Option<Form>,
+    /// File to write; standard output where none is given
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Node ID of the configured device, for a DCF
+    #[arg(long, value_name = "ID", value_parser = source::node_id)]
+    node_id: Option<NodeId>,
+    /// Bit rate of the configured device in kbit/s, for a DCF
+    #[arg(long, value_name = "KBIT")]
+    bit_rate: Option<u16>,
+    /// Value of the configured device, for a DCF; as often as there are values
+    #[arg(long = "set", value_name = "OBJECT=VALUE")]
+    values: Vec<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
+enum Form {
+    /// CiA 306 device description, in canonical form
+    Eds,
+    /// The same with node ID, bit rate and values of one configured device
+    Dcf,
+    /// C header with a macro for each index, sub-index, default and limit
+    #[value(alias = "h")]
+    C,
+    /// Objects and entries as JSON
+    Json,
+}
+
+impl Form {
+    /// What the ending of a file's name asks for.
+    fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "eds" => Some(Self::Eds),
+            "dcf" => Some(Self::Dcf),
+            "h" => Some(Self::C),
+            "json" => Some(Self::Json),
+            _ => None,
+        }
+    }
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let form = args
+        .to
+        .or_else(|| Form::of(args.output.as_deref()?))
+        .ok_or_else(|| Failure::Usage("say what it becomes: --to eds, dcf, c or json".into()))?;
+    if form != Form::Dcf
+        && (args.node_id.is_some() || args.bit_rate.is_some() || !args.values.is_empty())
+    {
+        return Err(Failure::Usage(
+            "--node-id, --bit-rate and --set configure a device: they go with --to dcf".into(),
+        ));
+    }
+    let mut description = description(&args.input)?;
+    let text = match form {
+        Form::Eds => eds::write(&description),
+        Form::Dcf => {
+            dcf::configure(&mut description, args)?;
+            eds::write(&description)
+        }
+        Form::C => {
+            let tables = Tables::new(&description);
+            let stem = Path::new(&args.input)
+                .file_stem()
+                .and_then(|stem| stem.to_str());
+            c_header::write(tables.dictionary(), stem.unwrap_or("device"), &args.input)
+        }
+        Form::Json => {
+            let tables = Tables::new(&description);
+            let value = json::write(tables.dictionary(), &args.input);
+            serde_json::to_string_pretty(&value)
+                .map_err(|error| Failure::Failed(format!("this cannot be JSON: {error}")))?
+        }
+    };
+    match &args.output {
+        Some(path) => std::fs::write(path, format!("{}\n", text.trim_end())).map_err(|error| {
+            Failure::Failed(format!("{} cannot be written: {error}", path.display()))
+        }),
+        None => {
+            let mut output = Output::new();
+            output.line(text.trim_end())?;
+            output.flush().map(|_| ())
+        }
+    }
+}
+
+/// What is to be converted. What of a file cannot be used is told, and left out.
+fn description(name: &str) -> Result<Description, Failure> {
+    let (path, text) = match Source::find(name)? {
+        Source::BuiltIn(kind) => return Ok(eds::parse(&kind.eds()).description),
+        Source::File { path, text } => (path, text),
+    };
+    let parsed = eds::parse(&text);
+    if parsed.description.objects.is_empty() {
+        return Err(Failure::Failed(format!(
+            "{path} describes no object; is it an EDS or DCF file?"
+        )));
+    }
+    let all = parsed.diagnostics.into_iter();
+    let errors: Vec<_> = all.filter(|finding| finding.is_error()).collect();
+    let colours = output::error_colours();
+    output::note_text(&report::render(&path, &text, &errors, colours));
+    Ok(parsed.description)
+}

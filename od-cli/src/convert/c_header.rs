@@ -1,0 +1,165 @@
+//! A dictionary as a C header: what a master's firmware needs to know of a device.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use od_model::{DataType, Dictionary, Entry, Literal};
+
+/// The header's text. `name` prefixes every macro: `GXMM_POSITION_VALUE_INDEX`.
+pub(super) fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
+    let prefix = macro_name(name);
+    let mut out = String::new();
+    let mut names = BTreeSet::new();
+    // Writing to a String cannot fail, here and below.
+    let _ = writeln!(
+        out,
+        "/* Object dictionary of {}.\n * Made by `odkit convert`. NODE_ID has to be defined where a default hangs on it. */\n\
+         #ifndef {prefix}_OD_H\n#define {prefix}_OD_H",
+        comment(source)
+    );
+    for object in dictionary.objects() {
+        let has_members = object.code.has_members();
+        let title = dictionary.text(object.name);
+        let stem = unique(&mut names, macro_name(title), object.index, None);
+        let _ = writeln!(
+            out,
+            "\n/* {:04X}h {}, {} */\n#define {prefix}_{stem}_INDEX 0x{:04X}u",
+            object.index,
+            comment(title),
+            object.code.name(),
+            object.index
+        );
+        for entry in dictionary.members(object) {
+            let stem = if has_members {
+                let member = macro_name(dictionary.text(entry.name));
+                let sub = Some(entry.address.sub);
+                unique(&mut names, format!("{stem}_{member}"), object.index, sub)
+            } else {
+                stem.clone()
+            };
+            one(&mut out, dictionary, entry, &prefix, &stem);
+        }
+    }
+    let _ = writeln!(out, "\n#endif /* {prefix}_OD_H */");
+    out
+}
+
+fn one(out: &mut String, dictionary: Dictionary<'_>, entry: &Entry, prefix: &str, stem: &str) {
+    let mut facts = vec![entry.data_type.name(), entry.access.name()];
+    match (entry.maps_to_tpdo(), entry.maps_to_rpdo()) {
+        (true, true) => facts.push("TPDO, RPDO"),
+        (true, false) => facts.push("TPDO"),
+        (false, true) => facts.push("RPDO"),
+        (false, false) => {}
+    }
+    let facts = facts.join(", ");
+    let sub = entry.address.sub;
+    let _ = writeln!(
+        out,
+        "#define {prefix}_{stem}_SUB 0x{sub:02X}u /* {facts} */"
+    );
+    if let Some(bits) = entry.data_type.bits() {
+        let _ = writeln!(out, "#define {prefix}_{stem}_BITS {bits}u");
+    }
+    for (what, literal) in [
+        ("DEFAULT", entry.default),
+        ("MIN", entry.low),
+        ("MAX", entry.high),
+    ] {
+        if let Some(text) = constant(dictionary, entry.data_type, literal) {
+            let _ = writeln!(out, "#define {prefix}_{stem}_{what} {text}");
+        }
+    }
+}
+
+/// A C constant; defaults that hang on the node ID are a macro's argument away.
+fn constant(dictionary: Dictionary<'_>, data_type: DataType, literal: Literal) -> Option<String> {
+    let wide = data_type.bits().is_some_and(|bits| bits > 32);
+    let (unsigned, signed) = if wide { ("ull", "ll") } else { ("u", "") };
+    Some(match literal {
+        Literal::None | Literal::Bytes(_) => return None,
+        Literal::Unsigned(value) => format!("0x{value:X}{unsigned}"),
+        // The smallest number of a type has no literal of its own in C.
+        Literal::Signed(i64::MIN) => "(-9223372036854775807ll - 1ll)".into(),
+        Literal::Signed(value @ -0x8000_0000) => format!("({}{signed} - 1{signed})", value + 1),
+        Literal::Signed(value) => format!("({value}{signed})"),
+        Literal::Real(value) if value.is_finite() => format!("({value:?})"),
+        Literal::Real(_) => return None,
+        Literal::NodeId(offset) => format!("(0x{offset:X}u + (NODE_ID))"),
+        Literal::Text(range) => format!("\"{}\"", c_string(dictionary.text(range))),
+    })
+}
+
+fn c_string(text: &str) -> String {
+    let mut out = String::new();
+    for byte in text.bytes() {
+        match byte {
+            b'"' | b'\\' => {
+                out.push('\\');
+                out.push(char::from(byte));
+            }
+            // Three octal digits end by themselves; a hex escape would run on. `?` might
+            // begin a trigraph.
+            b' '..=b'~' if byte != b'?' => out.push(char::from(byte)),
+            _ => {
+                let _ = write!(out, "\\{byte:03o}");
+            }
+        }
+    }
+    out
+}
+
+/// What can stand in a C comment of one line.
+fn comment(text: &str) -> String {
+    let one_line = text.replace(['\n', '\r'], " ");
+    one_line.replace("*/", "* /").replace("/*", "/ *")
+}
+
+/// `Position value (raw)` is `POSITION_VALUE_RAW`.
+fn macro_name(text: &str) -> String {
+    let mut name = String::new();
+    for character in text.chars() {
+        if character.is_ascii_alphanumeric() {
+            name.push(character.to_ascii_uppercase());
+        } else if !name.is_empty() && !name.ends_with('_') {
+            name.push('_');
+        }
+    }
+    let name = name.trim_end_matches('_');
+    match name.chars().next() {
+        None => "X".into(),
+        Some(first) if first.is_ascii_digit() => format!("X{name}"),
+        Some(_) => name.into(),
+    }
+}
+
+/// A name that came before gets its address behind it.
+fn unique(names: &mut BTreeSet<String>, name: String, index: u16, sub: Option<u8>) -> String {
+    if names.insert(name.clone()) {
+        return name;
+    }
+    let name = match sub {
+        Some(sub) => format!("{name}_{index:04X}_{sub:02X}"),
+        None => format!("{name}_{index:04X}"),
+    };
+    names.insert(name.clone());
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_texts_are_ones_that_c_takes() {
+        assert_eq!(macro_name("Position value (raw)"), "POSITION_VALUE_RAW");
+        assert_eq!(macro_name("1st mapped object"), "X1ST_MAPPED_OBJECT");
+        assert_eq!(macro_name("§°"), "X");
+        assert_eq!(c_string("a\"b\\c\n?7"), "a\\\"b\\\\c\\012\\0777");
+        assert_eq!(comment("x */ int y; /*"), "x * / int y; / *");
+        let mut names = BTreeSet::new();
+        assert_eq!(unique(&mut names, "A".into(), 0x2000, None), "A");
+        assert_eq!(unique(&mut names, "A".into(), 0x2001, None), "A_2001");
+        assert_eq!(unique(&mut names, "A".into(), 0x2001, Some(3)), "A_2001_03");
+    }
+}

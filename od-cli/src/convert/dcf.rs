@@ -1,0 +1,112 @@
+//! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
+
+use od_devices::sim::values;
+use od_model::{DataType, Description, Kind, Section, Spanned, Tables, Value};
+
+use super::Args;
+use crate::Failure;
+
+const COMMISSIONING: &str = "DeviceComissioning";
+
+/// Node ID, bit rate and the values that were asked for. A value of the file stays where
+/// nothing is said of it.
+pub(super) fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> {
+    if let Some(node_id) = args.node_id {
+        set(description, "NodeID", &node_id.raw().to_string());
+    } else if description.commissioned_node_id().is_none() {
+        return Err(Failure::Usage(
+            "a DCF is of one device: say its node ID, --node-id 5".into(),
+        ));
+    }
+    if let Some(rate) = args.bit_rate {
+        set(description, "Baudrate", &rate.to_string());
+    }
+    for setting in &args.values {
+        value(description, setting).map_err(Failure::Usage)?;
+    }
+    Ok(())
+}
+
+/// Sets a key of the commissioning section, whichever spelling the file has.
+fn set(description: &mut Description, key: &str, value: &str) {
+    let is_it = |section: &Section| {
+        let name = section.name.value.to_ascii_lowercase();
+        name == "devicecomissioning" || name == "devicecommissioning"
+    };
+    let at = match description.sections.iter().position(is_it) {
+        Some(at) => at,
+        None => {
+            description.sections.push(Section {
+                name: Spanned::from(String::from(COMMISSIONING)),
+                pairs: Vec::new(),
+            });
+            description.sections.len() - 1
+        }
+    };
+    let pairs = &mut description.sections[at].pairs;
+    let value = Spanned::from(String::from(value));
+    match pairs.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
+        Some((_, old)) => *old = value,
+        None => pairs.push((Spanned::from(String::from(key)), value)),
+    }
+}
+
+/// `6001h=4096`: the ParameterValue of one object.
+fn value(description: &mut Description, setting: &str) -> Result<(), String> {
+    let (object, text) = setting
+        .split_once('=')
+        .ok_or_else(|| format!("`{setting}` sets nothing; write --set 6001h=4096"))?;
+    let (object, text) = (object.trim(), text.trim());
+    let tables = Tables::new(description);
+    let entry = values::find(tables.dictionary(), object)?;
+    let (address, data_type) = (entry.address, entry.data_type);
+    if !entry.access.writable() {
+        return Err(format!(
+            "{object} is {}: it has no value to set",
+            entry.access
+        ));
+    }
+    let bytes = values::parse(data_type, text).map_err(|why| format!("{object}: {why}"))?;
+    let value = from_bytes(data_type, bytes);
+    let node_id = description.commissioned_node_id().unwrap_or(1);
+    let described = description
+        .objects
+        .get_mut(&address.index)
+        .and_then(|object| object.entries.get_mut(&address.sub))
+        .ok_or_else(|| format!("there is no object {object}"))?;
+    if let Some(number) = value.integer(node_id) {
+        let limit = |limit: &Option<Spanned<Value>>| limit.as_ref()?.integer(node_id);
+        let (low, high) = (limit(&described.low), limit(&described.high));
+        if low.is_some_and(|low| number < low) || high.is_some_and(|high| number > high) {
+            let show = |limit: Option<i128>| limit.map_or(String::new(), |limit| limit.to_string());
+            return Err(format!(
+                "{object}: {number} is outside {}..{}",
+                show(low),
+                show(high)
+            ));
+        }
+    }
+    described.parameter = Some(Spanned::from(value));
+    Ok(())
+}
+
+/// A value as it goes over the bus, as a description has it.
+fn from_bytes(data_type: DataType, bytes: Vec<u8>) -> Value {
+    let mut wide = [0; 8];
+    let size = bytes.len().min(8);
+    wide[..size].copy_from_slice(&bytes[..size]);
+    match data_type.kind() {
+        Kind::Text => Value::Text(String::from_utf8_lossy(&bytes).into_owned()),
+        Kind::Bytes | Kind::Record => Value::Bytes(bytes),
+        Kind::Boolean | Kind::Unsigned => Value::Unsigned(u64::from_le_bytes(wide)),
+        Kind::Signed => {
+            let unused = 64 - 8 * size.max(1) as u32;
+            Value::Signed(i64::from_le_bytes(wide) << unused >> unused)
+        }
+        Kind::Real if size == 4 => {
+            let [a, b, c, d, ..] = wide;
+            Value::Real(f64::from(f32::from_le_bytes([a, b, c, d])))
+        }
+        Kind::Real => Value::Real(f64::from_le_bytes(wide)),
+    }
+}
