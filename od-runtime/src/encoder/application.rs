@@ -3,31 +3,18 @@
 use od_model::typed::{Scalar, Var};
 use od_model::{Address, Entry, Kind};
 
-use super::{Encoder, OperatingTime};
+use super::faults::Faults;
+use super::timer::{EVENT_TIMER, TIMER};
+use super::{Counter, Encoder};
 use crate::{AbortCode, Application, Context, Instant, NodeId, Reset, Store};
 
 const POSITION: u16 = 0x6004;
-const OFFSET: Address = Address::new(0x6509, 0);
-const TIMER: Address = Address::new(0x6200, 0);
-const EVENT_TIMER: Address = Address::new(0x1800, 5);
-const OPERATING_TIME: Address = Address::new(0x6508, 0);
-
-/// How often the time of operation goes into the store by itself.
-const SIX_MINUTES: u64 = 360_000_000;
 
 impl Application for Encoder {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let starts = matches!(reset, Reset::PowerOn | Reset::Node);
         if starts {
-            let stored = self
-                .profile
-                .seconds
-                .map_or(0, |at| cx.store.unsigned(at.index, at.sub));
-            self.seconds = self.seconds_at(cx.now).max(stored as u32);
-            self.started = Some(cx.now);
-            self.kept = 0;
-            self.faults.reset(cx, self.profile.reports);
-            self.bit_rate = self.starting_bit_rate(cx.store);
+            self.start(cx, reset);
         }
         if let Some(serial_number) = self.serial_number {
             for address in [Address::new(0x1018, 4), Address::new(0x650B, 0)] {
@@ -36,16 +23,19 @@ impl Application for Encoder {
         }
         self.position = position_handle(cx.store);
         self.configure(cx.store);
-        if reset == Reset::PowerOn {
+        if reset == Reset::PowerOn || starts && self.profile.counter == Counter::Volatile {
             self.wake_up(cx.now);
         }
         self.agree_on_timer(cx, starts);
-        self.show_time(cx);
+        self.show_time(cx.store, cx.now);
     }
 
     fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
         let index = self.profile.node_id?;
-        let switches = NodeId::new(self.switches.node_id);
+        let switches = match self.profile.switch_rates {
+            [] => None,
+            _ => NodeId::new(self.switches.node_id),
+        };
         switches.or_else(|| NodeId::new(u8::try_from(store.unsigned(index, 0)).ok()?))
     }
 
@@ -56,8 +46,8 @@ impl Application for Encoder {
                 cx.store
                     .set(handle, self.scale.position(self.angle(cx.now)));
             }
-        } else if address == OPERATING_TIME || Some(address) == self.profile.seconds {
-            self.show_time(cx);
+        } else {
+            self.refresh_other(cx, address);
         }
         Ok(())
     }
@@ -83,48 +73,68 @@ impl Application for Encoder {
             };
         }
         if let Some((_, list)) = profile.lists.iter().find(|(at, _)| *at == address) {
-            let listed = u8::try_from(number).is_ok_and(|number| list.contains(&number));
-            return if listed {
+            in_list(list.iter().copied(), number)?;
+        }
+        for movement in profile.movements {
+            if movement.selector == Some(address) {
+                in_list(movement.sources.iter().map(|(value, _)| *value), number)?;
+            }
+            if movement
+                .factor
+                .is_some_and(|(_, divider)| divider == address)
+            {
+                self.between(number, 1, u64::MAX)?;
+            }
+        }
+        if profile
+            .injection
+            .is_some_and(|injection| injection.code == address)
+        {
+            let known = Faults::knows(profile.reports, number as u32);
+            return if known {
                 Ok(())
             } else {
                 Err(AbortCode::ValueRange)
             };
         }
-        match address.index {
+        match self.link(address).index {
             _ if Some(address.index) == profile.node_id => self.between(number, 1, 127),
             0x6001 => self.between(number, 1, self.sensor.steps.into()),
-            0x6002 if number == 0 && profile.zero_is_full => Ok(()),
-            0x6002 => self.between(number, 1, self.most()),
+            0x6002 => self.check_range(cx.store, number),
             0x6003 => self.between(number, 0, self.scale.range() - 1),
+            index if profile.gear.is_some_and(|gear| gear.index == index) => {
+                self.check_gear(cx.store, address.sub, number)
+            }
             _ => Ok(()),
         }
     }
 
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        match address.index {
+        let first = self.link(address);
+        if first != address {
+            let value = cx.store.unsigned(address.index, address.sub);
+            cx.store.set_unsigned(first, value);
+        }
+        self.show_link(cx.store, first);
+        self.forget_movements(cx.now, |movement| {
+            Self::is_movement_parameter(movement, address)
+        });
+        match first.index {
             0x6000 => self.configure(cx.store),
-            0x6001 | 0x6002 => {
-                if !self.has_option(cx.store, |options| options.keep_offset) {
-                    cx.store.set_unsigned(OFFSET, 0);
-                }
-                self.configure(cx.store);
-            }
+            // The gear takes its own value back.
+            0x6001 if self.computes_resolution(cx.store) => self.configure(cx.store),
+            0x6001 | 0x6002 => self.take_new_resolution(cx),
             0x6003 => {
                 let preset = cx.store.unsigned(0x6003, 0) as u32;
-                let offset = if self.profile.signed_offset {
-                    let position = self.scale.without_offset(self.angle(cx.now));
-                    u64::from(preset).wrapping_sub(position)
-                } else {
-                    self.scale.offset_for(self.angle(cx.now), preset).into()
-                };
-                cx.store.set_unsigned(OFFSET, offset);
+                self.set_offset(cx.store, self.offset_for(cx.now, preset));
                 self.configure(cx.store);
             }
-            index if address == TIMER || self.profile.options.is_some_and(|o| o.index == index) => {
+            index if self.is_acting_gear(index) => self.take_new_resolution(cx),
+            index if first == TIMER || self.profile.options.is_some_and(|o| o.index == index) => {
                 self.timer_to_event_timer(cx);
             }
-            _ if address == EVENT_TIMER => self.event_timer_to_timer(cx),
-            _ => {}
+            _ if first == EVENT_TIMER => self.event_timer_to_timer(cx),
+            _ => self.take_injection(cx, address),
         }
     }
 
@@ -133,122 +143,76 @@ impl Application for Encoder {
     }
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
-        self.faults.report(cx, self.profile.reports);
-        self.profile.seconds?;
-        self.show_time(cx);
-        let (periods, since) = (
-            self.micros(cx.now) / SIX_MINUTES,
-            self.micros(cx.now) % SIX_MINUTES,
-        );
-        // A host ticks on other occasions, too.
-        if periods > self.kept {
-            self.kept = periods;
-            cx.signals.keep();
-        }
-        Some(cx.now.plus_micros(SIX_MINUTES - since))
+        self.faults.report(cx, self.profile);
+        self.keep_time(cx)
     }
 }
 
 impl Encoder {
-    fn between(&self, number: u64, low: u64, high: u64) -> Result<(), AbortCode> {
-        if number > high {
-            Err(AbortCode::ValueTooHigh)
-        } else if number < low {
-            Err(self.profile.below_limit)
+    /// Brings a live value that is not the position up to date.
+    #[inline(never)]
+    fn refresh_other(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+        let (at, profile) = (Some(address), self.profile);
+        if self.is_time(address) {
+            self.show_time(cx.store, cx.now);
+        } else if at == profile.raw_position {
+            // Modulo 2³², as the object holds it.
+            let raw = self.raw_position(cx.now);
+            cx.store.set_unsigned(address, raw);
+        } else if at == profile.time_stamp {
+            cx.store.set_unsigned(address, self.micros(cx.now));
+        } else if let Some((_, mirrors)) = profile.diagnosis.filter(|(at, _)| *at == address) {
+            let bits = mirrors.iter().fold(0, |bits, mirror| {
+                let of = cx.store.unsigned(mirror.from, 0);
+                bits | (of >> mirror.bit & 1) << mirror.shown
+            });
+            cx.store.set_unsigned(address, bits);
         } else {
-            Ok(())
+            self.show_movement(cx.store, cx.now, address);
+        }
+    }
+
+    /// The resolution or the range is a new one, and with it the offset means nothing.
+    fn take_new_resolution(&mut self, cx: &mut Context<'_, '_>) {
+        if !self.has_option(cx.store, |options| options.keep_offset) {
+            self.set_offset(cx.store, 0);
+        }
+        self.configure(cx.store);
+    }
+
+    /// A test fakes something.
+    fn take_injection(&mut self, cx: &mut Context<'_, '_>, address: Address) {
+        let Some(injection) = self.profile.injection else {
+            return;
+        };
+        if address == injection.code {
+            let code = cx.store.unsigned(address.index, address.sub) as u32;
+            self.faults.inject(self.profile.reports, code);
+            self.faults.report(cx, self.profile);
+        } else if address == injection.offset {
+            self.configure(cx.store);
         }
     }
 
     /// Is one of these bits of the manufacturer options set?
-    fn has_option(&self, store: &Store<'_>, bits: impl Fn(&super::Options) -> u32) -> bool {
+    pub(super) fn has_option(
+        &self,
+        store: &Store<'_>,
+        bits: impl Fn(&super::Options) -> u32,
+    ) -> bool {
         let Some(options) = &self.profile.options else {
             return false;
         };
         store.unsigned(options.index, 0) & u64::from(bits(options)) != 0
     }
+}
 
-    /// What 1800h:05 is later than 6200h, in milliseconds.
-    fn delay(&self, store: &Store<'_>) -> u64 {
-        match &self.profile.options {
-            Some(options) if self.has_option(store, |options| options.delay_timer) => {
-                options.delay_ms.into()
-            }
-            _ => 0,
-        }
-    }
-
-    /// 6200h rules: 1800h:05 follows. 0 is off in both.
-    fn timer_to_event_timer(&mut self, cx: &mut Context<'_, '_>) {
-        let Some(timer) = cx.store.try_unsigned(TIMER.index, TIMER.sub) else {
-            return;
-        };
-        self.timer = timer;
-        let event_timer = match timer {
-            0 => 0,
-            timer => (timer + self.delay(cx.store)).min(u16::MAX.into()),
-        };
-        let old = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub);
-        if old.is_some_and(|old| old != event_timer) {
-            cx.store.set_unsigned(EVENT_TIMER, event_timer);
-            cx.signals.reconfigure();
-        }
-    }
-
-    /// 1800h:05 rules: 6200h follows.
-    fn event_timer_to_timer(&mut self, cx: &mut Context<'_, '_>) {
-        if let Some(event_timer) = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub) {
-            self.timer = event_timer.saturating_sub(self.delay(cx.store));
-            cx.store.set_unsigned(TIMER, self.timer);
-        }
-    }
-
-    /// After a reset the two timers may say different things. What changed rules: at a
-    /// start, what storage held; else, what the reset took back.
-    fn agree_on_timer(&mut self, cx: &mut Context<'_, '_>, starts: bool) {
-        if cx.store.dictionary().find(TIMER).is_err() {
-            return;
-        }
-        let changed = |at: Address, was: u64| match cx.store.dictionary().find(at) {
-            Ok(entry) if starts => !cx.store.is_default(entry),
-            Ok(entry) => cx.store.number(entry) != was,
-            Err(_) => false,
-        };
-        let was = match self.timer {
-            0 => 0,
-            timer => timer + self.delay(cx.store),
-        };
-        if changed(EVENT_TIMER, was) && !(starts && changed(TIMER, self.timer)) {
-            self.event_timer_to_timer(cx);
-        } else {
-            self.timer_to_event_timer(cx);
-        }
-    }
-
-    fn show_time(&self, cx: &mut Context<'_, '_>) {
-        if let Some(seconds) = self.profile.seconds {
-            cx.store
-                .set_unsigned(seconds, self.seconds_at(cx.now).into());
-        }
-        if self.profile.operating_time == OperatingTime::SinceStart {
-            let time = self.micros(cx.now) / SIX_MINUTES;
-            cx.store
-                .set_unsigned(OPERATING_TIME, time.min(u32::MAX.into()));
-        }
-    }
-
-    /// Switches rule the bit rate where they rule the node ID.
-    fn starting_bit_rate(&self, store: &Store<'_>) -> Option<u16> {
-        let profile = self.profile;
-        let rate = if self.switches.node_id != 0 && !profile.switch_rates.is_empty() {
-            profile
-                .switch_rates
-                .get(usize::from(self.switches.bit_rate))
-        } else {
-            let code = usize::try_from(store.unsigned(profile.bit_rate?, 0)).ok()?;
-            profile.bit_rates.get(code)
-        };
-        rate.copied().filter(|rate| *rate != 0)
+/// A value of a list, else 06090030h.
+fn in_list(mut list: impl Iterator<Item = u8>, number: u64) -> Result<(), AbortCode> {
+    if list.any(|known| u64::from(known) == number) {
+        Ok(())
+    } else {
+        Err(AbortCode::ValueRange)
     }
 }
 

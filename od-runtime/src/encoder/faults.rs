@@ -2,7 +2,7 @@
 
 use od_model::Address;
 
-use super::{Fault, Report};
+use super::{Appears, EncoderProfile, Fault, Report, Until};
 use crate::{Context, Error, Store};
 
 const ALARMS: Address = Address::new(0x6503, 0);
@@ -15,26 +15,49 @@ pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
     [alarm_low, alarm_high, low, high, 0]
 }
 
-/// Sets of [`Fault`]s, a bit each.
+/// Sets of [`Fault`]s and of rows of [`EncoderProfile::reports`], a bit each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Faults {
     /// What the host broke.
     broken: u32,
-    /// What the device knows of.
-    reported: u32,
+    /// What of it was there at the last start.
+    at_start: u32,
     /// The last reset was by the watchdog.
     watchdog: bool,
     /// How often each came, as the device remembers it without power.
     counts: [u32; Fault::NAMES.len()],
+    /// Rows that the check at the last start found.
+    found: u32,
+    /// Rows that were there and last longer than their fault.
+    latched: u32,
+    /// Rows that 2116h injected.
+    injected: u32,
+    /// Rows that the device knows of.
+    shown: u32,
+}
+
+/// What [`Faults::reset`] has to know of the time without power.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Off {
+    /// There was power all the time.
+    Never,
+    /// It was off for so many microseconds.
+    For(u64),
+    /// There never was any before.
+    Always,
 }
 
 impl Faults {
     pub(super) const fn new() -> Self {
         Self {
             broken: 0,
-            reported: 0,
+            at_start: 0,
             watchdog: false,
             counts: [0; Fault::NAMES.len()],
+            found: 0,
+            latched: 0,
+            injected: 0,
+            shown: 0,
         }
     }
 
@@ -43,6 +66,7 @@ impl Faults {
             self.broken |= bit(fault);
         } else {
             self.broken &= !bit(fault);
+            self.at_start &= !bit(fault);
             self.watchdog &= fault != Fault::Watchdog;
         }
     }
@@ -51,12 +75,27 @@ impl Faults {
         self.broken & bit(fault) != 0 || (fault == Fault::Watchdog && self.watchdog)
     }
 
-    /// The device starts: it knows how often what came, and whether its watchdog bit it.
-    pub(super) fn reset(&mut self, cx: &mut Context<'_, '_>, reports: &[Report]) {
-        self.reported = 0;
+    /// The device starts: it knows how often what came, and whether its watchdog bit it, and
+    /// checks what can be checked then.
+    pub(super) fn reset(&mut self, cx: &mut Context<'_, '_>, reports: &[Report], off: Off) {
         self.watchdog = self.broken & bit(Fault::Watchdog) != 0;
         self.broken &= !bit(Fault::Watchdog);
-        for report in reports {
+        self.at_start = self.broken;
+        self.shown = 0;
+        self.found = 0;
+        let mut lasting = 0;
+        for (row, report) in rows(reports) {
+            if report.until == Until::Ever {
+                lasting |= row;
+            }
+            let checked = match off {
+                Off::Never => report.off_ms == 0,
+                Off::For(micros) => micros / 1000 >= u64::from(report.off_ms),
+                Off::Always => true,
+            };
+            if report.appears == Appears::Startup && checked && self.is_set(report.fault) {
+                self.found |= row;
+            }
             if let Some(counter) = report.counter {
                 let stored = cx.store.unsigned(counter.index, counter.sub) as u32;
                 let count = &mut self.counts[report.fault as usize];
@@ -64,39 +103,112 @@ impl Faults {
                 cx.store.set_unsigned(counter, (*count).into());
             }
         }
+        self.latched &= lasting;
+        self.injected &= lasting;
     }
 
-    /// Brings objects and errors up to date.
-    pub(super) fn report(&mut self, cx: &mut Context<'_, '_>, reports: &[Report]) {
-        for report in reports {
-            let active = match report.fault {
-                Fault::Watchdog => self.watchdog,
-                fault => self.broken & bit(fault) != 0,
-            };
-            let known = self.reported & bit(report.fault) != 0;
-            if active == known || !is_supported(cx, report) {
-                continue;
-            }
-            self.reported ^= bit(report.fault);
-            change(cx, ALARMS, report.alarm, active);
-            change(cx, WARNINGS, report.warning, active);
-            let info = info(cx.store);
-            if active {
-                if let Some(counter) = report.counter {
-                    let count = &mut self.counts[report.fault as usize];
-                    *count = count.saturating_add(1);
-                    cx.store.set_unsigned(counter, (*count).into());
-                }
-                cx.signals.raise(Error {
-                    code: report.code,
-                    register: report.register,
-                    info,
-                });
-            } else {
-                cx.signals.clear(report.code, info);
+    /// A code of 2116h; `false` where the table does not have it.
+    pub(super) fn knows(reports: &[Report], code: u32) -> bool {
+        code == 0 || reports.iter().any(|report| report.injection == Some(code))
+    }
+
+    /// 2116h takes a code that it [`knows`](Self::knows): the codes add up, and 0 ends them.
+    pub(super) fn inject(&mut self, reports: &[Report], code: u32) {
+        if code == 0 {
+            self.injected = 0;
+            return;
+        }
+        for (row, report) in rows(reports) {
+            if report.injection == Some(code) {
+                self.injected |= row;
             }
         }
     }
+
+    /// Brings objects and errors up to date.
+    pub(super) fn report(&mut self, cx: &mut Context<'_, '_>, profile: &EncoderProfile) {
+        let reports = profile.reports;
+        for (row, report) in rows(reports) {
+            let there = self.is_there(row, report, reports);
+            if there && report.until != Until::Repaired {
+                self.latched |= row;
+            }
+            let active = there || (self.latched | self.injected) & row != 0;
+            let known = self.shown & row != 0;
+            if active == known || (profile.by_support && !is_supported(cx, report)) {
+                continue;
+            }
+            self.change(cx, row, report, reports);
+        }
+    }
+
+    /// Is the fault of a row there, so that the row sees it?
+    fn is_there(&self, row: u32, report: &Report, reports: &[Report]) -> bool {
+        let is_broken = match report.fault {
+            // What the host set is for the next start.
+            Fault::Watchdog => self.watchdog,
+            fault => self.broken & bit(fault) != 0,
+        };
+        if !is_broken {
+            return false;
+        }
+        let found_otherwise = |other: &Report| {
+            other.fault == report.fault
+                && other.appears == Appears::Startup
+                && self.at_start & bit(report.fault) != 0
+        };
+        match report.appears {
+            Appears::Always => true,
+            Appears::Startup => self.found & row != 0 && self.at_start & bit(report.fault) != 0,
+            Appears::Runtime => !reports.iter().any(found_otherwise),
+            Appears::Injected => false,
+        }
+    }
+
+    /// A row comes or goes.
+    fn change(&mut self, cx: &mut Context<'_, '_>, row: u32, report: &Report, reports: &[Report]) {
+        self.shown ^= row;
+        let comes = self.shown & row != 0;
+        for (address, bits) in [
+            (ALARMS, (|report| report.alarm) as fn(&Report) -> u16),
+            (WARNINGS, |report| report.warning),
+        ] {
+            let of_table = reports.iter().fold(0, |all, report| all | bits(report));
+            let old = cx.store.unsigned(address.index, address.sub);
+            let shown = self.shown_rows(reports);
+            let new = shown.fold(0, |all, report| all | bits(report));
+            let others = old & !u64::from(of_table);
+            cx.store.set_unsigned(address, others | u64::from(new));
+        }
+        let info = info(cx.store);
+        // Two rows that say the same are one error for the bus.
+        let same = |other: &&Report| other.code == report.code && other.register == report.register;
+        let others = self.shown_rows(reports).filter(same).count() - usize::from(comes);
+        if comes {
+            if let Some(counter) = report.counter {
+                let count = &mut self.counts[report.fault as usize];
+                *count = count.saturating_add(1);
+                cx.store.set_unsigned(counter, (*count).into());
+            }
+            cx.signals.raise(Error {
+                code: report.code,
+                register: report.register,
+                info,
+            });
+        } else if others == 0 {
+            cx.signals.clear(report.code, info);
+        }
+    }
+
+    fn shown_rows<'r>(&self, reports: &'r [Report]) -> impl Iterator<Item = &'r Report> {
+        let shown = self.shown;
+        rows(reports).filter_map(move |(row, report)| (shown & row != 0).then_some(report))
+    }
+}
+
+/// The rows of a table, each with its bit.
+fn rows(reports: &[Report]) -> impl Iterator<Item = (u32, &Report)> {
+    (0..u32::BITS).map(|row| 1 << row).zip(reports)
 }
 
 /// Can this device have the fault? 6504h and 6506h say so, where they are.
@@ -108,13 +220,6 @@ fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
     has(0x6504, report.alarm) && has(0x6506, report.warning)
 }
 
-fn change(cx: &mut Context<'_, '_>, address: Address, bits: u16, on: bool) {
-    let old = cx.store.unsigned(address.index, address.sub);
-    let bits = u64::from(bits);
-    let new = if on { old | bits } else { old & !bits };
-    cx.store.set_unsigned(address, new);
-}
-
 const fn bit(fault: Fault) -> u32 {
-    1 << fault as u8
+    1 << fault as u32
 }

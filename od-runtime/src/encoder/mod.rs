@@ -5,19 +5,25 @@
 //! differently stands in an [`EncoderProfile`].
 
 mod application;
+mod configure;
+mod course;
 mod fault;
 mod faults;
+mod movement;
 mod position;
+mod power;
 mod profile;
 mod shaft;
+mod timer;
 
 use od_model::typed::{Ro, Var};
-use od_model::{Address, DataType, Dictionary};
+use od_model::{DataType, Dictionary};
 
-use crate::{Instant, Store};
+use crate::Instant;
 
 pub use fault::{Appears, Fault, Report, Until};
 use faults::Faults;
+use movement::{MOVEMENTS, Rate};
 pub use position::{Scale, Sensor};
 pub use profile::{
     Counter, EncoderProfile, Gear, GearKind, Injection, Mirror, Movement, OperatingTime, Options,
@@ -50,8 +56,12 @@ pub struct Encoder {
     scale: Scale,
     /// 6004h, where it stands in the store.
     position: Option<Var<u32, Ro>>,
-    /// Where the shaft stood when power went.
-    off: Option<Angle>,
+    /// Steps of 6004h per revolution, without a gear that divides the position.
+    rate: Rate,
+    /// Numerator and denominator of the gear that the last start found.
+    gear: Option<(u64, u64)>,
+    /// Where the shaft stood when power went, and when.
+    off: Option<(Angle, Instant)>,
     /// What the shaft turned without power and the revolution counter did not see.
     unseen: Angle,
     /// The last reset; `None` without power.
@@ -60,6 +70,10 @@ pub struct Encoder {
     kept: u64,
     /// Seconds of operation before `started`.
     seconds: u32,
+    /// How often power came.
+    cycles: u32,
+    /// Since when a movement of the profile can be measured.
+    measured_since: [Instant; MOVEMENTS],
     /// 6200h as it was when it last agreed with 1800h:05.
     timer: u64,
     bit_rate: Option<u16>,
@@ -83,12 +97,16 @@ impl Encoder {
             faults: Faults::new(),
             sensor,
             scale: Scale::unscaled(sensor),
+            rate: Rate::new(0, 1),
+            gear: None,
             position: None,
             off: None,
             unseen: Angle::ZERO,
             started: None,
             kept: 0,
             seconds: 0,
+            cycles: 0,
+            measured_since: [Instant::ZERO; MOVEMENTS],
             timer: 0,
             bit_rate: None,
         }
@@ -177,7 +195,7 @@ impl Encoder {
         self.shaft.set_angle(now, self.sensor.angle(raw));
     }
 
-    /// The switches.
+    /// The switches; a family that has none ignores them.
     pub const fn switches(&self) -> Switches {
         self.switches
     }
@@ -202,26 +220,6 @@ impl Encoder {
         self.bit_rate
     }
 
-    /// Power goes. The shaft may turn on; a counter that misses a crossing of its zero
-    /// does not know of it, which shows where the revolutions are no power of two.
-    pub fn power_off(&mut self, now: Instant) {
-        self.seconds = self.seconds_at(now);
-        self.started = None;
-        self.off = Some(self.angle(now));
-    }
-
-    /// Seconds of operation, up to `now`.
-    fn seconds_at(&self, now: Instant) -> u32 {
-        let seconds = self.micros(now) / 1_000_000;
-        self.seconds
-            .saturating_add(u32::try_from(seconds).unwrap_or(u32::MAX))
-    }
-
-    /// Microseconds since the last reset.
-    fn micros(&self, now: Instant) -> u64 {
-        self.started.map_or(0, |started| now.micros_since(started))
-    }
-
     fn sensor_of(&self, number: impl Fn(u16) -> Option<u64>) -> Sensor {
         if let Some(sensor) = self.profile.sensor {
             return sensor;
@@ -238,58 +236,6 @@ impl Encoder {
             turns: u32::try_from(turns.max(1)).unwrap_or(u32::MAX),
         }
     }
-
-    /// The largest range that 6002h can take.
-    fn most(&self) -> u64 {
-        self.sensor.range()
-    }
-
-    /// Power is back: what the revolution counter makes of where the shaft is now.
-    fn wake_up(&mut self, now: Instant) {
-        let Some(off) = self.off.take() else {
-            return;
-        };
-        let on = self.angle(now);
-        let range = i128::from(self.sensor.turns) << 32;
-        let laps = |angle: Angle| i128::from(angle.fractions()).div_euclid(range);
-        // Whole ranges that fit into the angle fit into its difference.
-        let unseen = ((laps(on) - laps(off)) * range) as i64;
-        self.unseen = self.unseen.plus(Angle::from_fractions(unseen));
-    }
-
-    /// The rule of the objects for the position; also 6500h, which shows 6000h.
-    fn configure(&mut self, store: &mut Store<'_>) {
-        self.sensor = self.sensor_of(|index| store.try_unsigned(index, 0));
-        let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
-        let scale = if operating & SCALING != 0 {
-            let steps = store.try_unsigned(0x6001, 0).unwrap_or(0);
-            let steps = if steps == 0 {
-                self.sensor.steps.into()
-            } else {
-                steps
-            };
-            let range = match store.try_unsigned(0x6002, 0) {
-                Some(0) if self.profile.zero_is_full => 1 << 32,
-                Some(0) | None => self.most(),
-                Some(range) => range,
-            };
-            Scale::new(self.sensor, u32::try_from(steps).unwrap_or(u32::MAX), range)
-        } else {
-            Scale::unscaled(self.sensor)
-        };
-        let offset = store.unsigned(0x6509, 0);
-        let offset = if self.profile.signed_offset {
-            // An INTEGER32 comes as its 32 bits or with its sign.
-            i64::from(offset as u32 as i32)
-        } else {
-            i64::from(offset as u32)
-        };
-        self.scale = scale
-            .with_sense(operating & REVERSED != 0)
-            .with_offset(offset);
-        let shown = operating & u64::from(self.profile.operating_bits);
-        store.set_unsigned(Address::new(0x6500, 0), shown);
-    }
 }
 
 /// Default values by index.
@@ -302,10 +248,6 @@ fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
 
 /// What 1000h says of a CiA 406 device in its low half.
 const CIA406: u64 = 406;
-
-/// Bits of 6000h.
-const REVERSED: u64 = 1 << 0;
-const SCALING: u64 = 1 << 2;
 
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,8 @@
 //! From an angle to a position (CiA 406: objects 6000h–6004h, 6500h–6502h, 6509h).
 //!
 //! ```text
-//! angle ──> raw ──> resolution ──> range ──> sense of rotation ──> offset ──> 6004h
-//!           6501h   6001h          6002h     6000h bit 0           6509h
+//! angle ──> raw ──> resolution ──> gear ──> range ──> sense of rotation ──> offset ──> 6004h
+//!           6501h   6001h          2001h    6002h     6000h bit 0           6509h
 //! ```
 
 use super::Angle;
@@ -65,9 +65,19 @@ pub struct Scale {
     /// `wrap` − 1 where `wrap` is a power of two, else 0: a mask is faster than a division.
     mask: u64,
     step: Step,
+    /// Revolutions count; else each begins anew.
+    counts: bool,
+    gear: Option<Ratio>,
     reversed: bool,
     /// 0 to `range` − 1.
     offset: u64,
+}
+
+/// An exact fraction; numerator at most 2⁶⁴, denominator 1 to 2⁶⁴.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Ratio {
+    numerator: i128,
+    denominator: i128,
 }
 
 /// How a step of the sensor becomes one that is shown.
@@ -119,9 +129,43 @@ impl Scale {
             } else {
                 Step::Divide
             },
+            counts: sensor.turns != 1,
+            gear: None,
             reversed: false,
             offset: 0,
         }
+    }
+
+    /// Counts on past the revolutions of the sensor: the range alone says where it begins
+    /// anew, for a singleturn, too.
+    #[must_use]
+    pub const fn counting_on(mut self) -> Self {
+        self.counts = true;
+        self.wrap = self.range;
+        self.mask = if self.wrap.is_power_of_two() {
+            self.wrap - 1
+        } else {
+            0
+        };
+        self
+    }
+
+    /// What was counted is multiplied with `numerator` and divided by `denominator`, exactly
+    /// and rounded down, before it is brought into the range. Counts on
+    /// ([`counting_on`](Self::counting_on)); a denominator of 0 counts as 1.
+    #[must_use]
+    pub const fn with_gear(self, numerator: u64, denominator: u64) -> Self {
+        let mut scale = self.counting_on();
+        scale.mask = 0;
+        scale.gear = Some(Ratio {
+            numerator: numerator as i128,
+            denominator: if denominator == 0 {
+                1
+            } else {
+                denominator as i128
+            },
+        });
+        scale
     }
 
     /// With the sense of rotation: counter-clockwise counts up if `reversed`.
@@ -136,6 +180,11 @@ impl Scale {
     pub const fn with_offset(mut self, offset: i64) -> Self {
         self.offset = offset.rem_euclid(self.range as i64) as u64;
         self
+    }
+
+    /// Does counter-clockwise count up?
+    pub const fn is_reversed(&self) -> bool {
+        self.reversed
     }
 
     /// Positions that are shown: 1 to 2³².
@@ -169,13 +218,16 @@ impl Scale {
             Step::Shift(bits) => (step * self.steps) >> bits,
             Step::Divide => step * self.steps / self.sensor.steps as u64,
         };
-        let total = match self.sensor.turns {
-            1 => step as i64,
+        let total = if self.counts {
             // At most 2³¹ revolutions of less than 2³² steps.
-            _ => turns * self.steps as i64 + step as i64,
+            turns * self.steps as i64 + step as i64
+        } else {
+            step as i64
         };
         let position = if self.mask != 0 {
             total as u64 & self.mask
+        } else if let Some(gear) = self.gear {
+            gear.of(total).rem_euclid(self.range as i128) as u64
         } else {
             total.rem_euclid(self.wrap as i64) as u64
         };
@@ -190,6 +242,15 @@ impl Scale {
     pub const fn offset_for(&self, angle: Angle, position: u32) -> u32 {
         let difference = position as i64 - self.without_offset(angle) as i64;
         difference.rem_euclid(self.range as i64) as u32
+    }
+}
+
+impl Ratio {
+    /// So many times `number`, rounded down.
+    #[inline(never)]
+    const fn of(self, number: i64) -> i128 {
+        // A number is less than 2⁶³, so the product is less than 2¹²⁷.
+        (number as i128 * self.numerator).div_euclid(self.denominator)
     }
 }
 

@@ -1,9 +1,10 @@
 //! The shaft that the encoder sits on: an angle that is a pure function of time.
 
+use super::course::{Course, Ramp};
 use crate::Instant;
 
 /// Thousandths of a revolution per minute, times microseconds, in one revolution.
-const PER_REVOLUTION: u64 = 60_000_000_000;
+pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;
 
 /// An angle in 2⁻³² revolutions, counted on from where the simulation began.
 ///
@@ -54,7 +55,8 @@ impl Angle {
     }
 }
 
-/// A shaft that turns evenly between two changes of its speed.
+/// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
+/// speed.
 ///
 /// It turns whether the encoder has power or not. Positive is clockwise, looking at
 /// the encoder's flange.
@@ -62,7 +64,11 @@ impl Angle {
 pub struct Shaft {
     angle: Angle,
     since: Instant,
+    /// At `since`.
     milli_rpm: i32,
+    /// How `milli_rpm` changes from there; no time where it does not.
+    ramp: Ramp,
+    course: Course,
 }
 
 impl Shaft {
@@ -72,12 +78,17 @@ impl Shaft {
             angle,
             since: Instant::ZERO,
             milli_rpm: 0,
+            ramp: Ramp::NONE,
+            course: Course::AT_REST,
         }
     }
 
-    /// Its angle at a moment; what was before the last change is not known any more.
+    /// Its angle at a moment; where it was before the last change is not known any more.
     #[inline]
     pub fn angle(&self, now: Instant) -> Angle {
+        if self.ramp.micros != 0 {
+            return self.angle_on_ramp(now);
+        }
         if self.milli_rpm == 0 {
             return self.angle;
         }
@@ -89,15 +100,47 @@ impl Shaft {
         }
     }
 
-    /// Speed in thousandths of a revolution per minute, positive clockwise.
+    #[cold]
+    fn angle_on_ramp(&self, now: Instant) -> Angle {
+        let micros = now.micros_since(self.since);
+        let way = self.ramp.way(self.milli_rpm, micros);
+        // Less than 2³² · 2⁶⁴ a way, so 2¹²⁸ is not reached; the angle wraps.
+        let turns = way.div_euclid(PER_REVOLUTION.into());
+        let rest = way.rem_euclid(PER_REVOLUTION.into());
+        let turned = (turns << 32) + (rest << 32) / i128::from(PER_REVOLUTION);
+        Angle(self.angle.0.wrapping_add(turned as i64))
+    }
+
+    /// The speed that it has, or on a ramp will have at its end, in thousandths of a
+    /// revolution per minute, positive clockwise.
     pub const fn milli_rpm(&self) -> i32 {
-        self.milli_rpm
+        self.ramp.to(self.milli_rpm)
     }
 
     /// From `now` on it turns with this speed, in thousandths of a revolution per minute.
     pub fn set_milli_rpm(&mut self, now: Instant, milli_rpm: i32) {
+        self.ramp_to(now, milli_rpm, 0);
+    }
+
+    /// From `now` on its speed changes evenly, and is `milli_rpm` after this many
+    /// microseconds; with 0 it has it at once.
+    pub fn ramp_to(&mut self, now: Instant, milli_rpm: i32, micros: u32) {
+        let from = self.milli_rpm_at(now);
         self.rebase(now);
-        self.milli_rpm = milli_rpm;
+        let ramp = Ramp {
+            micros,
+            by: i64::from(milli_rpm) - i64::from(from),
+        };
+        self.milli_rpm = if micros == 0 { milli_rpm } else { from };
+        self.ramp = if micros == 0 { Ramp::NONE } else { ramp };
+        self.course.add(self.since, self.milli_rpm, self.ramp);
+    }
+
+    /// The speed at a moment since the last change of it, as [`milli_rpm`](Self::milli_rpm)
+    /// gives it, rounded to whole thousandths on a ramp.
+    pub fn milli_rpm_at(&self, now: Instant) -> i32 {
+        let micros = now.micros_since(self.since);
+        self.ramp.speed(self.milli_rpm, micros)
     }
 
     /// Turns it by hand; it goes on with its speed.
@@ -112,8 +155,30 @@ impl Shaft {
         self.angle = angle;
     }
 
+    /// How it turned up to now.
+    pub(super) const fn course(&self) -> &Course {
+        &self.course
+    }
+
+    /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
     fn rebase(&mut self, now: Instant) {
+        let micros = now.micros_since(self.since);
         self.angle = self.angle(now);
+        if self.ramp.micros != 0 {
+            let from = self.ramp.speed(self.milli_rpm, micros);
+            let to = self.ramp.to(self.milli_rpm);
+            let left = u64::from(self.ramp.micros).saturating_sub(micros);
+            self.milli_rpm = from;
+            self.ramp = if left == 0 {
+                Ramp::NONE
+            } else {
+                Ramp {
+                    // What is left is not more than what there was.
+                    micros: left as u32,
+                    by: i64::from(to) - i64::from(from),
+                }
+            };
+        }
         self.since = self.since.max(now);
     }
 }

@@ -6,8 +6,10 @@ use std::vec::Vec;
 use od_model::patch::{self, Edit, Raw, Target};
 use od_model::{Access, DataType, Description, ObjectCode, Tables};
 
+use od_model::Address;
+
 use super::*;
-use crate::{AbortCode, Application, Context, ErrorChange, NodeId, Reset, Signals};
+use crate::{AbortCode, Application, Context, ErrorChange, NodeId, Reset, Signals, Store};
 
 /// A family like that of the bus covers.
 static PROFILE: EncoderProfile = EncoderProfile {

@@ -1,0 +1,274 @@
+//! What the objects for the position mean: they, and the gear, become a [`Scale`].
+
+use od_model::Address;
+
+use super::movement::Rate;
+use super::{Counter, Encoder, Gear, GearKind, RangeRule, Scale, Total};
+use crate::{AbortCode, Store};
+
+pub(super) const OFFSET: Address = Address::new(0x6509, 0);
+
+/// Bits of 6000h.
+const REVERSED: u64 = 1 << 0;
+const SCALING: u64 = 1 << 2;
+
+/// What the objects of a gear say, or would say with a new value in one of them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Factor {
+    is_on: bool,
+    numerator: u64,
+    denominator: u64,
+}
+
+impl Factor {
+    fn load(store: &Store<'_>, gear: Gear, new: Option<(u8, u64)>) -> Self {
+        let number = |sub| match new {
+            Some((changed, value)) if changed == sub => value,
+            _ => store.unsigned(gear.index, sub),
+        };
+        Self {
+            is_on: number(1) == gear.on.into(),
+            numerator: number(2),
+            denominator: number(3),
+        }
+    }
+
+    /// The factor, if it is on and one can divide by it.
+    fn ratio(self) -> Option<(u64, u64)> {
+        let is_ratio = self.is_on && self.numerator > 0 && self.denominator > 0;
+        is_ratio.then_some((self.numerator, self.denominator))
+    }
+}
+
+impl Encoder {
+    /// The gear that acts when it is written, if it is on.
+    fn output_gear(&self, store: &Store<'_>) -> Option<(u64, u64)> {
+        let gear = self
+            .profile
+            .gear
+            .filter(|gear| gear.kind == GearKind::Output)?;
+        Factor::load(store, gear, None).ratio()
+    }
+
+    /// A start: the gear that storage held acts from now on.
+    pub(super) fn engage_gear(&mut self, store: &Store<'_>) {
+        let gear = self
+            .profile
+            .gear
+            .filter(|gear| gear.kind == GearKind::Position);
+        self.gear = gear.and_then(|gear| Factor::load(store, gear, None).ratio());
+    }
+
+    /// Does 6001h show what the gear makes of it?
+    pub(super) fn computes_resolution(&self, store: &Store<'_>) -> bool {
+        self.output_gear(store).is_some()
+    }
+
+    /// Does a write to this index change the gear as it acts now?
+    pub(super) fn is_acting_gear(&self, index: u16) -> bool {
+        let gear = self.profile.gear;
+        gear.is_some_and(|gear| gear.kind == GearKind::Output && gear.index == index)
+    }
+
+    /// The range that a value of 6002h stands for.
+    fn range(&self, value: Option<u64>) -> u64 {
+        match value {
+            Some(0) if self.profile.zero_is_full => 1 << 32,
+            Some(0) | None => self.sensor.range(),
+            Some(range) => range,
+        }
+    }
+
+    /// The rule of the objects for the position; also 6500h, which shows 6000h, and what
+    /// shows quotients of others.
+    pub(super) fn configure(&mut self, store: &mut Store<'_>) {
+        self.sensor = self.sensor_of(|index| store.try_unsigned(index, 0));
+        let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
+        let range = self.range(store.try_unsigned(0x6002, 0));
+        let output = self.output_gear(store);
+        if let Some((numerator, denominator)) = output {
+            let steps = u128::from(range) * u128::from(denominator) / u128::from(numerator);
+            let steps = u64::try_from(steps).unwrap_or(u64::MAX);
+            store.set_unsigned(Address::new(0x6001, 0), steps.min(u32::MAX.into()));
+        }
+        let steps = match store.try_unsigned(0x6001, 0).unwrap_or(0) {
+            0 => self.sensor.steps,
+            steps => u32::try_from(steps).unwrap_or(u32::MAX),
+        };
+        if self.profile.total == Total::Shown {
+            let turns = range / u64::from(steps.max(1));
+            store.set_unsigned(Address::new(0x6502, 0), turns);
+        }
+        let scale = if operating & SCALING == 0 {
+            self.unscaled()
+        } else if let Some((numerator, denominator)) = output {
+            // A 6002h of 32 bits times a factor of 32 bits; a sensor's steps are less.
+            self.rate = Rate::new(range.saturating_mul(denominator), numerator);
+            Scale::new(self.sensor, self.sensor.steps, range).with_gear(
+                range.saturating_mul(denominator),
+                u64::from(self.sensor.steps).saturating_mul(numerator),
+            )
+        } else {
+            self.rate = Rate::new(steps.into(), 1);
+            Scale::new(self.sensor, steps, range)
+        };
+        let scale = match (self.gear, self.profile.counter) {
+            (Some((numerator, denominator)), _) => scale.with_gear(denominator, numerator),
+            (None, Counter::Sensor) => scale,
+            (None, Counter::Kept { .. } | Counter::Volatile) if output.is_none() => {
+                scale.counting_on()
+            }
+            _ => scale,
+        };
+        self.scale = scale
+            .with_sense(operating & REVERSED != 0)
+            .with_offset(self.offset(store) + self.injected_offset(store));
+        let shown = operating & u64::from(self.profile.operating_bits);
+        store.set_unsigned(Address::new(0x6500, 0), shown);
+    }
+
+    /// The scale with scaling off.
+    fn unscaled(&mut self) -> Scale {
+        let steps = self.profile.unscaled_steps.unwrap_or(self.sensor.steps);
+        self.rate = Rate::new(steps.into(), 1);
+        let range = u64::from(steps) * u64::from(self.sensor.turns);
+        Scale::new(self.sensor, steps, range.min(1 << 32))
+    }
+
+    /// 6509h.
+    fn offset(&self, store: &Store<'_>) -> i64 {
+        let offset = store.unsigned(OFFSET.index, OFFSET.sub) as u32;
+        if self.profile.signed_offset {
+            // An INTEGER32 comes as its 32 bits or with its sign.
+            i64::from(offset as i32)
+        } else {
+            i64::from(offset)
+        }
+    }
+
+    /// What a test adds to the position.
+    fn injected_offset(&self, store: &Store<'_>) -> i64 {
+        let at = self.profile.injection.map(|injection| injection.offset);
+        at.map_or(0, |at| i64::from(store.unsigned(at.index, at.sub) as u32))
+    }
+
+    /// Sets 6509h and whoever shows it.
+    pub(super) fn set_offset(&self, store: &mut Store<'_>, offset: i64) {
+        store.set_unsigned(OFFSET, offset as u64);
+        self.show_link(store, OFFSET);
+    }
+
+    /// The offset with which the position at this moment is `preset`.
+    pub(super) fn offset_for(&self, now: crate::Instant, preset: u32) -> i64 {
+        let angle = self.angle(now);
+        if !self.profile.signed_offset {
+            return self.scale.offset_for(angle, preset).into();
+        }
+        // The difference as it is, unless an INTEGER32 cannot hold it.
+        let range = self.scale.range() as i64;
+        match i64::from(preset) - self.scale.without_offset(angle) as i64 {
+            above if above > i64::from(i32::MAX) => above - range,
+            below if below < i64::from(i32::MIN) => below + range,
+            offset => offset,
+        }
+    }
+
+    /// May 6002h have this value?
+    pub(super) fn check_range(&self, store: &Store<'_>, value: u64) -> Result<(), AbortCode> {
+        if let Some((numerator, denominator)) = self.output_gear(store) {
+            return self.check_output(value, numerator, denominator);
+        }
+        let steps = store.unsigned(0x6001, 0).max(1);
+        match self.profile.range_rule {
+            RangeRule::Sensor if value == 0 && self.profile.zero_is_full => Ok(()),
+            RangeRule::Sensor => self.between(value, 1, self.sensor.range()),
+            RangeRule::PowerOfTwo if value == 0 && self.profile.zero_is_full => Ok(()),
+            RangeRule::PowerOfTwo => {
+                if value.is_multiple_of(steps) && (value / steps).is_power_of_two() {
+                    Ok(())
+                } else {
+                    Err(AbortCode::ValueRange)
+                }
+            }
+            RangeRule::Turns => {
+                self.between(value, 1, steps.saturating_mul(self.sensor.turns.into()))
+            }
+        }
+    }
+
+    /// May an object of the gear have this value? A gear that divides nothing cannot be
+    /// switched on, nor one whose 6001h the sensor does not have.
+    pub(super) fn check_gear(
+        &self,
+        store: &Store<'_>,
+        sub: u8,
+        value: u64,
+    ) -> Result<(), AbortCode> {
+        let Some(gear) = self.profile.gear else {
+            return Ok(());
+        };
+        if matches!(sub, 2 | 3) {
+            self.between(value, 1, u32::MAX.into())?;
+        }
+        let factor = Factor::load(store, gear, Some((sub, value)));
+        match (gear.kind, factor.ratio()) {
+            (GearKind::Output, Some((numerator, denominator))) => {
+                let range = self.range(store.try_unsigned(0x6002, 0));
+                self.check_output(range, numerator, denominator)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// 6001h as an output gear makes it is one that the sensor has.
+    fn check_output(&self, range: u64, numerator: u64, denominator: u64) -> Result<(), AbortCode> {
+        let steps = u128::from(range) * u128::from(denominator);
+        if range > 0 && steps <= u128::from(self.sensor.steps) * u128::from(numerator) {
+            Ok(())
+        } else {
+            Err(AbortCode::Incompatible)
+        }
+    }
+
+    pub(super) fn between(&self, number: u64, low: u64, high: u64) -> Result<(), AbortCode> {
+        if number > high {
+            Err(AbortCode::ValueTooHigh)
+        } else if number < low {
+            Err(self.profile.below_limit)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The first of two linked objects that an address is one of; else the address.
+    pub(super) fn link(&self, address: Address) -> Address {
+        let mut links = self.profile.links.iter();
+        let link = links.find(|(_, other)| *other == address);
+        link.map_or(address, |(first, _)| *first)
+    }
+
+    /// The second of two linked objects shows the first.
+    pub(super) fn show_link(&self, store: &mut Store<'_>, first: Address) {
+        for (from, to) in self.profile.links {
+            if *from == first {
+                let value = store.unsigned(from.index, from.sub);
+                store.set_unsigned(*to, value);
+            }
+        }
+    }
+
+    /// A start: the one of two linked objects that storage held rules.
+    pub(super) fn agree_on_links(&self, store: &mut Store<'_>) {
+        let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
+            Ok(entry) => !store.is_default(entry),
+            Err(_) => false,
+        };
+        for (first, second) in self.profile.links {
+            if is_stored(store, *second) && !is_stored(store, *first) {
+                let value = store.unsigned(second.index, second.sub);
+                store.set_unsigned(*first, value);
+            }
+            self.show_link(store, *first);
+        }
+    }
+}

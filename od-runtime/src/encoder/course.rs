@@ -1,0 +1,171 @@
+//! How a shaft turned: its speed over the time that a speed or an acceleration looks back.
+//!
+//! A way is in thousandths of a revolution per minute, times microseconds; 60·10⁹ of them are
+//! a revolution ([`PER_REVOLUTION`](super::shaft::PER_REVOLUTION)). Whoever turns the shaft by
+//! hand moves it in no time, which is no speed.
+
+use crate::Instant;
+
+/// How many changes of speed are remembered. Who changes it every 10 ms is followed for 640 ms.
+const PIECES: usize = 64;
+
+/// What a speed is multiplied with, so that fractions of it are not lost.
+pub(super) const FINE: i128 = 1 << 20;
+
+/// A speed that changes evenly.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Ramp {
+    /// For this long; 0: it does not change.
+    pub(super) micros: u32,
+    /// By this much in the end.
+    pub(super) by: i64,
+}
+
+impl Ramp {
+    /// A speed that does not change.
+    pub(super) const NONE: Self = Self { micros: 0, by: 0 };
+
+    /// The speed at its end, from `from` on.
+    pub(super) const fn to(self, from: i32) -> i32 {
+        // The sum is the speed that somebody gave.
+        (from as i64 + self.by) as i32
+    }
+
+    /// The speed after `micros`, rounded to whole thousandths.
+    pub(super) fn speed(self, from: i32, micros: u64) -> i32 {
+        let fine = self.fine_speed(from, micros);
+        (fine + FINE / 2).div_euclid(FINE) as i32
+    }
+
+    /// The speed after `micros` times [`FINE`], rounded.
+    fn fine_speed(self, from: i32, micros: u64) -> i128 {
+        if micros >= u64::from(self.micros) {
+            return i128::from(self.to(from)) * FINE;
+        }
+        let changed = i128::from(self.by) * FINE * i128::from(micros);
+        i128::from(from) * FINE + rounded(changed, self.micros.into())
+    }
+
+    /// The way of the first `micros`, rounded.
+    pub(super) fn way(self, from: i32, micros: u64) -> i128 {
+        let all = i128::from(self.micros);
+        let ramped = i128::from(micros.min(self.micros.into()));
+        let rest = i128::from(micros.saturating_sub(self.micros.into()));
+        let even = i128::from(from) * ramped + i128::from(self.to(from)) * rest;
+        if all == 0 {
+            return even;
+        }
+        even + rounded(i128::from(self.by) * ramped * ramped, 2 * all)
+    }
+}
+
+/// A division by a positive number, to the nearest.
+const fn rounded(number: i128, by: i128) -> i128 {
+    (number + by / 2).div_euclid(by)
+}
+
+/// A time in which the speed is even, or changes evenly and then stays.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Piece {
+    since: Instant,
+    milli_rpm: i32,
+    ramp: Ramp,
+}
+
+/// The last changes of speed, oldest first in a ring.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Course {
+    pieces: [Piece; PIECES],
+    /// Where the newest stands.
+    newest: u8,
+    /// How many there are, 1 or more.
+    len: u8,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self::AT_REST
+    }
+}
+
+impl Course {
+    /// A shaft that always stood.
+    pub(super) const AT_REST: Self = Self {
+        pieces: [Piece {
+            since: Instant::ZERO,
+            milli_rpm: 0,
+            ramp: Ramp::NONE,
+        }; PIECES],
+        newest: 0,
+        len: 1,
+    };
+
+    /// From `since` on it is so. What was said of the same moment before does not count.
+    pub(super) fn add(&mut self, since: Instant, milli_rpm: i32, ramp: Ramp) {
+        let newest = &self.pieces[usize::from(self.newest) % PIECES];
+        if newest.since < since {
+            let same = newest.ramp == Ramp::NONE && newest.milli_rpm == milli_rpm;
+            if same && ramp == Ramp::NONE {
+                return;
+            }
+            self.newest = (self.newest + 1) % PIECES as u8;
+            self.len = (self.len + 1).min(PIECES as u8);
+        }
+        self.pieces[usize::from(self.newest) % PIECES] = Piece {
+            since,
+            milli_rpm,
+            ramp,
+        };
+    }
+
+    /// Newest first.
+    fn pieces(&self) -> impl Iterator<Item = &Piece> {
+        let at = |back: u8| (usize::from(self.newest) + PIECES - usize::from(back)) % PIECES;
+        (0..self.len).map(move |back| &self.pieces[at(back)])
+    }
+
+    /// The way from one moment to another. Before the first piece that is remembered the
+    /// shaft turned as at its beginning.
+    pub(super) fn way(&self, from: Instant, to: Instant) -> i128 {
+        let (mut way, mut until) = (0, to);
+        for (back, piece) in (1..).zip(self.pieces()) {
+            if until <= from {
+                break;
+            }
+            let is_oldest = back == self.len;
+            let start = if is_oldest {
+                from
+            } else {
+                piece.since.max(from)
+            };
+            if start < until {
+                way += piece.way(start, until);
+                until = start;
+            }
+        }
+        way
+    }
+
+    /// The speed at a moment, times [`FINE`]; with a change at that moment, the new one.
+    pub(super) fn fine_speed(&self, at: Instant) -> i128 {
+        let piece = self.pieces().find(|piece| piece.since <= at);
+        match piece {
+            Some(piece) => piece
+                .ramp
+                .fine_speed(piece.milli_rpm, at.micros_since(piece.since)),
+            None => {
+                let oldest = self.pieces().last();
+                oldest.map_or(0, |piece| i128::from(piece.milli_rpm) * FINE)
+            }
+        }
+    }
+}
+
+impl Piece {
+    /// The way from `from` to `to`; what lies before the piece counts with its first speed.
+    fn way(&self, from: Instant, to: Instant) -> i128 {
+        let before = i128::from(self.since.min(to).micros_since(from.min(self.since)));
+        let until = |at: Instant| self.ramp.way(self.milli_rpm, at.micros_since(self.since));
+        i128::from(self.milli_rpm) * before + until(to) - until(from)
+    }
+}

@@ -1,0 +1,68 @@
+//! 6200h and 1800h:05, two objects for one timer.
+
+use od_model::Address;
+
+use super::Encoder;
+use crate::{Context, Store};
+
+pub(super) const TIMER: Address = Address::new(0x6200, 0);
+pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);
+
+impl Encoder {
+    /// What 1800h:05 is later than 6200h, in milliseconds.
+    fn delay(&self, store: &Store<'_>) -> u64 {
+        match &self.profile.options {
+            Some(options) if self.has_option(store, |options| options.delay_timer) => {
+                options.delay_ms.into()
+            }
+            _ => 0,
+        }
+    }
+
+    /// 6200h rules: 1800h:05 follows. 0 is off in both.
+    pub(super) fn timer_to_event_timer(&mut self, cx: &mut Context<'_, '_>) {
+        let Some(timer) = cx.store.try_unsigned(TIMER.index, TIMER.sub) else {
+            return;
+        };
+        self.timer = timer;
+        let event_timer = match timer {
+            0 => 0,
+            timer => (timer + self.delay(cx.store)).min(u16::MAX.into()),
+        };
+        let old = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub);
+        if old.is_some_and(|old| old != event_timer) {
+            cx.store.set_unsigned(EVENT_TIMER, event_timer);
+            cx.signals.reconfigure();
+        }
+    }
+
+    /// 1800h:05 rules: 6200h follows.
+    pub(super) fn event_timer_to_timer(&mut self, cx: &mut Context<'_, '_>) {
+        if let Some(event_timer) = cx.store.try_unsigned(EVENT_TIMER.index, EVENT_TIMER.sub) {
+            self.timer = event_timer.saturating_sub(self.delay(cx.store));
+            cx.store.set_unsigned(TIMER, self.timer);
+        }
+    }
+
+    /// After a reset the two timers may say different things. What changed rules: at a
+    /// start, what storage held; else, what the reset took back.
+    pub(super) fn agree_on_timer(&mut self, cx: &mut Context<'_, '_>, starts: bool) {
+        if cx.store.dictionary().find(TIMER).is_err() {
+            return;
+        }
+        let changed = |at: Address, was: u64| match cx.store.dictionary().find(at) {
+            Ok(entry) if starts => !cx.store.is_default(entry),
+            Ok(entry) => cx.store.number(entry) != was,
+            Err(_) => false,
+        };
+        let was = match self.timer {
+            0 => 0,
+            timer => timer + self.delay(cx.store),
+        };
+        if changed(EVENT_TIMER, was) && !(starts && changed(TIMER, self.timer)) {
+            self.event_timer_to_timer(cx);
+        } else {
+            self.timer_to_event_timer(cx);
+        }
+    }
+}
