@@ -1,50 +1,66 @@
-//! `odkit sim`: a live node that masters reach over slcan on TCP.
+//! `odkit sim`: live nodes that masters reach over slcan, SocketCAN or socketcand.
 
+mod adapter;
 mod clients;
-pub(crate) mod slcan;
+mod fleet;
+mod greeting;
+mod link;
+mod live;
 
-use std::collections::BTreeMap;
-use std::io::ErrorKind;
-use std::net::{SocketAddr, TcpListener, ToSocketAddrs};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
-use std::time::{Duration, Instant as Clock};
+use std::time::Duration;
 
-use od_devices::sim::{Bus, VirtualDevice, values};
-use od_runtime::storage::File;
-use od_runtime::{Event, Frame, Instant, NodeId};
+use od_devices::sim::values;
+use od_runtime::NodeId;
 
-use crate::output::{Output, note};
-use crate::source::{self, Source};
-use crate::{Failure, report};
-use clients::{Client, Input};
-use slcan::Channel;
+use crate::{Failure, source};
+use clients::Input;
+use link::{Ends, Link, Opened};
+use live::Live;
 
-/// Run a live node; masters connect over slcan on TCP
+/// Run live nodes; masters connect over slcan, SocketCAN or socketcand
 ///
-/// Several clients share the bus: frames of one reach the others and the node. Ctrl-C ends it.
+/// Several devices and several masters share the bus: frames of one reach all others, whatever
+/// link they come by. Time is real. Ctrl-C ends it.
+///
+/// Links: slcan:HOST:PORT (TCP), slcan:pty (a pseudo-terminal, whose path is printed),
+/// slcan:/dev/ttyUSB0[@BAUD] (serial), socketcand:HOST:PORT, socketcan:vcan0 (Linux), and -
+/// (standard input and output: frames and lines like `power cycle 2s`, as scripts have them,
+/// go in; a candump log comes out).
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Built-in device, or EDS or DCF file
-    #[arg(value_name = "DEVICE|FILE")]
-    device: String,
-    /// Node ID that the device starts with, 1 to 127
-    #[arg(long, value_name = "N", value_parser = source::node_id)]
-    node_id: Option<NodeId>,
-    /// Where to listen; port 0 takes any free one
-    #[arg(long, value_name = "HOST:PORT", default_value = "127.0.0.1:29536")]
-    slcan: String,
-    /// File that keeps what 1010h saves; in memory where none is given
-    #[arg(long, value_name = "FILE")]
-    eeprom: Option<PathBuf>,
+    /// Built-in devices, or EDS or DCF files
+    #[arg(value_name = "DEVICE|FILE", required_unless_present = "more")]
+    devices: Vec<String>,
+    /// One more device on the bus; may be given again
+    #[arg(long = "device", value_name = "DEVICE|FILE")]
+    more: Vec<String>,
+    /// Node ID that a device starts with, 1 to 127; given again it is for the next device.
+    /// A device without one takes 1, or the next that is free
+    #[arg(long = "node-id", value_name = "N", value_parser = source::node_id)]
+    node_ids: Vec<NodeId>,
+    /// How masters reach the bus; may be given again [default: slcan:127.0.0.1:29536]
+    #[arg(long = "link", value_name = "LINK", value_parser = Link::parse)]
+    links: Vec<Link>,
+    /// The same as --link slcan:HOST:PORT; port 0 takes any free one
+    #[arg(long, value_name = "HOST:PORT")]
+    slcan: Option<String>,
+    /// File that keeps what 1010h saves; in memory where none is given. Given again it is for
+    /// the next device
+    #[arg(long = "eeprom", value_name = "FILE")]
+    eeproms: Vec<PathBuf>,
     /// Raw position of the shaft at the start, in steps (497042 or 0x79592)
     #[arg(long, value_name = "STEPS", value_parser = position)]
     position: Option<u64>,
     /// How fast the shaft turns, revolutions a minute; negative: the other way
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     rpm: Option<f64>,
+    /// Let the shafts start anywhere; the same number is the same place
+    #[arg(long, value_name = "NUMBER", conflicts_with = "position")]
+    seed: Option<u64>,
     /// Bit rate to show in the connection lines; this bus has none
     #[arg(long, value_name = "BIT/S", default_value_t = 500_000)]
     bitrate: u32,
@@ -57,21 +73,12 @@ fn position(text: &str) -> Result<u64, String> {
 
 /// Inputs that may wait for the bus; more make their senders wait.
 const INPUTS: usize = 1024;
-/// Bytes of clients that the bus takes in one turn, before its answers go out.
-const TURN: usize = 16 * 1024;
-/// An input counts as so many bytes at least.
-const INPUT: usize = 64;
+/// Links that are clients themselves have the numbers below this one.
+const LINKS: usize = 64;
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut device = Source::find(&args.device)?.device(args.node_id)?;
-    if let Some(path) = &args.eeprom {
-        let file = File::open(path, device.storage_needed());
-        let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
-        device = device.with_storage(Box::new(file));
-    }
-    set_shaft(args, &mut device)?;
-    let listener = listen(&args.slcan)?;
-    let address = listener.local_addr()?;
+    let devices = fleet::make(args)?;
+    let opened = open(args)?;
     let (inputs, waiting) = sync_channel(INPUTS);
     let (wake, stop) = (inputs.clone(), Arc::new(AtomicBool::new(false)));
     let stopped = Arc::clone(&stop);
@@ -82,301 +89,66 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let _ = wake.try_send(Input::Stop);
     })
     .map_err(|error| Failure::Failed(format!("Ctrl-C cannot be watched: {error}")))?;
-    let mut live = Live::new(device);
-    live.greet(args, address)?;
-    clients::accept(listener, inputs);
+    let ends = opened.iter().filter(|link| matches!(link, Opened::Ends(_)));
+    let ends = ends.count();
+    let mut live = Live::new(devices, ends, ends < opened.len());
+    greeting::print(args, &live.bus, &opened)?;
+    let clients = Arc::new(AtomicUsize::new(LINKS));
+    let mut outputs = Vec::new();
+    for (number, link) in (0..).zip(opened) {
+        match link {
+            Opened::Listener(kind, listener, _) => {
+                clients::accept(listener, kind, Arc::clone(&clients), inputs.clone());
+            }
+            Opened::Ends(ends) => outputs.push(join(number, ends, &inputs)?),
+        }
+    }
+    drop(inputs);
     live.run(&waiting, &stopped);
+    for output in outputs {
+        finish(&output, &stopped);
+    }
     Ok(())
 }
 
-fn set_shaft(args: &Args, device: &mut VirtualDevice) -> Result<(), Failure> {
-    let now = Instant::ZERO;
-    let placed = args
-        .position
-        .is_none_or(|raw| device.set_position(raw, now));
-    let turns = args
-        .rpm
-        .is_none_or(|rpm| rpm.is_finite() && device.set_rpm(rpm, now));
-    if placed && turns {
-        return Ok(());
+fn open(args: &Args) -> Result<Vec<Opened>, Failure> {
+    let mut links = args.links.clone();
+    if let Some(place) = &args.slcan {
+        links.insert(0, Link::Tcp(adapter::Kind::Slcan, place.clone()));
     }
-    Err(Failure::Usage(format!(
-        "{} has no shaft that could stand or turn so; leave --position and --rpm away",
-        args.device
-    )))
+    if links.is_empty() {
+        links.push(Link::Tcp(adapter::Kind::Slcan, "127.0.0.1:29536".into()));
+    }
+    let consoles = links.iter().filter(|link| **link == Link::Console).count();
+    if consoles > 1 || links.len() > LINKS {
+        let why = "there is one standard input, and room for 64 links";
+        return Err(Failure::Usage(why.into()));
+    }
+    links.iter().map(Link::open).collect()
 }
 
-fn listen(wanted: &str) -> Result<TcpListener, Failure> {
-    let full = match wanted.parse::<u16>() {
-        Ok(port) => format!("127.0.0.1:{port}"),
-        Err(_) => wanted.to_owned(),
-    };
-    let addresses: Vec<SocketAddr> = match full.to_socket_addrs() {
-        Ok(addresses) => addresses.collect(),
-        Err(_) => {
-            return Err(Failure::Usage(format!(
-                "`{wanted}` is no address to listen on; write --slcan 127.0.0.1:29536"
-            )));
-        }
-    };
-    TcpListener::bind(addresses.as_slice()).map_err(|error| {
-        Failure::Failed(match error.kind() {
-            ErrorKind::AddrInUse => format!(
-                "{full} is in use, perhaps by another odkit; end that one, or take any free \
-                 port with --slcan 127.0.0.1:0"
-            ),
-            _ => format!("{full}: {error}; choose another address with --slcan"),
-        })
-    })
+/// A link that is a client itself.
+fn join(
+    number: u64,
+    ends: Ends,
+    inputs: &std::sync::mpsc::SyncSender<Input>,
+) -> Result<Receiver<()>, Failure> {
+    let gone = inputs.clone();
+    // Nothing else wakes up a reader of standard input when standard output closes.
+    let close = move || drop(gone.send(Input::Gone(number)));
+    let (reading, writing) = (ends.reading, ends.writing);
+    let done = clients::join(
+        number, ends.name, ends.kind, reading, writing, close, inputs,
+    )?;
+    Ok(done)
 }
 
-/// A client with its adapter.
-struct Seat {
-    client: Client,
-    channel: Channel,
-}
-
-/// The bus in real time.
-struct Live {
-    bus: Bus,
-    start: Clock,
-    seats: BTreeMap<u64, Seat>,
-    frames: u64,
-}
-
-impl Live {
-    fn new(device: VirtualDevice) -> Self {
-        let mut bus = Bus::new();
-        let number = bus.add(device);
-        bus.with(number, VirtualDevice::power_on);
-        // Nobody listens yet; a master that comes later asks for the state.
-        while bus.poll().is_some() {}
-        for event in bus.with(number, events).unwrap_or_default() {
-            if event == Event::StorageDamaged {
-                report_event(event);
-            }
-        }
-        Self {
-            bus,
-            start: Clock::now(),
-            seats: BTreeMap::new(),
-            frames: 0,
-        }
-    }
-
-    fn now(&self) -> Instant {
-        Instant::ZERO + self.start.elapsed()
-    }
-
-    fn run(&mut self, waiting: &Receiver<Input>, stopped: &AtomicBool) {
-        loop {
-            self.catch_up();
-            self.flush();
-            let first = match self.bus.next_deadline() {
-                Some(at) => waiting.recv_timeout(at - self.now()),
-                None => waiting.recv_timeout(Duration::from_secs(3600)),
-            };
-            let first = match first {
-                Ok(input) => Some(input),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => break,
-            };
-            // What waits already belongs to this turn, as far as it has room.
-            let mut room = TURN;
-            for input in first.into_iter().chain(waiting.try_iter()) {
-                if stopped.load(Ordering::Relaxed) {
-                    break;
-                }
-                let size = match &input {
-                    Input::Bytes(_, bytes) => bytes.len().max(INPUT),
-                    _ => INPUT,
-                };
-                self.take(input);
-                room = room.saturating_sub(size);
-                if room == 0 {
-                    break;
-                }
-            }
-            if stopped.load(Ordering::Relaxed) {
-                break;
-            }
-        }
-        self.bus.with(0, VirtualDevice::power_off);
-        note!(
-            "\nodkit: ended; {} went over the bus",
-            report::plural(self.frames as usize, "frame")
-        );
-    }
-
-    /// The bus catches up with the clock, and what devices send goes out.
-    fn catch_up(&mut self) {
-        let now = self.now();
-        self.bus.advance(now);
-        self.deliver();
-    }
-
-    fn deliver(&mut self) {
-        while let Some(sent) = self.bus.poll() {
-            self.frames += 1;
-            self.pass_on(&sent.frame, None);
-        }
-        for event in self.bus.with(0, events).unwrap_or_default() {
-            report_event(event);
-        }
-    }
-
-    /// What the turn has brought goes out, each client's share as one message.
-    fn flush(&mut self) {
-        for seat in self.seats.values_mut() {
-            seat.client.flush();
-        }
-    }
-
-    /// A frame for every client but the one it is from.
-    fn pass_on(&mut self, frame: &Frame, from: Option<u64>) {
-        let millis = self.bus.now().as_micros() / 1000;
-        // Without and with a time stamp; clients of a kind get the same line.
-        let mut lines = [Vec::new(), Vec::new()];
-        for (number, seat) in &mut self.seats {
-            if Some(*number) != from && seat.channel.is_open() {
-                let line = &mut lines[usize::from(seat.channel.stamps())];
-                if line.is_empty() {
-                    seat.channel.encode(frame, millis, line);
-                }
-                seat.client.push(line);
-            }
-        }
-    }
-
-    fn take(&mut self, input: Input) {
-        match input {
-            Input::Connected(client) => {
-                note!("{} connected", client.address);
-                self.seats.insert(
-                    client.number,
-                    Seat {
-                        client,
-                        channel: Channel::default(),
-                    },
-                );
-            }
-            Input::Gone(number) => {
-                if let Some(mut seat) = self.seats.remove(&number) {
-                    // It may have ended its own side only, and read on.
-                    seat.client.flush();
-                    note!("{} left", seat.client.address);
-                }
-            }
-            Input::Bytes(number, bytes) => self.bytes(number, &bytes),
-            Input::Stop => {}
-        }
-    }
-
-    fn bytes(&mut self, number: u64, bytes: &[u8]) {
-        let Some(seat) = self.seats.get_mut(&number) else {
+/// Waits until all that was said is written, or Ctrl-C.
+fn finish(output: &Receiver<()>, stopped: &AtomicBool) {
+    let patience = Duration::from_millis(100);
+    while let Err(RecvTimeoutError::Timeout) = output.recv_timeout(patience) {
+        if stopped.load(Ordering::Relaxed) {
             return;
-        };
-        // A frame's own acknowledgement goes out before what it brings about.
-        let mut steps = Vec::new();
-        let mut reply = Vec::new();
-        seat.channel.receive(bytes, &mut reply, |frame, reply| {
-            steps.push((std::mem::take(reply), frame));
-        });
-        for (reply, frame) in steps {
-            self.reply(number, &reply);
-            self.frames += 1;
-            self.catch_up();
-            self.bus.receive(&frame);
-            self.pass_on(&frame, Some(number));
-            self.deliver();
         }
-        self.reply(number, &reply);
-    }
-
-    fn reply(&mut self, number: u64, reply: &[u8]) {
-        if let Some(seat) = self.seats.get_mut(&number) {
-            seat.client.push(reply);
-        }
-    }
-
-    fn greet(&self, args: &Args, address: SocketAddr) -> Result<(), Failure> {
-        let Some(device) = self.bus.devices().first() else {
-            return Ok(());
-        };
-        let (title, node) = (device.title(), device.node_id());
-        if let Some(wanted) = args.node_id.filter(|wanted| *wanted != node) {
-            note!("the EEPROM says node {node}; --node-id {wanted} is for an empty one");
-        }
-        let bitrate = args.bitrate;
-        let speed = match bitrate {
-            10_000 => 0,
-            20_000 => 1,
-            50_000 => 2,
-            100_000 => 3,
-            125_000 => 4,
-            250_000 => 5,
-            800_000 => 7,
-            1_000_000 => 8,
-            _ => 6,
-        };
-        let mut output = Output::new();
-        let (description, read) = match od_devices::find(&args.device) {
-            Some(_) => (
-                "canopen.ObjectDictionary()".to_owned(),
-                "sdo.upload(0x1000, 0).hex()",
-            ),
-            None => (format!("{:?}", args.device), "sdo[0x1000].raw"),
-        };
-        let eeprom = match &args.eeprom {
-            Some(path) => path.display().to_string(),
-            None => "in memory; --eeprom FILE keeps it".to_owned(),
-        };
-        let request = 0x600 + u16::from(node.raw());
-        let text = format!(
-            "{title}, node {node}; slcan on {address}
-EEPROM {eeprom}
-
-python-canopen (pip install canopen pyserial)
-  import canopen
-  network = canopen.Network()
-  network.connect(interface='slcan', channel='socket://{address}',
-                  bitrate={bitrate}, sleep_after_open=0)
-  node = network.add_node({node}, {description})
-  print(node.{read})
-
-candump, as root on Linux
-  socat pty,raw,echo=0,link=/dev/ttyodkit tcp:{address} &
-  slcand -o -c -s{speed} ttyodkit can0
-  ip link set can0 up
-  candump can0 &
-  cansend can0 {request:03X}#4000100000000000
-
-Ctrl-C ends it."
-        );
-        output.line(&text)?;
-        output.flush().map(|_| ())
-    }
-}
-
-fn events(device: &mut VirtualDevice, _: Instant) -> Vec<Event> {
-    std::iter::from_fn(|| device.poll_event()).collect()
-}
-
-/// What the person at the terminal may want to know.
-fn report_event(event: Event) {
-    match event {
-        Event::State(state) => note!("state: {state}"),
-        Event::Reset(_, node) => note!("reset, node {node}"),
-        Event::Saved(_) => note!("parameters saved"),
-        Event::Restored(_) => note!("defaults restored"),
-        Event::StorageDamaged => {
-            note!("the EEPROM is damaged or of another version; defaults were taken");
-        }
-        Event::BusOff { .. } => note!("bus-off"),
-        Event::BusOn => note!("back from bus-off"),
-        Event::Error(error) => note!("error {:04X}h", error.code),
-        Event::ErrorCleared(code) => note!("error {code:04X}h is over"),
-        Event::BitRate(code) => note!("LSS set bit rate {code}; this bus has none"),
-        Event::Written(_) => {}
     }
 }

@@ -106,6 +106,145 @@ fn every_eds_file_is_a_device() {
 }
 
 #[test]
+fn several_devices_share_the_bus() {
+    let sim = Sim::start(&["gxmm", "gcam", "--device", "gxam", "--node-id", "5"]);
+    for line in [
+        "3 devices",
+        "node 5 ",
+        "node 6 ",
+        "node 7 ",
+        "cansend can0 605#40",
+    ] {
+        assert!(sim.greeting.contains(line), "{line}\n{}", sim.greeting);
+    }
+    let mut client = sim.client();
+    say(&mut client, "O\rt0002010", "\r");
+    say(
+        &mut client,
+        "5\rt60584000100000000000\rt60684000100000000000\rt60784000100000000000\r",
+        "z\rz\rt58584300100096010200\rz\rt58684300100096010100\rz\rt58784300100096010100\r",
+    );
+}
+
+/// Runs `odkit sim … --link -` on these lines.
+fn console(args: &[&str], lines: &str) -> support::Done {
+    odkit(&[&["sim"], args, &["--link", "-"]].concat(), lines)
+}
+
+#[test]
+fn standard_input_takes_frames_and_the_world_outside() {
+    let lines = "601#4000100000000000\nnmt stop\npower cycle 20ms\n# a remark\nuse 2\n\
+                 602#4000100000000000\nexpect 701#00\nhello\nnmt reset 2";
+    let sim = console(&["gxmm", "gxmm"], lines);
+    assert_eq!(sim.code, 0, "{}", sim.err);
+    let frames: Vec<&str> = sim
+        .out
+        .lines()
+        .filter_map(|line| line.split(' ').nth(2))
+        .collect();
+    assert_eq!(
+        frames,
+        [
+            "581#4300100096010200",
+            "701#00",
+            "582#4300100096010200",
+            "702#00"
+        ],
+        "{}",
+        sim.out
+    );
+    assert!(sim.out.starts_with("(0.0"), "{}", sim.out);
+    for said in [
+        "line 7:1: only a script can do that",
+        "line 8:1: `hello` begins no statement",
+    ] {
+        assert!(sim.err.contains(said), "{said}: {}", sim.err);
+    }
+    assert!(
+        sim.err.contains("2 devices; standard input and output"),
+        "{}",
+        sim.err
+    );
+}
+
+#[test]
+fn shafts_start_where_the_seed_says() {
+    let position = |seed: &str| {
+        let sim = console(&["gxmm", "--seed", seed], "601#4004600000000000\n");
+        sim.out.split(' ').nth(2).unwrap_or_default().to_owned()
+    };
+    assert!(
+        position("1").starts_with("581#43046000"),
+        "{}",
+        position("1")
+    );
+    assert_eq!(position("1"), position("1"));
+    assert_ne!(position("1"), position("2"));
+}
+
+#[test]
+fn socketcand_speaks_to_clients_that_compare_what_they_read() {
+    let mut sim = Sim::start(&["gxmm", "--link", "socketcand:127.0.0.1:0"]);
+    let after = sim
+        .greeting
+        .split("socketcand on 127.0.0.1:")
+        .nth(1)
+        .expect("an address");
+    let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
+    let slcan = sim.port;
+    sim.port = digits.parse().expect("a port");
+    let mut client = sim.client();
+    say(&mut client, "", "< hi >");
+    say(&mut client, "< open can0 >", "< ok >");
+    // What follows the answer comes in a message of its own.
+    client
+        .write_all(b"< rawmode >< send 601 8 40 0 10 0 0 0 0 0 >")
+        .expect("it reads");
+    let mut buffer = [0; 256];
+    let len = client.read(&mut buffer).expect("an answer");
+    assert_eq!(&buffer[..len], b"< ok >");
+    let len = client.read(&mut buffer).expect("a frame");
+    let text = String::from_utf8_lossy(&buffer[..len]).into_owned();
+    assert!(
+        text.starts_with("< frame 581 ") && text.ends_with(" 4300100096010200 >"),
+        "{text}"
+    );
+    // Links share the bus.
+    sim.port = slcan;
+    let mut other = sim.client();
+    say(&mut other, "O\rt12310A\r", "\rz\r");
+    let len = client.read(&mut buffer).expect("a frame");
+    assert!(buffer[..len].starts_with(b"< frame 123 "));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pseudo_terminal_is_an_adapter() {
+    let sim = Sim::start(&["gxmm", "--link", "slcan:pty"]);
+    let path = sim.greeting.split("slcan on /").nth(1).expect("a path");
+    let path = format!("/{}", path.split([',', '\n', ' ']).next().expect("a path"));
+    let open = || {
+        std::fs::OpenOptions::new()
+            .read(true)
+            .write(true)
+            .open(&path)
+            .expect("it is there")
+    };
+    // A host comes, goes, and comes again.
+    for _ in 0..2 {
+        let mut host = open();
+        host.write_all(b"C\rO\rt60184000100000000000\r")
+            .expect("it reads");
+        let mut answer = vec![0; b"\r\rz\rt58184300100096010200\r".len()];
+        host.read_exact(&mut answer).expect("an answer");
+        assert_eq!(
+            String::from_utf8_lossy(&answer),
+            "\r\rz\rt58184300100096010200\r"
+        );
+    }
+}
+
+#[test]
 fn a_port_in_use_is_said_with_what_to_do() {
     let sim = Sim::start(&["gxmm"]);
     let address = format!("127.0.0.1:{}", sim.port);
@@ -134,6 +273,32 @@ fn what_cannot_be_is_said_in_one_line() {
             "a number of steps",
         ),
         (&["sim", "gxmm", "--rpm", "fast"], 2, "--rpm"),
+        (&["sim"], 2, "DEVICE|FILE"),
+        (
+            &["sim", "gxmm", "--link", "udp:1"],
+            2,
+            "is no link; there are slcan:",
+        ),
+        (
+            &["sim", "gxmm", "--link", "-", "--link", "-"],
+            2,
+            "one standard input",
+        ),
+        (
+            &["sim", "gxmm", "--link", "slcan:/dev/nothing"],
+            1,
+            "no serial port /dev/nothing",
+        ),
+        (
+            &["sim", "gxmm", "--link", "socketcan:vcan77"],
+            1,
+            "SocketCAN",
+        ),
+        (
+            &["sim", "gxmm", "--node-id", "1", "--node-id", "2"],
+            2,
+            "--node-id stands there 2 times, and there is 1 device",
+        ),
         (
             &["sim", "gxmm", "--rpm", "inf"],
             2,

@@ -1,5 +1,5 @@
 //! The virtual bench: devices in virtual time, their bus, candump text, frames in plain
-//! words, scenario scripts.
+//! words, scenario scripts, and what adapters and daemons speak.
 //!
 //! Like the runtime it has no clock, thread, socket or file of its own; what it needs from
 //! outside comes in as an argument. So the same bench runs behind `odkit`, in a test and in
@@ -11,6 +11,7 @@ mod device;
 mod eeprom;
 pub mod faults;
 mod leds;
+pub mod links;
 pub mod script;
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,7 @@ use od_runtime::Frame;
 
 use super::Link;
 use crate::Failure;
-use crate::sim::slcan;
+use od_devices::sim::links::slcan;
 
 pub(crate) struct Client {
     stream: TcpStream,

@@ -1,18 +1,20 @@
-//! TCP clients: one thread reads, one writes, and neither waits for another client.
+//! Clients: one thread reads, one writes, and neither waits for another client.
 
 use std::io::{ErrorKind, Read, Write};
-use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::net::{Shutdown, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::thread;
+use std::time::Duration;
 
+use super::adapter::Kind;
 use crate::output::note;
 
 /// What the threads tell the bus.
 pub(super) enum Input {
-    /// A client is there.
-    Connected(Client),
+    /// A client is there, and speaks this.
+    Connected(Client, Kind),
     /// It sent bytes.
     Bytes(u64, Vec<u8>),
     /// It is gone.
@@ -27,12 +29,21 @@ const QUEUE: usize = 4096;
 const WAITING: usize = 1024 * 1024;
 /// So much of a queue goes into one write.
 const BATCH: usize = 16 * 1024;
+/// So long nothing follows what a client has to read alone.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// What waits for the thread that writes.
+pub(super) enum Message {
+    Bytes(Vec<u8>),
+    Pause,
+}
 
 /// A client, as the bus sees it.
 pub(super) struct Client {
     pub(super) number: u64,
-    pub(super) address: SocketAddr,
-    queue: SyncSender<Vec<u8>>,
+    /// What to call it.
+    pub(super) name: String,
+    queue: SyncSender<Message>,
     /// Bytes in the queue.
     queued: Arc<AtomicUsize>,
     /// What this turn of the bus has brought so far.
@@ -59,8 +70,8 @@ impl Client {
             return;
         }
         if self.dropped > 0 {
-            let (address, dropped) = (self.address, self.dropped);
-            note!("{address} reads again; {dropped} messages were dropped");
+            let (name, dropped) = (&self.name, self.dropped);
+            note!("{name} reads again; {dropped} messages were dropped");
             self.dropped = 0;
         }
         self.gathered.extend_from_slice(lines);
@@ -75,75 +86,123 @@ impl Client {
         let len = lines.len();
         // First counted, then sent: the writer takes off what it has seen.
         self.queued.fetch_add(len, Ordering::Relaxed);
-        match self.queue.try_send(lines) {
+        match self.queue.try_send(Message::Bytes(lines)) {
             // A client that is gone is reported by its reader.
             Ok(()) | Err(TrySendError::Disconnected(_)) => {}
-            Err(TrySendError::Full(lines)) => {
+            Err(TrySendError::Full(message)) => {
                 self.queued.fetch_sub(len, Ordering::Relaxed);
-                self.drop_lines(&lines);
+                if let Message::Bytes(lines) = message {
+                    self.drop_lines(&lines);
+                }
             }
         }
     }
 
+    /// What was pushed goes out alone, and nothing follows it for a moment.
+    pub(super) fn pause(&mut self) {
+        self.flush();
+        // A client for which so much waits does not read one by one anyway.
+        let _ = self.queue.try_send(Message::Pause);
+    }
+
     fn drop_lines(&mut self, lines: &[u8]) {
         if self.dropped == 0 {
-            note!("{} does not read; frames for it are dropped", self.address);
+            note!("{} does not read; frames for it are dropped", self.name);
         }
-        let ends = lines.iter().filter(|byte| matches!(byte, b'\r' | 7));
-        self.dropped += ends.count();
+        let ends = lines
+            .iter()
+            .filter(|byte| matches!(byte, b'\r' | b'\n' | b'>' | 7));
+        self.dropped += ends.count().max(1);
     }
 }
 
-/// Takes clients for as long as the program runs.
-pub(super) fn accept(listener: TcpListener, inputs: SyncSender<Input>) {
+/// Takes clients that speak `kind` for as long as the program runs.
+pub(super) fn accept(
+    listener: TcpListener,
+    kind: Kind,
+    numbers: Arc<AtomicUsize>,
+    inputs: SyncSender<Input>,
+) {
     thread::spawn(move || {
-        for number in 0.. {
+        loop {
             let (stream, address) = match listener.accept() {
                 Ok(accepted) => accepted,
                 // The client went before it was taken, or too many files are open.
                 Err(_) => {
-                    thread::sleep(std::time::Duration::from_millis(50));
+                    thread::sleep(Duration::from_millis(50));
                     continue;
                 }
             };
-            if let Err(error) = serve(stream, address, number, &inputs) {
+            let number = next(&numbers);
+            if let Err(error) = serve(stream, address.to_string(), kind, number, &inputs) {
                 note!("{address}: {error}");
             }
         }
     });
 }
 
+/// A number that no other client has.
+pub(super) fn next(numbers: &AtomicUsize) -> u64 {
+    numbers.fetch_add(1, Ordering::Relaxed) as u64
+}
+
 fn serve(
     stream: TcpStream,
-    address: SocketAddr,
+    name: String,
+    kind: Kind,
     number: u64,
     inputs: &SyncSender<Input>,
 ) -> std::io::Result<()> {
     stream.set_nodelay(true)?;
     let reading = stream.try_clone()?;
+    let closing = stream.try_clone()?;
+    let close = move || {
+        // The reader of this client wakes up and reports it gone.
+        let _ = closing.shutdown(Shutdown::Both);
+    };
+    join(number, name, kind, reading, stream, close, inputs).map(|_| ())
+}
+
+/// Two threads for a client. `close` is called when it can no longer be written to.
+/// The answer tells when everything that was pushed has been written: it disconnects.
+pub(super) fn join(
+    number: u64,
+    name: String,
+    kind: Kind,
+    reading: impl Read + Send + 'static,
+    writing: impl Write + Send + 'static,
+    close: impl FnOnce() + Send + 'static,
+    inputs: &SyncSender<Input>,
+) -> std::io::Result<Receiver<()>> {
     let (queue, waiting) = sync_channel(QUEUE);
     let queued = Arc::new(AtomicUsize::new(0));
     let written = Arc::clone(&queued);
-    thread::Builder::new().spawn(move || write(stream, &waiting, &written))?;
+    let (alive, done) = sync_channel(1);
+    let whole = kind.message_len();
+    thread::Builder::new().spawn(move || {
+        write(writing, whole, &waiting, &written);
+        close();
+        drop(alive);
+    })?;
     let client = Client {
         number,
-        address,
+        name,
         queue,
         queued,
         gathered: Vec::new(),
         dropped: 0,
     };
     // The bus ends with the program only, and then nobody needs this client.
-    let _ = inputs.send(Input::Connected(client));
+    let _ = inputs.send(Input::Connected(client, kind));
     let inputs = inputs.clone();
     thread::Builder::new().spawn(move || {
         read(reading, number, &inputs);
         let _ = inputs.send(Input::Gone(number));
     })?;
-    Ok(())
+    Ok(done)
 }
 
-fn read(mut stream: TcpStream, number: u64, inputs: &SyncSender<Input>) {
+fn read(mut stream: impl Read, number: u64, inputs: &SyncSender<Input>) {
     let mut buffer = [0; 4096];
     loop {
         match stream.read(&mut buffer) {
@@ -156,44 +215,97 @@ fn read(mut stream: TcpStream, number: u64, inputs: &SyncSender<Input>) {
                     return;
                 }
             }
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) if passes(&error) => {}
+            // An interface that is down comes back; the next read says so, or waits.
+            Err(error) if error.kind() == ErrorKind::NetworkDown => {
+                thread::sleep(Duration::from_millis(500));
+            }
             Err(_) => return,
         }
     }
 }
 
-fn write(mut stream: TcpStream, waiting: &Receiver<Vec<u8>>, queued: &AtomicUsize) {
-    while let Ok(mut lines) = waiting.recv() {
-        while lines.len() < BATCH {
+/// A serial line that says nothing for a while is well.
+fn passes(error: &std::io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::Interrupted | ErrorKind::TimedOut | ErrorKind::WouldBlock
+    )
+}
+
+fn write(
+    mut stream: impl Write,
+    whole: Option<usize>,
+    waiting: &Receiver<Message>,
+    queued: &AtomicUsize,
+) {
+    while let Ok(message) = waiting.recv() {
+        let Message::Bytes(mut lines) = message else {
+            thread::sleep(PAUSE);
+            continue;
+        };
+        let mut pause = false;
+        while lines.len() < BATCH && !pause {
             match waiting.try_recv() {
-                Ok(more) => lines.extend_from_slice(&more),
+                Ok(Message::Bytes(more)) => lines.extend_from_slice(&more),
+                Ok(Message::Pause) => pause = true,
                 Err(_) => break,
             }
         }
         queued.fetch_sub(lines.len(), Ordering::Relaxed);
-        if stream.write_all(&lines).is_err() {
-            break;
+        let written = match whole {
+            None => stream.write_all(&lines).and_then(|()| stream.flush()),
+            Some(len) => lines.chunks(len).try_for_each(|one| send(&mut stream, one)),
+        };
+        if written.is_err() {
+            return;
+        }
+        if pause {
+            thread::sleep(PAUSE);
         }
     }
-    // The reader of this client wakes up and reports it gone.
-    let _ = stream.shutdown(Shutdown::Both);
+}
+
+/// One frame to a CAN interface. It waits where the interface's queue is full; what is sent
+/// while the interface is down is lost, as on a real bus.
+fn send(stream: &mut impl Write, frame: &[u8]) -> std::io::Result<()> {
+    /// "No buffer space available", which has no kind of its own.
+    const ENOBUFS: i32 = 105;
+    loop {
+        match stream.write(frame) {
+            Ok(_) => return Ok(()),
+            Err(error) if passes(&error) || error.raw_os_error() == Some(ENOBUFS) => {
+                thread::sleep(Duration::from_micros(500));
+            }
+            Err(error) if error.kind() == ErrorKind::NetworkDown => return Ok(()),
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn client(messages: usize) -> (Client, Receiver<Vec<u8>>) {
+    fn client(messages: usize) -> (Client, Receiver<Message>) {
         let (queue, waiting) = sync_channel(messages);
         let client = Client {
             number: 0,
-            address: SocketAddr::from(([127, 0, 0, 1], 1)),
+            name: "somebody".into(),
             queue,
             queued: Arc::default(),
             gathered: Vec::new(),
             dropped: 0,
         };
         (client, waiting)
+    }
+
+    #[track_caller]
+    fn bytes(waiting: &Receiver<Message>) -> Vec<u8> {
+        match waiting.try_recv() {
+            Ok(Message::Bytes(bytes)) => bytes,
+            _ => panic!("no bytes"),
+        }
     }
 
     #[test]
@@ -206,7 +318,11 @@ mod tests {
         client.push(b"\x07");
         client.flush();
         client.flush();
-        assert_eq!(waiting.try_recv().as_deref(), Ok(&b"z\rt70110\r\x07"[..]));
+        assert_eq!(bytes(&waiting), b"z\rt70110\r\x07");
+        client.push(b"< ok >");
+        client.pause();
+        assert_eq!(bytes(&waiting), b"< ok >");
+        assert!(matches!(waiting.try_recv(), Ok(Message::Pause)));
         assert!(waiting.try_recv().is_err());
     }
 
@@ -226,7 +342,7 @@ mod tests {
         client.flush();
         client.push(b"z\rz\r");
         assert_eq!(client.dropped, 3);
-        let message = waiting.recv().expect("a message");
+        let message = bytes(&waiting);
         assert_eq!(message.len(), WAITING);
         client.queued.fetch_sub(message.len(), Ordering::Relaxed);
         for _ in 0..3 {

@@ -11,6 +11,7 @@
 //! ```
 
 mod client;
+mod console;
 mod expect;
 mod parse;
 mod parse_expect;
@@ -24,6 +25,7 @@ use std::{fmt, format};
 
 use od_runtime::{Frame, Instant, NodeId};
 
+pub use console::Console;
 pub use pattern::Pattern;
 pub use run::run;
 

@@ -48,7 +48,10 @@ pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
     }
 }
 
-fn statement(mut words: Words<'_>, origin: &mut Option<u64>) -> Result<(When, Action), Problem> {
+pub(super) fn statement(
+    mut words: Words<'_>,
+    origin: &mut Option<u64>,
+) -> Result<(When, Action), Problem> {
     let when = time(&mut words, origin)?;
     if words.is_empty() && when != When::Next {
         return Ok((when, Action::Wait));

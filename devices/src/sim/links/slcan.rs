@@ -3,7 +3,12 @@
 //! A client's line ends with CR. It is answered with CR, or with BEL if it was wrong.
 //! Frames go out as `t1232AABB`, `T0000012321122`, `r1230`, `R000001230`.
 
+use std::format;
+use std::prelude::v1::*;
+
 use od_runtime::{CanId, Frame};
+
+use super::{Step, reply};
 
 /// The answer to what was right.
 const OK: &[u8] = b"\r";
@@ -16,7 +21,7 @@ const LONGEST: usize = 64;
 
 /// What one client's adapter stands at.
 #[derive(Debug, Default)]
-pub(super) struct Channel {
+pub struct Channel {
     line: Vec<u8>,
     too_long: bool,
     open: bool,
@@ -26,30 +31,26 @@ pub(super) struct Channel {
 
 impl Channel {
     /// Do frames of the bus go to this client?
-    pub(super) fn is_open(&self) -> bool {
+    pub fn is_open(&self) -> bool {
         self.open
     }
 
     /// Does a time stamp stand behind each frame?
-    pub(super) fn stamps(&self) -> bool {
+    pub fn stamps(&self) -> bool {
         self.time_stamps
     }
 
-    /// Bytes from the client: what is answered goes to `reply`, frames go to `frame`.
-    pub(super) fn receive(
-        &mut self,
-        bytes: &[u8],
-        reply: &mut Vec<u8>,
-        mut frame: impl FnMut(Frame, &mut Vec<u8>),
-    ) {
+    /// Bytes from the client, and what they bring about.
+    pub fn receive(&mut self, bytes: &[u8], steps: &mut Vec<Step>) {
         for byte in bytes {
             match byte {
                 b'\r' => {
                     let line = std::mem::take(&mut self.line);
                     if std::mem::take(&mut self.too_long) {
-                        reply.extend_from_slice(BELL);
-                    } else if let Some(sent) = self.command(&line, reply) {
-                        frame(sent, reply);
+                        reply(steps, BELL);
+                    } else if let Some(frame) = self.command(&line, steps) {
+                        // A frame's own acknowledgement stands before what it brings about.
+                        steps.push(Step::Frame(frame));
                     }
                     self.line = line;
                     self.line.clear();
@@ -63,7 +64,7 @@ impl Channel {
     }
 
     /// A frame of the bus, as this client gets it; nothing while the channel is closed.
-    pub(super) fn encode(&self, frame: &Frame, millis: u64, out: &mut Vec<u8>) {
+    pub fn encode(&self, frame: &Frame, millis: u64, out: &mut Vec<u8>) {
         if !self.open {
             return;
         }
@@ -75,7 +76,7 @@ impl Channel {
     }
 
     /// One line without its CR.
-    fn command(&mut self, line: &[u8], reply: &mut Vec<u8>) -> Option<Frame> {
+    fn command(&mut self, line: &[u8], steps: &mut Vec<Step>) -> Option<Frame> {
         let answer = match line {
             // Hosts send empty lines to clear a half line of somebody before them.
             [] => OK,
@@ -109,22 +110,23 @@ impl Channel {
             [b'F'] => b"F00\r",
             [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => {
                 let frame = parse_frame(*kind, rest).filter(|_| self.open && !self.listen_only);
-                reply.extend_from_slice(match (frame, kind) {
+                let answer: &[u8] = match (frame, kind) {
                     (None, _) => BELL,
                     (Some(_), b't' | b'r') => b"z\r",
                     (Some(_), _) => b"Z\r",
-                });
+                };
+                reply(steps, answer);
                 return frame;
             }
             _ => BELL,
         };
-        reply.extend_from_slice(answer);
+        reply(steps, answer);
         None
     }
 }
 
 /// A frame as a line without its CR.
-pub(crate) fn write_frame(frame: &Frame, out: &mut Vec<u8>) {
+pub fn write_frame(frame: &Frame, out: &mut Vec<u8>) {
     let id = frame.id();
     let kind = match (frame.is_remote(), id.is_extended()) {
         (false, false) => 't',
@@ -139,7 +141,7 @@ pub(crate) fn write_frame(frame: &Frame, out: &mut Vec<u8>) {
 }
 
 /// The frame of a line without its CR, if it is one.
-pub(crate) fn frame_of(line: &[u8]) -> Option<Frame> {
+pub fn frame_of(line: &[u8]) -> Option<Frame> {
     match line {
         [kind @ (b't' | b'T' | b'r' | b'R'), rest @ ..] => parse_frame(*kind, rest),
         _ => None,
@@ -191,14 +193,26 @@ fn hex(digits: &[u8]) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::string::ToString;
+
+    /// What is answered, and which frames go to the bus.
+    fn taken(channel: &mut Channel, input: &[u8]) -> (Vec<u8>, Vec<Frame>) {
+        let (mut steps, mut answered, mut seen) = (Vec::new(), Vec::new(), Vec::new());
+        channel.receive(input, &mut steps);
+        for step in steps {
+            match step {
+                Step::Reply(bytes) => answered.extend(bytes),
+                Step::Frame(frame) => seen.push(frame),
+                Step::Pause => unreachable!("nobody needs one here"),
+            }
+        }
+        (answered, seen)
+    }
 
     #[track_caller]
     fn check(input: &str, reply: &str, frames: &str) {
-        let mut channel = Channel::default();
-        let (mut answered, mut seen) = (Vec::new(), Vec::new());
-        channel.receive(input.as_bytes(), &mut answered, |frame, _| {
-            seen.push(frame.to_string())
-        });
+        let (answered, seen) = taken(&mut Channel::default(), input.as_bytes());
+        let seen: Vec<_> = seen.iter().map(ToString::to_string).collect();
         assert_eq!(String::from_utf8_lossy(&answered), reply, "{input:?}");
         assert_eq!(seen.join(" "), frames, "{input:?}");
     }
@@ -275,10 +289,10 @@ mod tests {
         let mut out = Vec::new();
         channel.encode(&frame, 0, &mut out);
         assert!(out.is_empty());
-        channel.receive(b"Z1\rO\r", &mut Vec::new(), |_, _| {});
+        channel.receive(b"Z1\rO\r", &mut Vec::new());
         channel.encode(&frame, 61_000, &mut out);
         assert_eq!(out, b"t70110003E8\r");
-        channel.receive(b"Z0\rC\r", &mut Vec::new(), |_, _| {});
+        channel.receive(b"Z0\rC\r", &mut Vec::new());
         out.clear();
         channel.encode(&frame, 0, &mut out);
         assert!(out.is_empty());
@@ -287,7 +301,7 @@ mod tests {
     #[test]
     fn what_goes_out_comes_back() {
         let mut channel = Channel::default();
-        channel.receive(b"O\r", &mut Vec::new(), |_, _| {});
+        channel.receive(b"O\r", &mut Vec::new());
         for frame in [
             Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
             Frame::standard(0x80, &[]),
@@ -295,10 +309,9 @@ mod tests {
             Frame::remote(CanId::standard(0x701), 0),
             Frame::remote(CanId::extended(0x701), 8),
         ] {
-            let (mut out, mut seen) = (Vec::new(), None);
+            let mut out = Vec::new();
             channel.encode(&frame, 0, &mut out);
-            channel.receive(&out, &mut Vec::new(), |frame, _| seen = Some(frame));
-            assert_eq!(seen, Some(frame));
+            assert_eq!(taken(&mut channel, &out).1, [frame]);
         }
     }
 }

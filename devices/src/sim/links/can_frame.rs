@@ -1,0 +1,84 @@
+//! Linux' `struct can_frame`, as a raw CAN socket reads and writes it: 16 bytes, with an
+//! identifier in the machine's own byte order.
+
+use std::prelude::v1::*;
+
+use od_runtime::{CanId, Frame};
+
+/// Bytes of a frame; a socket takes and gives one frame at a time.
+pub const SIZE: usize = 16;
+
+const EXTENDED: u32 = 1 << 31;
+const REMOTE: u32 = 1 << 30;
+const ERROR: u32 = 1 << 29;
+
+/// Writes a frame.
+pub fn encode(frame: &Frame, out: &mut Vec<u8>) {
+    let mut id = frame.id().raw();
+    if frame.id().is_extended() {
+        id |= EXTENDED;
+    }
+    if frame.is_remote() {
+        id |= REMOTE;
+    }
+    let mut bytes = [0; SIZE];
+    bytes[..4].copy_from_slice(&id.to_ne_bytes());
+    bytes[4] = frame.dlc();
+    bytes[8..8 + frame.data().len()].copy_from_slice(frame.data());
+    out.extend_from_slice(&bytes);
+}
+
+/// Reads a frame; `None` where it is an error message of the controller, a CAN FD frame, or
+/// not whole.
+pub fn decode(bytes: &[u8]) -> Option<Frame> {
+    let bytes: &[u8; SIZE] = bytes.try_into().ok()?;
+    let (id, rest) = bytes.split_first_chunk::<4>()?;
+    let id = u32::from_ne_bytes(*id);
+    let dlc = rest[0];
+    if id & ERROR != 0 || dlc > 8 {
+        return None;
+    }
+    let name = match id & EXTENDED {
+        0 => CanId::standard((id & 0x7FF) as u16),
+        _ => CanId::extended(id),
+    };
+    Some(match id & REMOTE {
+        0 => Frame::new(name, &bytes[8..8 + usize::from(dlc)]),
+        _ => Frame::remote(name, dlc),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        for frame in [
+            Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
+            Frame::standard(0x80, &[]),
+            Frame::new(CanId::extended(0x1FFF_FFFF), &[1]),
+            Frame::remote(CanId::standard(0x701), 0),
+            Frame::remote(CanId::extended(0x701), 8),
+        ] {
+            let mut bytes = Vec::new();
+            encode(&frame, &mut bytes);
+            assert_eq!(bytes.len(), SIZE);
+            assert_eq!(decode(&bytes), Some(frame));
+        }
+    }
+
+    #[test]
+    fn what_is_no_frame_is_left_out() {
+        let mut bytes = Vec::new();
+        encode(&Frame::standard(0x123, &[1, 2]), &mut bytes);
+        assert_eq!(decode(&bytes[..15]), None);
+        assert_eq!(decode(&[&bytes[..], &[0; 56]].concat()), None);
+        bytes[4] = 9;
+        assert_eq!(decode(&bytes), None);
+        bytes[4] = 2;
+        let id = 0x2000_0004_u32;
+        bytes[..4].copy_from_slice(&id.to_ne_bytes());
+        assert_eq!(decode(&bytes), None);
+    }
+}

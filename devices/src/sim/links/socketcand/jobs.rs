@@ -1,0 +1,155 @@
+//! What BCM mode does again and again: send a frame, and watch an identifier.
+
+use std::prelude::v1::*;
+
+use od_runtime::{CanId, Frame, Instant};
+
+/// So many jobs, and so many subscriptions, a client may have.
+const MOST: usize = 256;
+/// No job sends faster, microseconds.
+const FASTEST: u64 = 1000;
+
+#[derive(Debug)]
+struct Job {
+    frame: Frame,
+    every: u64,
+    next: Option<Instant>,
+}
+
+/// Frames that are sent again and again.
+#[derive(Debug, Default)]
+pub(super) struct Jobs(Vec<Job>);
+
+impl Jobs {
+    /// A new job, or another interval for the one with this identifier; its first frame goes
+    /// out at once, and no other where `every` is 0. Answers whether there is room.
+    pub(super) fn add(&mut self, frame: Frame, every: u64, now: Instant) -> bool {
+        self.delete(frame.id());
+        if self.0.len() >= MOST {
+            return false;
+        }
+        let every = if every == 0 { 0 } else { every.max(FASTEST) };
+        self.0.push(Job {
+            frame,
+            every,
+            next: (every > 0).then(|| now.plus_micros(every)),
+        });
+        true
+    }
+
+    pub(super) fn update(&mut self, frame: Frame) {
+        if let Some(job) = self.0.iter_mut().find(|job| job.frame.id() == frame.id()) {
+            job.frame = frame;
+        }
+    }
+
+    pub(super) fn delete(&mut self, id: CanId) {
+        self.0.retain(|job| job.frame.id() != id);
+    }
+
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        self.0.iter().filter_map(|job| job.next).min()
+    }
+
+    /// What is due, each once: what a late call has missed does not come in a heap.
+    pub(super) fn due(&mut self, now: Instant, mut send: impl FnMut(Frame)) {
+        for job in &mut self.0 {
+            if let Some(next) = job.next.filter(|next| *next <= now) {
+                send(job.frame);
+                let following = next.plus_micros(job.every);
+                job.next = Some(if following > now {
+                    following
+                } else {
+                    now.plus_micros(job.every)
+                });
+            }
+        }
+    }
+}
+
+#[derive(Debug)]
+struct Watch {
+    id: CanId,
+    /// No two frames come faster than this.
+    every: u64,
+    /// Only a change in these bits counts.
+    mask: Option<Frame>,
+    /// What the client heard last, and when.
+    heard: Option<(Frame, Instant)>,
+    /// What it hears when the interval is over.
+    held: Option<Frame>,
+}
+
+impl Watch {
+    fn may_speak_at(&self) -> Option<Instant> {
+        self.heard.map(|(_, at)| at.plus_micros(self.every))
+    }
+
+    fn is_news(&self, frame: &Frame) -> bool {
+        let (Some(mask), Some((last, _))) = (&self.mask, &self.heard) else {
+            return true;
+        };
+        let byte = |frame: &Frame, at: usize| frame.data().get(at).copied().unwrap_or(0);
+        let changed = |at| (byte(frame, at) ^ byte(last, at)) & byte(mask, at) != 0;
+        frame.dlc() != last.dlc() || (0..8).any(changed)
+    }
+}
+
+/// What the client wants to hear.
+#[derive(Debug, Default)]
+pub(super) struct Watches(Vec<Watch>);
+
+impl Watches {
+    /// Answers whether there is room.
+    pub(super) fn add(&mut self, id: CanId, every: u64, mask: Option<Frame>) -> bool {
+        self.delete(id);
+        if self.0.len() >= MOST {
+            return false;
+        }
+        self.0.push(Watch {
+            id,
+            every,
+            mask,
+            heard: None,
+            held: None,
+        });
+        true
+    }
+
+    pub(super) fn delete(&mut self, id: CanId) {
+        self.0.retain(|watch| watch.id != id);
+    }
+
+    /// Does the client hear this frame now? If it comes too early, the client hears it later.
+    pub(super) fn hears(&mut self, frame: &Frame, now: Instant) -> bool {
+        let Some(watch) = self.0.iter_mut().find(|watch| watch.id == frame.id()) else {
+            return false;
+        };
+        if !watch.is_news(frame) {
+            return false;
+        }
+        if watch.may_speak_at().is_some_and(|at| now < at) {
+            watch.held = Some(*frame);
+            return false;
+        }
+        watch.heard = Some((*frame, now));
+        watch.held = None;
+        true
+    }
+
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        let held = self.0.iter().filter(|watch| watch.held.is_some());
+        held.filter_map(Watch::may_speak_at).min()
+    }
+
+    /// The next frame that was held back long enough.
+    pub(super) fn due(&mut self, now: Instant) -> Option<Frame> {
+        let ready = |watch: &&mut Watch| {
+            watch.held.is_some() && watch.may_speak_at().is_none_or(|at| at <= now)
+        };
+        let watch = self.0.iter_mut().find(ready)?;
+        let frame = watch.held.take()?;
+        watch.heard = Some((frame, now));
+        Some(frame)
+    }
+}

@@ -1,0 +1,119 @@
+//! The devices on the bus, as the command line asks for them.
+
+use od_devices::sim::VirtualDevice;
+use od_runtime::storage::File;
+use od_runtime::{Instant, NodeId};
+
+use super::Args;
+use crate::Failure;
+use crate::source::Source;
+
+/// Makes the devices, without power.
+pub(super) fn make(args: &Args) -> Result<Vec<VirtualDevice>, Failure> {
+    let names: Vec<&String> = args.devices.iter().chain(&args.more).collect();
+    let count = names.len();
+    for (option, given) in [
+        ("--node-id", args.node_ids.len()),
+        ("--eeprom", args.eeproms.len()),
+    ] {
+        if given > count {
+            let devices = crate::report::plural(count, "device");
+            return Err(Failure::Usage(format!(
+                "{option} stands there {given} times, and there is {devices}; name every device"
+            )));
+        }
+    }
+    let mut devices: Vec<VirtualDevice> = Vec::new();
+    for (at, name) in names.into_iter().enumerate() {
+        let mut device = one(name, args, at, &devices)?;
+        if let Some(path) = args.eeproms.get(at) {
+            let file = File::open(path, device.storage_needed());
+            let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
+            device = device.with_storage(Box::new(file));
+        }
+        set_shaft(args, name, at, &mut device)?;
+        devices.push(device);
+    }
+    Ok(devices)
+}
+
+/// A device with the node ID that it is given, else its own, else the next one that is free.
+fn one(
+    name: &str,
+    args: &Args,
+    at: usize,
+    others: &[VirtualDevice],
+) -> Result<VirtualDevice, Failure> {
+    let source = Source::find(name)?;
+    let wanted = args.node_ids.get(at).copied();
+    let device = source.device(wanted)?;
+    let is_used = |id: NodeId| others.iter().any(|other| other.node_id() == id);
+    let own = device.node_id();
+    let Some(last) = others.last().map(|other| other.node_id().raw()) else {
+        return Ok(device);
+    };
+    // A DCF says which node it is; the others follow the device before them.
+    if wanted.is_some() || own != NodeId::ONE && !is_used(own) {
+        return Ok(device);
+    }
+    let mut free = (last..=127).chain(1..last).filter_map(NodeId::new);
+    match free.find(|id| !is_used(*id)) {
+        Some(id) => source.device(Some(id)),
+        None => Err(Failure::Usage(
+            "a bus has room for 127 devices; start another odkit for the rest".into(),
+        )),
+    }
+}
+
+fn set_shaft(
+    args: &Args,
+    name: &str,
+    at: usize,
+    device: &mut VirtualDevice,
+) -> Result<(), Failure> {
+    let now = Instant::ZERO;
+    if let Some(seed) = args.seed {
+        // A device without a shaft has nothing to be placed.
+        device.turn_to(anywhere(seed, at), now);
+    }
+    let placed = args
+        .position
+        .is_none_or(|raw| device.set_position(raw, now));
+    let turns = args
+        .rpm
+        .is_none_or(|rpm| rpm.is_finite() && device.set_rpm(rpm, now));
+    if placed && turns {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "{name} has no shaft that could stand or turn so; leave --position and --rpm away"
+    )))
+}
+
+/// Revolutions that look like chance, the same for the same numbers (SplitMix64).
+fn anywhere(seed: u64, at: usize) -> f64 {
+    let step = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut bits = seed.wrapping_add(step.wrapping_mul(at as u64 + 1));
+    bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    bits = (bits ^ bits >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+    bits ^= bits >> 31;
+    // 16 bits of turns, 32 bits of angle: what the largest of our encoders can tell apart.
+    (bits >> 16) as f64 / 4_294_967_296.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::anywhere;
+
+    #[test]
+    fn chance_is_repeated_by_its_seed() {
+        assert_eq!(anywhere(7, 0), anywhere(7, 0));
+        let places: Vec<f64> = (0..20)
+            .flat_map(|seed| [anywhere(seed, 0), anywhere(seed, 1)])
+            .collect();
+        for (at, place) in places.iter().enumerate() {
+            assert!((0.0..65536.0).contains(place), "{place}");
+            assert!(!places[..at].contains(place));
+        }
+    }
+}

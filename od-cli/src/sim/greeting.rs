@@ -1,0 +1,190 @@
+//! What `odkit sim` says at the start: what there is, and what to type next.
+
+use std::fmt::Write as _;
+
+use od_devices::sim::Bus;
+
+use super::Args;
+use super::adapter::Kind;
+use super::link::Opened;
+use crate::Failure;
+use crate::output::{Output, note, note_text};
+
+/// Prints it: to standard output, or where that carries frames, to standard error.
+pub(super) fn print(args: &Args, bus: &Bus, links: &[Opened]) -> Result<(), Failure> {
+    for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
+        let node = device.node_id();
+        if *wanted != node {
+            note!("the EEPROM says node {node}; --node-id {wanted} is for an empty one");
+        }
+    }
+    let text = text(args, bus, links);
+    let has_frames = |link: &Opened| matches!(link, Opened::Ends(ends) if ends.kind == Kind::Lines);
+    if links.iter().any(has_frames) {
+        note_text(&text);
+        note_text("\n");
+        return Ok(());
+    }
+    let mut output = Output::new();
+    output.line(&text)?;
+    output.flush().map(|_| ())
+}
+
+fn text(args: &Args, bus: &Bus, links: &[Opened]) -> String {
+    let places: Vec<String> = links.iter().map(place).collect();
+    let places = places.join(", ");
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let devices = bus.devices();
+    if let [device] = devices {
+        let (title, node) = (device.title(), device.node_id());
+        let _ = writeln!(text, "{title}, node {node}; {places}");
+    } else {
+        let _ = writeln!(text, "{} devices; {places}", devices.len());
+        for (number, device) in (1..).zip(devices) {
+            let (title, node) = (device.title(), device.node_id());
+            let _ = writeln!(text, "{number:>3}  node {node:<3}  {title}");
+        }
+    }
+    let files: Vec<_> = args
+        .eeproms
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    let eeprom = match files.len() {
+        0 => "in memory; --eeprom FILE keeps it".to_owned(),
+        given if given < devices.len() => format!("{}; the others in memory", files.join(", ")),
+        _ => files.join(", "),
+    };
+    let _ = writeln!(text, "EEPROM {eeprom}");
+    let Some(device) = devices.first() else {
+        return text;
+    };
+    let node = device.node_id().raw();
+    let name = args.devices.iter().chain(&args.more).next();
+    let name = name.map(String::as_str).unwrap_or_default();
+    for link in links {
+        help(&mut text, link, name, node, args.bitrate);
+    }
+    text.push_str("\nCtrl-C ends it.");
+    text
+}
+
+fn place(link: &Opened) -> String {
+    match link {
+        Opened::Listener(Kind::Socketcand, _, address) => format!("socketcand on {address}"),
+        Opened::Listener(_, _, address) => format!("slcan on {address}"),
+        Opened::Ends(ends) => match ends.kind {
+            Kind::Slcan => format!("slcan on {}", ends.name),
+            Kind::CanFrame => format!("SocketCAN on {}", ends.name),
+            _ => "standard input and output".into(),
+        },
+    }
+}
+
+/// What to type to reach the first device by this link.
+fn help(text: &mut String, link: &Opened, device: &str, node: u8, bitrate: u32) {
+    let (connect, needs) = match link {
+        Opened::Listener(Kind::Socketcand, _, address) => (
+            format!(
+                "interface='socketcand', channel='can0',\n                  host='{}', port={}",
+                address.ip(),
+                address.port()
+            ),
+            "canopen",
+        ),
+        Opened::Listener(_, _, address) => (
+            format!(
+                "interface='slcan', channel='socket://{address}',\n                  \
+                 bitrate={bitrate}, sleep_after_open=0"
+            ),
+            "canopen pyserial",
+        ),
+        Opened::Ends(ends) => match ends.kind {
+            Kind::Slcan => (
+                format!(
+                    "interface='slcan', channel='{}',\n                  \
+                     bitrate={bitrate}, sleep_after_open=0",
+                    ends.name
+                ),
+                "canopen pyserial",
+            ),
+            Kind::CanFrame => (
+                format!("interface='socketcan', channel='{}'", ends.name),
+                "canopen",
+            ),
+            _ => {
+                text.push_str(
+                    "\nstandard input takes frames (601#4000100000000000) and what happens to \
+                     the\ndevices outside the bus (power cycle 2s, shaft rpm 60, use 2)\n",
+                );
+                return;
+            }
+        },
+    };
+    let (description, read) = match od_devices::find(device) {
+        Some(_) => (
+            "canopen.ObjectDictionary()".to_owned(),
+            "sdo.upload(0x1000, 0).hex()",
+        ),
+        None => (format!("{device:?}"), "sdo[0x1000].raw"),
+    };
+    let _ = writeln!(
+        text,
+        "
+python-canopen (pip install {needs})
+  import canopen
+  network = canopen.Network()
+  network.connect({connect})
+  node = network.add_node({node}, {description})
+  print(node.{read})"
+    );
+    candump(text, link, node, bitrate);
+}
+
+fn candump(text: &mut String, link: &Opened, node: u8, bitrate: u32) {
+    let speed = match bitrate {
+        10_000 => 0,
+        20_000 => 1,
+        50_000 => 2,
+        100_000 => 3,
+        125_000 => 4,
+        250_000 => 5,
+        800_000 => 7,
+        1_000_000 => 8,
+        _ => 6,
+    };
+    let request = 0x600 + u16::from(node);
+    let send = format!("{request:03X}#4000100000000000");
+    let _ = match link {
+        Opened::Listener(Kind::Slcan, _, address) => writeln!(
+            text,
+            "
+candump, as root on Linux
+  socat pty,raw,echo=0,link=/dev/ttyodkit tcp:{address} &
+  slcand -o -c -s{speed} ttyodkit can0
+  ip link set can0 up
+  candump can0 &
+  cansend can0 {send}"
+        ),
+        Opened::Ends(ends) if ends.kind == Kind::Slcan => writeln!(
+            text,
+            "
+candump, as root on Linux
+  slcand -o -c -s{speed} {} can0
+  ip link set can0 up
+  candump can0 &
+  cansend can0 {send}",
+            ends.name
+        ),
+        Opened::Ends(ends) if ends.kind == Kind::CanFrame => writeln!(
+            text,
+            "
+candump
+  candump {name} &
+  cansend {name} {send}",
+            name = ends.name
+        ),
+        _ => Ok(()),
+    };
+}

@@ -1,0 +1,78 @@
+//! A CAN interface of Linux.
+
+use super::Opened;
+use crate::Failure;
+
+/// Opens an interface that exists and is up.
+#[cfg(target_os = "linux")]
+pub(super) fn open(name: &str) -> Result<Opened, Failure> {
+    use socketcan::{CanSocket, Socket};
+
+    let failed = |error: std::io::Error| Failure::Failed(advice(name, &error));
+    // A socket for all interfaces says whether there can be any.
+    CanSocket::open_iface(0).map_err(failed)?;
+    let socket = CanSocket::open(name).map_err(failed)?;
+    if is_down(name) {
+        crate::output::note!("{name} is down; `sudo ip link set {name} up` starts it");
+    }
+    let ends = |socket: &CanSocket| socket.as_raw_socket().try_clone();
+    Ok(Opened::Ends(super::Ends {
+        name: name.to_owned(),
+        kind: super::Kind::CanFrame,
+        reading: Box::new(ends(&socket).map_err(failed)?),
+        writing: Box::new(ends(&socket).map_err(failed)?),
+    }))
+}
+
+/// Is the interface there, and not up? An interface that comes up later works.
+#[cfg(target_os = "linux")]
+fn is_down(name: &str) -> bool {
+    const IFF_UP: u32 = 1;
+    let flags = std::fs::read_to_string(format!("/sys/class/net/{name}/flags"));
+    let flags = flags.ok().and_then(|text| {
+        let digits = text.trim().strip_prefix("0x")?;
+        u32::from_str_radix(digits, 16).ok()
+    });
+    flags.is_some_and(|flags| flags & IFF_UP == 0)
+}
+
+/// What went wrong, and the commands that mend it.
+#[cfg(target_os = "linux")]
+fn advice(name: &str, error: &std::io::Error) -> String {
+    /// "Address family not supported by protocol": a kernel without CAN.
+    const EAFNOSUPPORT: i32 = 97;
+    const EPROTONOSUPPORT: i32 = 93;
+    const ENODEV: i32 = 19;
+    const ENXIO: i32 = 6;
+    let virtual_one = format!(
+        "sudo modprobe vcan && sudo ip link add {name} type vcan && sudo ip link set {name} up"
+    );
+    match error.raw_os_error() {
+        Some(EAFNOSUPPORT | EPROTONOSUPPORT) => String::from(
+            "this kernel has no SocketCAN; load it with `sudo modprobe can-raw`, or, in a \
+             container or a machine without the module, use --link slcan:127.0.0.1:29536",
+        ),
+        Some(ENODEV | ENXIO) if name.starts_with("vcan") => {
+            format!("there is no CAN interface `{name}`; make one with `{virtual_one}`")
+        }
+        Some(ENODEV | ENXIO) => format!(
+            "there is no CAN interface `{name}`; `ip link show type can` lists the real ones, \
+             which `sudo ip link set {name} up type can bitrate 500000` starts; a virtual one \
+             is made with `sudo modprobe vcan && sudo ip link add vcan0 type vcan && sudo ip \
+             link set vcan0 up`"
+        ),
+        _ if error.kind() == std::io::ErrorKind::PermissionDenied => format!(
+            "{name} may not be opened: {error}; run odkit with the right to use raw sockets, \
+             for example `sudo setcap cap_net_raw+ep $(command -v odkit)`"
+        ),
+        _ => format!("{name}: {error}; `ip -details link show {name}` says how it is set up"),
+    }
+}
+
+/// Only Linux has such interfaces.
+#[cfg(not(target_os = "linux"))]
+pub(super) fn open(_: &str) -> Result<Opened, Failure> {
+    Err(Failure::Failed(String::from(
+        "SocketCAN is a part of Linux; here, use --link slcan:127.0.0.1:29536",
+    )))
+}

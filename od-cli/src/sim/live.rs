@@ -1,0 +1,352 @@
+//! The bus in real time: what clients send, what devices send, and the clock.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant as Clock, SystemTime};
+
+use od_devices::sim::links::Step;
+use od_devices::sim::script::Console;
+use od_devices::sim::{Bus, VirtualDevice};
+use od_runtime::{Event, Frame, Instant};
+
+use super::adapter::{Adapter, FORMS, Kind, Taken};
+use super::clients::{Client, Input};
+use crate::output::note;
+use crate::report;
+
+/// Bytes of clients that the bus takes in one turn, before its answers go out.
+const TURN: usize = 16 * 1024;
+/// An input counts as so many bytes at least.
+const INPUT: usize = 64;
+/// Who wakes up later than this has slept: time stood still meanwhile, and nothing is
+/// made up for.
+const SLEPT: Duration = Duration::from_secs(2);
+
+/// A client with its adapter.
+struct Seat {
+    client: Client,
+    kind: Kind,
+    adapter: Adapter,
+}
+
+/// The bus in real time.
+pub(super) struct Live {
+    pub(super) bus: Bus,
+    start: Clock,
+    /// Time of day at the start, in microseconds.
+    epoch: u64,
+    seats: BTreeMap<u64, Seat>,
+    console: Console,
+    /// Links that nobody can come to again once they are gone.
+    links: usize,
+    /// Does anything listen for clients that are still to come?
+    listens: bool,
+    frames: u64,
+}
+
+impl Live {
+    /// Devices get power, and time begins. `links` are clients that are there from the start.
+    pub(super) fn new(devices: Vec<VirtualDevice>, links: usize, listens: bool) -> Self {
+        let mut bus = Bus::new();
+        for device in devices {
+            let number = bus.add(device);
+            bus.with(number, VirtualDevice::power_on);
+        }
+        let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        let mut live = Self {
+            bus,
+            start: Clock::now(),
+            epoch: epoch.map_or(0, |since| since.as_micros() as u64),
+            seats: BTreeMap::new(),
+            console: Console::default(),
+            links,
+            listens,
+            frames: 0,
+        };
+        // Nobody listens yet; a master that comes later asks for the state.
+        while live.bus.poll().is_some() {}
+        live.events(|event| *event == Event::StorageDamaged);
+        live
+    }
+
+    fn now(&self) -> Instant {
+        Instant::ZERO + self.start.elapsed()
+    }
+
+    /// Runs until Ctrl-C, or until the last link has ended.
+    pub(super) fn run(&mut self, waiting: &Receiver<Input>, stopped: &AtomicBool) {
+        while !stopped.load(Ordering::Relaxed) {
+            self.catch_up();
+            self.wake();
+            self.flush();
+            if self.is_over() {
+                break;
+            }
+            let deadline = self.deadline();
+            let patience = match deadline {
+                Some(at) => at - self.now(),
+                None => Duration::from_secs(3600),
+            };
+            let first = match waiting.recv_timeout(patience) {
+                Ok(input) => Some(input),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => break,
+            };
+            self.wind_back(deadline);
+            // What waits already belongs to this turn, as far as it has room.
+            let mut room = TURN;
+            for input in first.into_iter().chain(waiting.try_iter()) {
+                if stopped.load(Ordering::Relaxed) {
+                    break;
+                }
+                let size = match &input {
+                    Input::Bytes(_, bytes) => bytes.len().max(INPUT),
+                    _ => INPUT,
+                };
+                self.take(input);
+                room = room.saturating_sub(size);
+                if room == 0 {
+                    break;
+                }
+            }
+        }
+        for number in 0..self.bus.devices().len() {
+            self.bus.with(number, VirtualDevice::power_off);
+        }
+        // Whoever waits for the last lines sees that there are no more.
+        self.seats.clear();
+        note!(
+            "\nodkit: ended; {} went over the bus",
+            report::plural(self.frames as usize, "frame")
+        );
+    }
+
+    fn is_over(&self) -> bool {
+        !self.listens && self.links == 0 && self.console.is_idle()
+    }
+
+    fn deadline(&self) -> Option<Instant> {
+        let seats = self
+            .seats
+            .values()
+            .filter_map(|seat| seat.adapter.deadline());
+        let console = self.console.deadline(self.bus.now());
+        seats.chain(console).chain(self.bus.next_deadline()).min()
+    }
+
+    /// A machine that slept must not send at once all that it has missed.
+    fn wind_back(&mut self, deadline: Option<Instant>) {
+        let Some(deadline) = deadline else {
+            return;
+        };
+        let late = self.now() - deadline;
+        if late > SLEPT {
+            self.start += late;
+            let seconds = late.as_secs();
+            note!("the machine stood still for {seconds} s, and so did the bus");
+        }
+    }
+
+    /// The bus catches up with the clock, and what devices send goes out.
+    fn catch_up(&mut self) {
+        let now = self.now();
+        self.bus.advance(now);
+        self.deliver();
+    }
+
+    fn deliver(&mut self) {
+        while let Some(sent) = self.bus.poll() {
+            self.frames += 1;
+            self.pass_on(&sent.frame, sent.at, None);
+        }
+        self.events(|_| true);
+    }
+
+    /// Lets adapters and the console do what is due.
+    fn wake(&mut self) {
+        let now = self.bus.now();
+        let due = |seat: &Seat| seat.adapter.deadline().is_some_and(|at| at <= now);
+        let numbers: Vec<u64> = self
+            .seats
+            .iter()
+            .filter(|(_, seat)| due(seat))
+            .map(|(n, _)| *n)
+            .collect();
+        for number in numbers {
+            if let Some(seat) = self.seats.get_mut(&number) {
+                let taken = seat.adapter.wake(now, self.epoch);
+                self.steps(number, taken);
+            }
+        }
+        self.run_console();
+    }
+
+    /// What the turn has brought goes out, each client's share as one message.
+    fn flush(&mut self) {
+        for seat in self.seats.values_mut() {
+            seat.client.flush();
+        }
+    }
+
+    /// A frame for every client but the one it is from.
+    fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<u64>) {
+        // Clients of a kind get the same text.
+        let mut texts: [Vec<u8>; FORMS] = Default::default();
+        let mut own = Vec::new();
+        for (number, seat) in &mut self.seats {
+            if Some(*number) == from {
+                continue;
+            }
+            let text = match seat.adapter.form() {
+                Some(form) => &mut texts[form],
+                None => {
+                    own.clear();
+                    &mut own
+                }
+            };
+            if text.is_empty() {
+                seat.adapter.encode(frame, at, self.epoch, text);
+            }
+            seat.client.push(text);
+        }
+    }
+
+    fn take(&mut self, input: Input) {
+        match input {
+            Input::Connected(mut client, kind) => {
+                let adapter = Adapter::new(kind);
+                if matches!(kind, Kind::Slcan | Kind::Socketcand) {
+                    note!("{} connected", client.name);
+                }
+                client.push(adapter.hello());
+                self.seats.insert(
+                    client.number,
+                    Seat {
+                        client,
+                        kind,
+                        adapter,
+                    },
+                );
+            }
+            Input::Gone(number) => self.gone(number),
+            Input::Bytes(number, bytes) => {
+                if let Some(seat) = self.seats.get_mut(&number) {
+                    let now = self.bus.now();
+                    let taken = seat.adapter.receive(&bytes, now);
+                    self.steps(number, taken);
+                }
+            }
+            Input::Stop => {}
+        }
+    }
+
+    fn gone(&mut self, number: u64) {
+        let Some(seat) = self.seats.get_mut(&number) else {
+            return;
+        };
+        let rest = seat.adapter.finish();
+        let kind = seat.kind;
+        self.steps(number, rest);
+        if (number as usize) < super::LINKS {
+            self.links = self.links.saturating_sub(1);
+        }
+        if kind == Kind::Lines {
+            // It has no more to say, and still hears.
+            return;
+        }
+        if let Some(mut seat) = self.seats.remove(&number) {
+            // It may have ended its own side only, and read on.
+            seat.client.flush();
+            note!("{} left", seat.client.name);
+        }
+    }
+
+    /// What a client's bytes bring about, one after the other.
+    fn steps(&mut self, number: u64, taken: Vec<Taken>) {
+        for taken in taken {
+            match taken {
+                Taken::Step(Step::Reply(bytes)) => {
+                    if let Some(seat) = self.seats.get_mut(&number) {
+                        seat.client.push(&bytes);
+                    }
+                }
+                Taken::Step(Step::Pause) => {
+                    if let Some(seat) = self.seats.get_mut(&number) {
+                        seat.client.pause();
+                    }
+                }
+                Taken::Step(Step::Frame(frame)) => {
+                    self.catch_up();
+                    self.frame(&frame, Some(number));
+                }
+                Taken::Line(text) => {
+                    if let Err(problem) = self.console.push(&text) {
+                        note!("odkit: line {problem}");
+                    }
+                    self.catch_up();
+                    self.run_console();
+                }
+            }
+        }
+    }
+
+    /// Lines of the console whose moment has come.
+    fn run_console(&mut self) {
+        // The console itself does not hear what it sends; the others do.
+        let console = self.seats.iter().find(|(_, seat)| seat.kind == Kind::Lines);
+        let console = console.map(|(number, _)| *number);
+        while let Some(done) = self.console.step(&mut self.bus) {
+            match done {
+                Ok(Some(frame)) => self.frame(&frame, console),
+                Ok(None) => self.deliver(),
+                Err(why) => note!("odkit: {why}"),
+            }
+        }
+    }
+
+    /// A frame from outside, and what it brings about.
+    fn frame(&mut self, frame: &Frame, from: Option<u64>) {
+        self.frames += 1;
+        self.bus.receive(frame);
+        let now = self.bus.now();
+        self.pass_on(frame, now, from);
+        self.deliver();
+    }
+
+    fn events(&mut self, wanted: impl Fn(&Event) -> bool) {
+        let several = self.bus.devices().len() > 1;
+        for number in 0..self.bus.devices().len() {
+            let events = self.bus.with(number, |device, _| {
+                let name = several.then(|| format!("node {}: ", device.node_id()));
+                let events: Vec<_> = std::iter::from_fn(|| device.poll_event()).collect();
+                (name.unwrap_or_default(), events)
+            });
+            let (name, events) = events.unwrap_or_default();
+            for event in events.into_iter().filter(&wanted) {
+                if let Some(text) = words(event) {
+                    note!("{name}{text}");
+                }
+            }
+        }
+    }
+}
+
+/// What the person at the terminal may want to know.
+fn words(event: Event) -> Option<String> {
+    Some(match event {
+        Event::State(state) => format!("state: {state}"),
+        Event::Reset(_, node) => format!("reset, node {node}"),
+        Event::Saved(_) => "parameters saved".into(),
+        Event::Restored(_) => "defaults restored".into(),
+        Event::StorageDamaged => {
+            "the EEPROM is damaged or of another version; defaults were taken".into()
+        }
+        Event::BusOff { .. } => "bus-off".into(),
+        Event::BusOn => "back from bus-off".into(),
+        Event::Error(error) => format!("error {:04X}h", error.code),
+        Event::ErrorCleared(code) => format!("error {code:04X}h is over"),
+        Event::BitRate(code) => format!("LSS set bit rate {code}; this bus has none"),
+        Event::Written(_) => return None,
+    })
+}
