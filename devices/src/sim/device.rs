@@ -9,8 +9,8 @@ use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Memory, Storage, image};
 use od_runtime::wire::nmt::State;
 use od_runtime::{
-    Application, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
-    Reset, Signals, Store,
+    Application, BusEvent, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId,
+    Profile, Reset, Signals, Store,
 };
 
 use super::eeprom::Eeprom;
@@ -239,6 +239,13 @@ impl VirtualDevice {
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
         }
+    }
+
+    /// The CAN controller has news: error counters, bus-off, a lost frame.
+    pub fn handle_bus(&mut self, event: BusEvent, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_bus(&mut device, now, event);
+        self.take_events();
     }
 
     /// Something outside the bus changed.

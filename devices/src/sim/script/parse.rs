@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 use std::{format, vec};
 
 use od_runtime::wire::nmt::Command;
-use od_runtime::{Instant, NodeId};
+use od_runtime::{BusEvent, Instant, NodeId};
 
 use super::parse_expect::{expect, repeated, sdo};
 use super::statement::{Action, Power, Shaft, Statement, Timing, When};
@@ -286,13 +286,19 @@ fn fault(words: &mut Words<'_>) -> Result<Action, Problem> {
 fn bus(words: &mut Words<'_>) -> Result<Action, Problem> {
     let here = *words;
     match words.next() {
+        "active" => Ok(Action::Bus(BusEvent::Active)),
+        "warning" => Ok(Action::Bus(BusEvent::Warning)),
+        "passive" => Ok(Action::Bus(BusEvent::Passive)),
+        "off" => Ok(Action::Bus(BusEvent::Off)),
+        "overrun" => Ok(Action::Bus(BusEvent::Overrun)),
         "bitrate" if words.take("any") => Ok(Action::BusRate(None)),
         "bitrate" => words
             .number(1, 1000)
             .map(|kbit| Action::BusRate(Some(kbit as u16))),
         word => Err(here.problem(
             format!("a bus cannot `{word}`"),
-            "write `bus bitrate 250` (kbit/s) or `bus bitrate any`",
+            "there are bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) and \
+             bitrate any",
         )),
     }
 }

@@ -150,6 +150,7 @@ impl Runner<'_> {
                     ));
                 }
             }
+            Action::Bus(event) => self.with(|device, now| device.handle_bus(*event, now)),
             Action::BusRate(kbit) => self.bus.set_bit_rate(*kbit),
             Action::Wait => {}
             Action::Nmt { command, node } => {

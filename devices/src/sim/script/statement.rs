@@ -3,7 +3,7 @@
 use std::prelude::v1::*;
 
 use od_runtime::wire::nmt::Command;
-use od_runtime::{AbortCode, Frame, Instant, NodeId};
+use od_runtime::{AbortCode, BusEvent, Frame, Instant, NodeId};
 
 use super::Pattern;
 use crate::sim::Led;
@@ -114,6 +114,8 @@ pub(super) enum Action {
     },
     /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
     BusRate(Option<u16>),
+    /// News of the CAN controller.
+    Bus(BusEvent),
     Wait,
     Nmt {
         command: Command,

@@ -32,8 +32,8 @@ fn every_kind_of_line_is_read() {
 fn several_on_a_bus() {
     check(
         "device eam_red node 1 2 as red\nuse red.2\ndevice gxmm node 3 on red\nbus bitrate 250\n\
-         bus bitrate any\nfault temperature on\nexpect bitrate 50",
-        "7 lines",
+         bus bitrate any\nfault temperature on\nexpect bitrate 50\nbus off\nbus active\nbus overrun",
+        "10 lines",
     );
     check("device eam_red node as red", "1:21: `as` does not fit");
     check("device gxmm on", "1:15: a name is missing");
@@ -87,7 +87,7 @@ fn mistakes_are_found_in_every_line() {
         "1:18: `128` does not fit; write a number from 1 to 127",
     );
     check(
-        "device gxmm on 5",
+        "device gxmm up 5",
         "1:8: a name with blanks stands in quotes",
     );
     check(
