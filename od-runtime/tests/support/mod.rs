@@ -7,7 +7,7 @@ use od_model::{
 };
 use od_runtime::storage::Memory;
 use od_runtime::{
-    Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Application, BusEvent, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
 };
 
 /// One row of a dictionary: address, type, access, mappable, default.
@@ -229,6 +229,19 @@ impl<A: Application> Bench<A> {
         }
         self.now = end;
         out
+    }
+
+    /// The CAN controller says something; what goes out.
+    pub fn bus(&mut self, event: BusEvent) -> Vec<String> {
+        self.node.handle_bus(&mut device!(self), self.now, event);
+        self.drain()
+    }
+
+    /// Power goes and comes back; what goes out.
+    pub fn power_cycle(&mut self) -> Vec<String> {
+        self.node.power_off();
+        self.storage.restore_power();
+        self.power_on()
     }
 
     pub fn change(&mut self) -> Vec<String> {

@@ -10,6 +10,8 @@ use od_model::{Access, DataType, Description, Tables};
 
 use super::*;
 use crate::storage::Memory;
+
+mod factory;
 use crate::{NodeId, Profile};
 
 const STORE: &StoreProfile = &Profile::CIA301.store;

@@ -1,0 +1,125 @@
+//! A family whose cut saves leave the factory values (manual 001, chapter 6.3.3; manual 003,
+//! chapter 5.1.3.1; DECISIONS U-33).
+
+use super::*;
+use crate::{SavedCobIds, StoreProfile};
+use od_model::Address;
+
+const FACTORY: &StoreProfile = &StoreProfile {
+    cut: CutSave::Factory,
+    ..Profile::CIA301.store
+};
+
+const MOVING: &StoreProfile = &StoreProfile {
+    cob_ids: SavedCobIds::Difference,
+    ..*FACTORY
+};
+
+/// The defaults, and a life record of this value.
+fn factory(bench: &mut Bench, record: u64) -> Vec<String> {
+    let mut store = bench.store();
+    store.reset(|_| true);
+    store.set_unsigned(Address::new(0x2201, 0), record);
+    bench.values()
+}
+
+#[test]
+fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
+    for (saves, sub) in [(0u8, 1), (1, 1), (2, 1), (3, 1), (3, 3)] {
+        for cut in 0.. {
+            let (mut bench, mut memory) = (Bench::new(device()), storage());
+            for with in 0..saves {
+                bench.fill(7 + with);
+                save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+            }
+            bench.start(&mut memory);
+            let before = bench.values();
+            let record = bench.store().unsigned(0x2201, 0);
+            let blank = factory(&mut bench, record);
+            bench.start(&mut memory);
+            bench.fill(200);
+            memory.cut_after(cut);
+            let result = save(&mut memory, &bench.store(), FACTORY, sub);
+            memory.restore_power();
+            let loaded = bench.start(&mut memory);
+            if result.is_ok() {
+                assert!(cut > 50, "the save wrote something");
+                assert_eq!(loaded, Loaded::Complete);
+                assert_eq!(bench.store().unsigned(0x6003, 0), 200);
+                let other = if sub == 1 { 200 } else { 9 };
+                assert_eq!(bench.store().unsigned(0x1017, 0), other);
+                break;
+            }
+            assert_eq!(result, Err(StorageError::PowerCut));
+            match loaded {
+                Loaded::Blank => assert_eq!((saves, bench.values()), (0, before)),
+                Loaded::Cut => assert_eq!(bench.values(), blank, "cut at {cut}"),
+                // Before the first byte, and behind the last one of the new set.
+                Loaded::Complete if cut == 0 => assert_eq!(bench.values(), before),
+                Loaded::Complete => assert_eq!(bench.store().unsigned(0x6003, 0), 200),
+                other => panic!("{other:?}"),
+            }
+            if loaded != Loaded::Cut {
+                continue;
+            }
+            // What was saved before does not come back with the next saves.
+            let record = bench.store();
+            save(&mut memory, &record, FACTORY, 0).unwrap();
+            assert_eq!(bench.start(&mut memory), Loaded::Complete);
+            assert_eq!(bench.values(), blank);
+            bench.fill(99);
+            save(&mut memory, &bench.store(), FACTORY, 4).unwrap();
+            assert_eq!(bench.start(&mut memory), Loaded::Complete);
+            assert_eq!(bench.store().unsigned(0x2101, 0), 99);
+            assert_eq!(bench.store().unsigned(0x6003, 0), 0);
+        }
+    }
+}
+
+#[test]
+fn only_the_masters_own_saves_can_take_values_away() {
+    for cut in 0.. {
+        let (mut bench, mut memory) = (Bench::new(device()), storage());
+        bench.fill(5);
+        save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+        memory.cut_after(cut);
+        let record = save(&mut memory, &bench.store(), FACTORY, 0);
+        memory.restore_power();
+        assert_eq!(bench.start(&mut memory), Loaded::Complete, "cut at {cut}");
+        assert_eq!(bench.store().unsigned(0x6003, 0), 5);
+        if record.is_ok() {
+            break;
+        }
+    }
+}
+
+#[test]
+fn a_save_counts_after_its_end_alone() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(5);
+    save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    bench.fill(6);
+    let pending = begin(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Cut);
+    assert_eq!(bench.store().unsigned(0x6003, 0), 0);
+    commit(&mut memory, pending).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Complete);
+    assert_eq!(bench.store().unsigned(0x6003, 0), 6);
+}
+
+#[test]
+fn a_user_s_cob_id_moves_with_the_node_id() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench
+        .store()
+        .set_unsigned(Address::new(0x1014, 0), 0x8000_0087);
+    save(&mut memory, &bench.store(), MOVING, 1).unwrap();
+    for (node_id, cob_id) in [(1, 0x8000_0087), (3, 0x8000_0089), (127, 0x8000_0105)] {
+        bench.node_id = node_id;
+        let mut store = bench.store();
+        store.reset(|_| true);
+        let loaded = load(&mut memory, &mut store, MOVING, &|_| true);
+        assert_eq!(loaded, Ok(Loaded::Complete));
+        assert_eq!(bench.store().unsigned(0x1014, 0), cob_id);
+    }
+}
