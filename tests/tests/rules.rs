@@ -59,6 +59,84 @@ fn rules() -> String {
     page
 }
 
+/// One of the 127 cases.
+struct Case {
+    number: String,
+    what: String,
+    /// Why no script shows it; empty if one does.
+    reason: String,
+}
+
+fn cases() -> Vec<Case> {
+    let path = scripts::root().join("cia/cases.txt");
+    let text = fs::read_to_string(path).expect("the list of the cases");
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    lines
+        .map(|line| {
+            let [number, what, reason] = line.split('|').collect::<Vec<_>>()[..] else {
+                panic!("cases.txt: `{line}` is not number | what | reason");
+            };
+            let [number, what, reason] = [number, what, reason].map(|text| text.trim().into());
+            Case {
+                number,
+                what,
+                reason,
+            }
+        })
+        .collect()
+}
+
+fn cia() -> String {
+    let mut scripts: BTreeMap<String, Vec<(String, Header)>> = BTreeMap::new();
+    for (name, header) in headers() {
+        if let Some(number) = header.source.strip_prefix("CiA case ") {
+            let of_case = scripts.entry(number.to_owned()).or_default();
+            of_case.push((name, header));
+        }
+    }
+    let mut rows = String::new();
+    let mut shown = 0;
+    for case in cases() {
+        let there = scripts.remove(&case.number).unwrap_or_default();
+        assert_eq!(
+            there.is_empty(),
+            !case.reason.is_empty(),
+            "case {} has either scripts or a reason",
+            case.number
+        );
+        shown += usize::from(!there.is_empty());
+        let links: Vec<_> = there
+            .iter()
+            .map(|(name, header)| format!("{} ({})", link(name), header.devices.join(", ")))
+            .collect();
+        let how = if links.is_empty() {
+            format!("– {}", case.reason)
+        } else {
+            links.join("<br>")
+        };
+        let _ = writeln!(rows, "| {} | {} | {how} |", case.number, cell(&case.what));
+    }
+    assert!(scripts.is_empty(), "no such cases: {:?}", scripts.keys());
+    format!(
+        "# The CiA conformance test\n\n\
+         Its 127 cases, in our words, and the scripts that play them on one family of each\n\
+         manual: {shown} of them apply to devices that have no RPDOs, produce no SYNC and have no\n\
+         write-only objects. A transfer that no manual has is shown by its refusal; where the\n\
+         families answer differently, each has a script of its own.\n\n\
+         This page is generated from `tests/conformance/cia`:\n\
+         `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules`.\n\n\
+         | case | what it tests | script, or why there is none |\n|---|---|---|\n{rows}"
+    )
+}
+
+#[test]
+fn every_case_of_cia_has_a_script_or_a_reason() {
+    assert_eq!(cases().len(), 127);
+    if let Err(what) = compare_page("CIA.md", &cia()) {
+        panic!("{what}");
+    }
+}
+
 #[test]
 fn every_rule_is_in_the_table() {
     if let Err(what) = compare_page("RULES.md", &rules()) {

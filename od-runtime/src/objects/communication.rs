@@ -32,6 +32,11 @@ const fn pdo(index: u16) -> Option<(u16, bool)> {
     }
 }
 
+/// Is it the number of objects that a PDO maps?
+pub(super) const fn is_mapping_count(address: Address) -> bool {
+    matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub == 0
+}
+
 impl Objects<'_> {
     /// Rules of the standard for an object below 2000h.
     pub(super) fn check_communication(&self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {

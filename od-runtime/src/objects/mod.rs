@@ -218,7 +218,8 @@ impl<'c> Objects<'c> {
         if let Some(signature) = communication::command(address) {
             return self.command(entry, signature, bytes);
         }
-        limits::check(&self.store, entry, bytes).map_err(|outside| self.refusal(outside))?;
+        limits::check(&self.store, entry, bytes)
+            .map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
             self.check_communication(entry, bytes)?;
         }
@@ -233,8 +234,10 @@ impl<'c> Objects<'c> {
     }
 
     /// How an SDO is told that a value is out of its limits.
-    fn refusal(&self, outside: Outside) -> AbortCode {
+    fn refusal(&self, address: Address, outside: Outside) -> AbortCode {
         match outside {
+            // More objects than a mapping has room for are too many, not too great a number.
+            Outside::Above if communication::is_mapping_count(address) => AbortCode::PdoTooLong,
             Outside::Above => AbortCode::ValueTooHigh,
             Outside::Below => self.profile.sdo.below_limit,
             Outside::NotAllowed => AbortCode::ValueRange,
