@@ -7,6 +7,7 @@ mod check;
 mod convert;
 mod diff;
 mod dump;
+mod explain;
 mod export;
 mod live;
 mod output;
@@ -34,6 +35,7 @@ enum Command {
     Sim(sim::Args),
     Run(run::Args),
     Check(check::Args),
+    Explain(explain::Args),
     Dump(dump::Args),
     Export(export::Args),
     Convert(convert::Args),
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         Command::Sim(args) => sim::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Explain(args) => explain::run(&args),
         Command::Dump(args) => dump::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Convert(args) => convert::run(&args),

@@ -23,7 +23,15 @@ PDOMapping=0
 fn help_and_version_are_friendly() {
     let help = odkit(&["--help"], "");
     assert_eq!(help.code, 0);
-    for word in ["sim", "run", "check", "dump", "gxmm", "Exit codes"] {
+    for word in [
+        "sim",
+        "run",
+        "check",
+        "explain",
+        "dump",
+        "gxmm",
+        "Exit codes",
+    ] {
         assert!(help.out.contains(word), "{word}\n{}", help.out);
     }
     let version = odkit(&["--version"], "");

@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 
 use crate::{Address, Description, Diagnostic, EntryDescription, Span, Spanned, Value};
 
+mod allow;
 mod data_types;
 mod identity;
 mod limits;
@@ -25,7 +26,8 @@ mod sub_index_0;
 pub(crate) mod text;
 mod values;
 
-pub use rules::{RULES, Rule, rule};
+pub use allow::{Allows, parse_allow};
+pub use rules::{Mending, RULES, Rule, rule};
 
 /// All that is wrong with a description, in file order.
 ///

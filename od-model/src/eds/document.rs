@@ -151,7 +151,7 @@ impl Document {
 
     /// What the file says, and the findings of all checks; see [`load`](super::load).
     pub fn load(&self) -> Parsed {
-        super::checked(self.parse())
+        super::checked(self.parse(), &self.text)
     }
 
     /// Carries out edits of the text as it is now, in any order: all or none.

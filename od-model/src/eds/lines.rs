@@ -43,15 +43,15 @@ pub(super) struct Scan<'a> {
 }
 
 /// One line, and where it is.
-struct Line<'a> {
-    text: &'a str,
+pub(crate) struct Line<'a> {
+    pub(crate) text: &'a str,
     start: usize,
-    number: u32,
+    pub(crate) number: u32,
 }
 
 impl<'a> Line<'a> {
     /// The span of `part`, which is a piece of this line.
-    fn span(&self, part: &str) -> Span {
+    pub(crate) fn span(&self, part: &str) -> Span {
         let within = part.as_ptr() as usize - self.text.as_ptr() as usize;
         let before = &self.text[..within];
         let column = match before.is_ascii() {
@@ -88,7 +88,7 @@ pub(super) fn span(text: &str, at: usize) -> Span {
 }
 
 /// The lines of a text; `\n`, `\r\n` and `\r` end one.
-fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     let mut rest = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     let mut number = 0;
     core::iter::from_fn(move || {

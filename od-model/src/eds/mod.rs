@@ -40,6 +40,9 @@ pub use encoding::{Encoding, decode};
 pub use parse::parse;
 pub use write::write;
 
+pub(crate) use lines::lines;
+use sections::Place;
+
 /// What a text says, and what is to be said about the text.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Parsed {
@@ -49,6 +52,14 @@ pub struct Parsed {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+/// The object that the section of this name is about.
+pub(crate) fn object_of(name: &str) -> Option<u16> {
+    match sections::place(name) {
+        Place::Object(index) | Place::Member(index, _) | Place::Compact(index, _) => Some(index),
+        Place::List(_) | Place::Other => None,
+    }
+}
+
 /// A number of a section that describes no object, however it is written.
 pub(crate) fn number(text: &str) -> Option<i128> {
     let mut notes = Vec::new();
@@ -56,16 +67,18 @@ pub(crate) fn number(text: &str) -> Option<i128> {
     number::integer(text, &mut notes).map(|number| number.value)
 }
 
-/// Reads and checks an EDS or a DCF: [`parse`], then [`check`](crate::check::check).
+/// Reads and checks an EDS or a DCF: [`parse`], then [`check`](crate::check::check),
+/// without what the text [allows](crate::check::Allows).
 pub fn load(text: &str) -> Parsed {
-    checked(parse(text))
+    checked(parse(text), text)
 }
 
 /// What was read, with the findings of all checks.
-fn checked(mut parsed: Parsed) -> Parsed {
+fn checked(mut parsed: Parsed, text: &str) -> Parsed {
     parsed
         .diagnostics
         .extend(crate::check::check(&parsed.description));
     crate::check::sort(&mut parsed.diagnostics);
+    crate::check::Allows::of(text).apply(&mut parsed.diagnostics);
     parsed
 }

@@ -101,7 +101,7 @@ macro_rules! folders {
     };
 }
 
-folders! { text lists structure values pdo standard edits }
+folders! { text lists structure values pdo standard edits allow }
 
 const COUNT: usize = {
     let (mut count, mut at) = (0, 0);

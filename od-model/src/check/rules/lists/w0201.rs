@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "listed object has no section",
     why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "SupportedObjects does not count its list",
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

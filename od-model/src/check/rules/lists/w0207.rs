@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "object is listed twice",
     why: "One entry is enough; some editors make two objects of two.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

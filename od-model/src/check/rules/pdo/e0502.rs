@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "PDO maps an object that is not mappable",
     why: "PDOMapping=0 forbids it.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

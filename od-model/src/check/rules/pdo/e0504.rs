@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "PDO maps an object with a wrong length",
     why: "The last byte of a mapping entry is the object's length in bits.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "PDO communication parameter lacks COB-ID or transmission type",
     why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "mapping entry is no UNSIGNED32",
     why: "A mapping entry is index, sub-index and length in one UNSIGNED32.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "RPDO maps a dummy that [DummyUsage] does not allow",
     why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
     source: "CiA 306-1, DummyUsage",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

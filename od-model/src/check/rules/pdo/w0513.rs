@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "PDO maps a BOOLEAN with 8 bits",
     why: "A BOOLEAN has one bit in a PDO. Some stacks send a byte, and a master that goes by the type reads the rest of the PDO wrong.",
     source: "CiA 301, data types and PDO mapping parameter",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

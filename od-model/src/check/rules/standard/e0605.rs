@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "object 1001h is not as CiA 301 says",
     why: "A VAR, UNSIGNED8, read only.",
     source: "CiA 301, object 1001h",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "object 1018h is not as CiA 301 says",
     why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
     source: "CiA 301, object 1018h",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

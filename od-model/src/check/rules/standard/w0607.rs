@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "identity differs from [DeviceInfo]",
     why: "VendorNumber, ProductNumber and RevisionNumber are the defaults of 1018h; a master picks the EDS by them.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "number of PDOs differs from [DeviceInfo]",
     why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "VAR has sub-indices",
     why: "Only an ARRAY or a RECORD has sub-indices. Where the object has no type of its own it is taken for a RECORD, else the sub-indices are left out.",
     source: "CiA 301, object codes",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "sub-index 0 is no UNSIGNED8",
     why: "Sub-index 0 is the highest sub-index, an UNSIGNED8, in every ARRAY and RECORD.",
     source: "CiA 301, object structure",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "sub-index 0 promises members that do not exist",
     why: "A master that reads up to the highest sub-index gets an abort. A value that counts entries in use may be lower than the members, never higher.",
     source: "CiA 301, object structure",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

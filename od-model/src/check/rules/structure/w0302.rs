@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "object with members has no ObjectType",
     why: "Without ObjectType an object is a VAR, and this one has members. It is taken for a RECORD.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "ARRAY or RECORD has no sub-index 0",
     why: "A master reads sub-index 0 to learn how many members there are.",
     source: "CiA 301, object structure",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

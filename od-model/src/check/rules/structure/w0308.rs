@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "SubNumber does not count the sub-indices",
     why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "sub-index 0 is lower than the highest member",
     why: "A master that reads up to sub-index 0 never sees the members above it.",
     source: "CiA 301, object structure",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

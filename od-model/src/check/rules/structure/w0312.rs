@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "members of an ARRAY differ in type",
     why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
     source: "CiA 301, object codes",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "SubNumber is missing",
     why: "An object with members says how many. They are counted instead.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "line is no section, no key and no comment",
     why: "Most readers stop at such a line. It is ignored here.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "line has no key before the `=`",
     why: "Nothing can ask for a value without a key. The line is ignored.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

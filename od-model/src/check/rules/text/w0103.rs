@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "section header has no closing bracket",
     why: "Most readers stop at such a line. The header is taken to end with its line.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

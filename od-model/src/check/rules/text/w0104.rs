@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "text behind a section header",
     why: "Most readers stop at such a line. The text is ignored.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

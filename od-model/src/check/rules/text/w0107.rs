@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "key stands twice in its section",
     why: "Readers differ in which one they take. The first counts.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Either,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "`:` instead of `=`",
     why: "Only some readers know it. It is read as `=`.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

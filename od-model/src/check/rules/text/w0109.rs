@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "comment behind a value",
     why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

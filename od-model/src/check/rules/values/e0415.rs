@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "LowLimit is greater than HighLimit",
     why: "No value lies between them.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

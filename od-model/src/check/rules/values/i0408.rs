@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "number with a leading 0 is octal",
     why: "`010` is 8. It is read so, as C reads it; not every reader does.",
     source: "CiA 306-1, numbers",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

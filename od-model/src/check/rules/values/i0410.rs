@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "two's complement for a negative number",
     why: "In a signed type a hexadecimal number may be the bit pattern: FFh is -1 in an INTEGER8. It is read so; not every reader does.",
     source: "CiA 306-1, numbers",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "$NODEID is not written as `$NODEID+n`",
     why: "Another order, other case or blanks are read the same; not every reader does.",
     source: "CiA 306-1, $NODEID",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "AccessType is missing",
     why: "Every value says who may write it. `ro` is taken.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

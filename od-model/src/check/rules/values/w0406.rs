@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "PDOMapping is neither 0 nor 1",
     why: "0 is taken.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

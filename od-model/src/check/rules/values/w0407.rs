@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "ObjFlags is no number",
     why: "0 is taken.",
     source: "CiA 306-1, ObjFlags",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "number with a leading 0 is not octal",
     why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
     source: "CiA 306-1, numbers",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "limit is no value of its type",
     why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::None,
+    mending: Mending::Unsafe,
     before: "",
     after: "",
 };

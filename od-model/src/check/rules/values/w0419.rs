@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "byte string is not hexadecimal",
     why: "An OCTET_STRING or a DOMAIN is written as hexadecimal bytes. The characters are taken for the bytes.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

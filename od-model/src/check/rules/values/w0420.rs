@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "number has a suffix or a decimal point",
     why: "`0x10L` and `5.0` are how other languages write integers. The integer is taken; many readers refuse it.",
     source: "CiA 306-1, numbers",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -9,7 +9,7 @@ pub(crate) const RULE: Rule = Rule {
     title: "BOOLEAN is neither 0 nor 1",
     why: "`true` and `false` are words of other formats. They are read as 1 and 0.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
+    mending: Mending::Safe,
     before: "",
     after: "",
 };

@@ -1,0 +1,78 @@
+//! Workflow commands of GitHub Actions: an annotation at the line of each finding.
+
+use od_model::{Diagnostic, Severity};
+
+use super::Checked;
+
+pub(super) fn lines(checked: &Checked, remarks: bool) -> impl Iterator<Item = String> {
+    checked
+        .findings
+        .iter()
+        .filter(move |finding| remarks || finding.severity > Severity::Info)
+        .map(|finding| line(&checked.path, checked.document.text(), finding))
+}
+
+fn line(path: &str, text: &str, finding: &Diagnostic) -> String {
+    let command = match finding.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Info => "notice",
+    };
+    let mut line = format!("::{command} file={}", property(path));
+    if let Some(span) = finding.span {
+        let range = span.start as usize..span.end as usize;
+        let wide = text.get(range).map_or(0, |part| part.chars().count());
+        let end = span.column as usize + wide;
+        line.push_str(&format!(
+            ",line={},endLine={},col={},endColumn={end}",
+            span.line, span.line, span.column
+        ));
+    }
+    let mut message = finding.message.clone();
+    if let Some(address) = finding.address {
+        message = format!("object {address}: {message}");
+    }
+    if !finding.help.is_empty() {
+        message = format!("{message}\nhelp: {}", finding.help);
+    }
+    format!(
+        "{line},title={}::{}",
+        property(finding.code),
+        escaped(&message)
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('%', "%25")
+        .replace('\r', "%0D")
+        .replace('\n', "%0A")
+}
+
+fn property(text: &str) -> String {
+    escaped(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+#[cfg(test)]
+mod tests {
+    use od_model::{Address, Diagnostic, Span};
+
+    use super::*;
+
+    #[test]
+    fn nothing_breaks_out_of_a_command() {
+        let finding = Diagnostic::warning("W0109", "100 %\n::error::x")
+            .with_address(Address::new(0x2000, 1))
+            .with_span(Span {
+                start: 0,
+                end: 3,
+                line: 4,
+                column: 2,
+            })
+            .with_help("write, or not");
+        assert_eq!(
+            line("a,b:c.eds", "µx", &finding),
+            "::warning file=a%2Cb%3Ac.eds,line=4,endLine=4,col=2,endColumn=4,title=W0109::\
+             object 2000h:01: 100 %25%0A::error::x%0Ahelp: write, or not"
+        );
+    }
+}

@@ -1,0 +1,42 @@
+//! A mended file: shown as a diff, or written.
+
+use std::fs;
+use std::path::Path;
+
+use similar::TextDiff;
+
+/// A unified diff between two texts; empty where they are the same.
+pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
+    let diff = TextDiff::from_lines(before, after);
+    let shown = diff
+        .unified_diff()
+        .context_radius(3)
+        .header(path, path)
+        .to_string();
+    // A carriage return would send a terminal's cursor back.
+    shown.replace('\r', "")
+}
+
+/// Writes a file all at once: whoever looks sees the old one or the new one.
+pub(super) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("it cannot be written: {error}");
+    // Through a link, to the file that is meant.
+    let path = fs::canonicalize(path).map_err(failed)?;
+    if fs::metadata(&path).is_ok_and(|meta| meta.permissions().readonly()) {
+        return Err("it cannot be written: it is read only".to_owned());
+    }
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let beside = path.parent().unwrap_or(Path::new("")).join(name);
+    let written = fs::write(&beside, bytes)
+        .and_then(|()| {
+            let permissions = fs::metadata(&path)?.permissions();
+            fs::set_permissions(&beside, permissions)
+        })
+        .and_then(|()| fs::rename(&beside, &path));
+    if written.is_err() {
+        // Nothing more can be done about it if that fails, too.
+        let _ = fs::remove_file(&beside);
+    }
+    written.map_err(failed)
+}

@@ -1,0 +1,140 @@
+//! `odkit explain`: what a code means, and what to do about it.
+
+use od_model::Severity;
+use od_model::check::{RULES, Rule, rule};
+
+use crate::Failure;
+use crate::output::Output;
+
+/// Explain the code of a finding: why it matters, with an example before and after
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// The codes, such as `E0412`
+    #[arg(required_unless_present = "list", value_name = "CODE")]
+    codes: Vec<String>,
+    /// List all codes
+    #[arg(long, conflicts_with = "codes")]
+    list: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut output = Output::new();
+    if args.list {
+        for rule in RULES {
+            let (code, severity) = (rule.code, word(rule.severity));
+            let fix = rule.mending.name();
+            if !output.line(&format!("{code}  {severity:<7}  {fix:<14}  {}", rule.title))? {
+                break;
+            }
+        }
+        output.flush()?;
+        return Ok(());
+    }
+    let mut found = Vec::new();
+    for code in &args.codes {
+        found.push(rule(code).ok_or_else(|| unknown(code))?);
+    }
+    for (at, rule) in found.into_iter().enumerate() {
+        if at > 0 {
+            output.line("")?;
+        }
+        output.line(text(rule).trim_end())?;
+    }
+    output.flush()?;
+    Ok(())
+}
+
+const fn word(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Info => "remark",
+    }
+}
+
+fn unknown(code: &str) -> Failure {
+    // A code never changes its meaning, but somebody may remember the wrong letter.
+    let digits = code.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    let near = RULES.iter().find(|rule| &rule.code[1..] == digits);
+    Failure::Usage(match near {
+        Some(near) => format!("there is no code `{code}`; did you mean {}?", near.code),
+        None => format!("there is no code `{code}`; `odkit explain --list` has them all"),
+    })
+}
+
+fn text(rule: &Rule) -> String {
+    let mut text = format!(
+        "{} ({}): {}\n\n{}\n",
+        rule.code,
+        word(rule.severity),
+        rule.title,
+        wrapped(rule.why, 90)
+    );
+    for (title, lines) in [("Before:", rule.before), ("After:", rule.after)] {
+        if !lines.is_empty() {
+            text.push_str(&format!("\n{title}\n"));
+            for line in lines.lines() {
+                text.push_str(format!("    {line}").trim_end());
+                text.push('\n');
+            }
+        }
+    }
+    let fix = match rule.mending.name() {
+        "by hand" => "by hand; nobody but you knows what is meant".to_owned(),
+        "safe" => "`odkit check --fix`".to_owned(),
+        "unsafe" => "`odkit check --unsafe-fixes`; look at the result".to_owned(),
+        _ => "`odkit check --fix` where nothing is lost by it, else `--unsafe-fixes`".to_owned(),
+    };
+    text.push_str(&format!("\nMend:   {fix}\nSource: {}\n", rule.source));
+    if !matches!(&rule.code[1..3], "07" | "08") {
+        text.push_str(&format!(
+            "Allow:  `;odkit-allow={} reason` in the file, or `--allow {}`\n",
+            rule.code, rule.code
+        ));
+    }
+    text
+}
+
+/// Words in lines of about this width.
+fn wrapped(text: &str, width: usize) -> String {
+    let mut out = String::new();
+    let mut column = 0;
+    for word in text.split_whitespace() {
+        let long = word.chars().count();
+        if column > 0 && column + 1 + long > width {
+            out.push('\n');
+            column = 0;
+        } else if column > 0 {
+            out.push(' ');
+            column += 1;
+        }
+        out.push_str(word);
+        column += long;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_rule_has_a_page() {
+        for rule in RULES {
+            let page = text(rule);
+            assert!(
+                page.starts_with(rule.code) && page.contains(rule.source),
+                "{page}"
+            );
+            assert!(
+                page.lines().all(|line| line.chars().count() <= 130),
+                "{page}"
+            );
+        }
+    }
+
+    #[test]
+    fn words_wrap_between_words() {
+        assert_eq!(wrapped("a bb ccc dddd", 6), "a bb\nccc\ndddd");
+    }
+}

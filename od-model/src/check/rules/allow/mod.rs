@@ -1,0 +1,7 @@
+//! 08: findings that a file allows. One file a rule.
+
+catalogue! {
+    w0801 W0801
+    w0802 W0802
+    i0803 I0803
+}

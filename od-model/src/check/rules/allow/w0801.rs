@@ -1,0 +1,15 @@
+//! W0801: odkit-allow names no rule.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0801",
+    severity: Warning,
+    title: "odkit-allow names no rule",
+    why: "`;odkit-allow=` takes the codes of findings of a file, with commas between them. What it says is not followed.",
+    source: "odkit",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

@@ -1,0 +1,15 @@
+//! W0802: odkit-allow gives no reason.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0802",
+    severity: Warning,
+    title: "odkit-allow gives no reason",
+    why: "Who reads the file next has to know why a finding is no fault. Nothing is allowed without a reason.",
+    source: "odkit",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};
