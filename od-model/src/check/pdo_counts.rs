@@ -1,7 +1,7 @@
 //! [DeviceInfo] counts the PDOs that there are.
 //!
 //! Guarantees nothing but agreement. Assumes that a communication parameter is a
-//! PDO. Source: CiA 306-1, DeviceInfo.
+//! PDO, and that the reader made those that CompactPDO stands for. Source: CiA 306-1, DeviceInfo.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -15,9 +15,6 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     let Some(info) = description.section("DeviceInfo") else {
         return;
     };
-    let compact = info
-        .get("CompactPDO")
-        .filter(|compact| number(compact).is_some_and(|mask| mask != 0));
     for (key, range, what) in [
         ("NrOfRxPDO", 0x1400..=0x15FF, "1400h–15FFh"),
         ("NrOfTxPDO", 0x1800..=0x19FF, "1800h–19FFh"),
@@ -25,17 +22,6 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         let Some(given) = info.get(key) else { continue };
         let count = description.objects.range(range).count();
         match number(given) {
-            Some(number) if number > count as i128 && compact.is_some() => findings.push(
-                rules::W0514
-                    .at(
-                        compact.map_or(given.span, |compact| compact.span),
-                        format!(
-                            "CompactPDO: {key} is {number}, but there are {count} objects {what}"
-                        ),
-                    )
-                    .with_label(given.span, format!("{key} is here"))
-                    .with_help("write a section for every PDO object, and `CompactPDO=0`"),
-            ),
             Some(number) if number != count as i128 => findings.push(
                 rules::W0608
                     .at(

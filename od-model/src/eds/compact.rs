@@ -10,6 +10,7 @@ use super::ini::Placed;
 use super::number;
 use super::sections::Compact;
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{Access, Address, DataType, Diagnostic, EntryDescription, Span, Spanned, Value};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
@@ -74,6 +75,7 @@ pub(super) fn expand(
     }
     let mut given = BTreeSet::new();
     for (compact, section) in sections {
+        entry_count(&section, address, log);
         for (key, value) in &section.section.pairs {
             if key.eq_ignore_ascii_case("NrOfEntries") || value.is_empty() {
                 continue;
@@ -102,6 +104,42 @@ pub(super) fn expand(
         }
     }
     entries
+}
+
+/// Names an NrOfEntries that does not count the entries of its section.
+fn entry_count(section: &Placed, address: Address, log: &mut Vec<Diagnostic>) {
+    let entries = section
+        .section
+        .pairs
+        .iter()
+        .filter(|(key, value)| !key.eq_ignore_ascii_case("NrOfEntries") && !value.is_empty())
+        .count();
+    let given = section.section.get("NrOfEntries");
+    if given.and_then(|given| super::number(given)) == i128::try_from(entries).ok() {
+        return;
+    }
+    let (span, message, fix) = match given {
+        Some(given) => (
+            given.span,
+            format!(
+                "NrOfEntries is {}, but the section has {entries}",
+                given.value
+            ),
+            Fix::safe().replace(given.span, format!("{entries}")),
+        ),
+        None => (
+            section.header,
+            "there is no NrOfEntries".into(),
+            Fix::safe().below(section.header, format!("NrOfEntries={entries}")),
+        ),
+    };
+    log.push(
+        rules::W0321
+            .at(span, message)
+            .with_address(address)
+            .with_help(format!("write `NrOfEntries={entries}`"))
+            .with_fix(fix),
+    );
 }
 
 fn give(

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use super::fields::Fields;
 use super::number::{self, Note};
 use super::values;
+use super::words;
 use crate::check::rules;
 use crate::check::text;
 use crate::fix::Fix;
@@ -98,6 +99,7 @@ impl Reader<'_> {
         let known = number
             .and_then(|code| u16::try_from(code).ok())
             .and_then(DataType::from_code);
+        let known = known.or_else(|| words::data_type(self, &given));
         if known.is_none() {
             self.report(
                 rules::E0402
@@ -130,7 +132,8 @@ impl Reader<'_> {
             Access::Const,
         ]
         .into_iter()
-        .find(|access| word.eq_ignore_ascii_case(access.name()));
+        .find(|access| word.eq_ignore_ascii_case(access.name()))
+        .or_else(|| words::access(self, &given, word));
         match known {
             Some(access) => {
                 self.notes(&notes, "AccessType", &given, || access.name().into());
@@ -156,7 +159,7 @@ impl Reader<'_> {
         let mappable = match self.number("PDOMapping", &given) {
             Some(0) => false,
             Some(1) => true,
-            _ => {
+            _ => words::mappable(self, &given).unwrap_or_else(|| {
                 self.report(
                     rules::W0406
                         .at(
@@ -166,9 +169,9 @@ impl Reader<'_> {
                         .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`")
                         .with_fix(Fix::guess().replace(given.span, "0")),
                 );
-                unread.push(("PDOMapping".into(), given.value));
+                unread.push(("PDOMapping".into(), given.value.clone()));
                 false
-            }
+            }),
         };
         Spanned::new(mappable, given.span)
     }
@@ -301,6 +304,11 @@ fn note_finding(note: Note, given: &str, span: Span) -> Diagnostic {
             format!("`{given}` is no string of hexadecimal bytes"),
         ),
         Note::Suffix => (rules::W0420, format!("`{given}` is read as an integer")),
+        Note::BareHex => (rules::W0422, format!("`{given}` is read as hexadecimal")),
+        Note::Comma => (
+            rules::W0423,
+            format!("`{given}` is read with a decimal point"),
+        ),
         Note::Word => (rules::W0421, format!("`{given}` is read as a number")),
     };
     rule.at(span, message)

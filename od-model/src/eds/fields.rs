@@ -6,9 +6,22 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::ini::Placed;
+use super::number::before_comment;
+use super::other::unknown_object_keys;
 use crate::check::rules;
 use crate::fix::Fix;
-use crate::{Diagnostic, Group, Section, Span, Spanned};
+use crate::{Address, Diagnostic, Group, Span, Spanned};
+
+/// Keys that say nothing when they are empty; an empty value or limit is none.
+const NOT_EMPTY: [&str; 7] = [
+    "ObjectType",
+    "SubNumber",
+    "DataType",
+    "AccessType",
+    "PDOMapping",
+    "ObjFlags",
+    "CompactSubObj",
+];
 
 /// The keys of a section that describes an object or a member.
 pub(super) struct Fields {
@@ -21,7 +34,7 @@ pub(super) struct Fields {
 
 impl Fields {
     /// The fields of a section; of keys that stand twice, the first counts.
-    pub(super) fn new(placed: Placed, log: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn new(placed: Placed, address: Address, log: &mut Vec<Diagnostic>) -> Self {
         let mut pairs = placed.section.pairs;
         let mut twice = duplicates(&pairs, log).into_iter().peekable();
         let mut at = 0;
@@ -30,6 +43,22 @@ impl Fields {
             at += 1;
             keep
         });
+        for (key, value) in &mut pairs {
+            let numeric = NOT_EMPTY.iter().any(|name| key.eq_ignore_ascii_case(name));
+            if numeric && before_comment(value).is_empty() {
+                log.push(
+                    rules::I0320
+                        .at(key.span, format!("`{}` is empty", key.value))
+                        .with_address(address)
+                        .with_help(format!(
+                            "give `{}` a value, or leave the line out",
+                            key.value
+                        ))
+                        .with_fix(Fix::safe().remove_line(key.span)),
+                );
+                value.value.clear();
+            }
+        }
         let group = placed
             .storage
             .and_then(|storage| group(&storage).map(|group| Spanned::new(group, storage.span)));
@@ -57,8 +86,9 @@ impl Fields {
             .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
     }
 
-    /// What nobody has taken, in file order.
-    pub(super) fn rest(self) -> Vec<(String, String)> {
+    /// What nobody has taken, in file order; what nobody knows is named.
+    pub(super) fn rest(self, address: Address, log: &mut Vec<Diagnostic>) -> Vec<(String, String)> {
+        unknown_object_keys(&self.pairs, address, log);
         self.pairs
             .into_iter()
             .map(|(key, value)| (key.value, value.value))
@@ -131,18 +161,4 @@ pub(super) fn duplicates(
         }
     }
     found
-}
-
-/// Do two sections say the same, whatever the order and case of their keys?
-pub(super) fn same_content(a: &Section, b: &Section) -> bool {
-    let sorted = |section: &Section| {
-        let mut pairs: Vec<_> = section
-            .pairs
-            .iter()
-            .map(|(key, value)| (key.to_ascii_lowercase(), value.value.clone()))
-            .collect();
-        pairs.sort();
-        pairs
-    };
-    a.pairs.len() == b.pairs.len() && sorted(a) == sorted(b)
 }

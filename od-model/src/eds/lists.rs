@@ -10,18 +10,19 @@ use super::number;
 use super::sections::List;
 use crate::check::rules;
 use crate::fix::Fix;
-use crate::{Address, Description, Diagnostic, Span, Spanned};
+use crate::{Address, Description, Diagnostic, ObjectDescription, Span, Spanned};
 
-/// Compares the lists of a file with the objects it has.
+/// Compares the lists of a file with the objects it has, and those that CompactPDO made.
 pub(super) fn check(
     lists: &BTreeMap<List, Vec<Placed>>,
     description: &Description,
+    made: &BTreeMap<u16, ObjectDescription>,
     log: &mut Vec<Diagnostic>,
 ) {
     let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
     for (list, sections) in lists {
         for section in sections {
-            entries(*list, section, description, &mut listed, log);
+            entries(*list, section, description, made, &mut listed, log);
         }
     }
     if description.objects.is_empty() {
@@ -50,6 +51,7 @@ fn entries(
     list: List,
     placed: &Placed,
     description: &Description,
+    made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
     log: &mut Vec<Diagnostic>,
 ) {
@@ -89,7 +91,7 @@ fn entries(
             continue;
         }
         listed.insert(index, value.span);
-        if !description.objects.contains_key(&index) {
+        if !description.objects.contains_key(&index) && !made.contains_key(&index) {
             log.push(
                 rules::W0201
                     .at(

@@ -19,19 +19,23 @@ use alloc::vec::Vec;
 use crate::{Description, Diagnostic};
 
 mod compact;
+mod compact_pdo;
 mod describe;
 mod document;
 mod encoding;
 mod entry;
 mod fields;
 mod ini;
+mod known;
 mod lines;
 mod lists;
 mod number;
 mod object;
+mod other;
 mod parse;
 mod sections;
 mod values;
+mod words;
 mod write;
 
 pub use describe::{About, describe};

@@ -1,5 +1,6 @@
 //! Numbers as EDS files write them.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 
 /// What was odd about a value that was understood all the same.
@@ -21,6 +22,10 @@ pub(super) enum Note {
     Characters,
     /// `true`, `false`
     Word,
+    /// `FF`, `1Fh`
+    BareHex,
+    /// `1,5`
+    Comma,
 }
 
 /// A number with what was odd about it.
@@ -33,7 +38,8 @@ pub(super) struct Number {
 
 /// The text in front of a `;` or a `#`.
 pub(super) fn before_comment(text: &str) -> &str {
-    match text.find([';', '#']) {
+    let found = text.find([';', '#']).or_else(|| text.find("//"));
+    match found {
         Some(at) => text[..at].trim_end(),
         None => text,
     }
@@ -41,13 +47,11 @@ pub(super) fn before_comment(text: &str) -> &str {
 
 /// The text in front of a `;` or a `#`, which is noted.
 pub(super) fn without_comment<'a>(text: &'a str, notes: &mut Vec<Note>) -> &'a str {
-    match text.find([';', '#']) {
-        Some(at) => {
-            notes.push(Note::Comment);
-            text[..at].trim_end()
-        }
-        None => text,
+    let before = before_comment(text);
+    if before.len() != text.len() {
+        notes.push(Note::Comment);
     }
+    before
 }
 
 /// An integer: decimal, `0x` hexadecimal or octal with a leading 0, with a sign.
@@ -72,7 +76,7 @@ pub(super) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
             digits = bare;
         }
     }
-    let (radix, digits) = match hex_digits(digits) {
+    let (radix, digits) = match hex_digits(digits).or_else(|| bare_hex(unsigned, notes)) {
         Some(digits) => (16, digits),
         None => (decimal_or_octal(digits, notes), digits),
     };
@@ -89,6 +93,29 @@ pub(super) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
 
 fn hex_digits(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
+}
+
+/// The digits of `1Fh` and `FF`; a word such as `add` is none.
+fn bare_hex<'a>(text: &'a str, notes: &mut Vec<Note>) -> Option<&'a str> {
+    let digits = text.strip_suffix(['h', 'H']);
+    let bare = digits.unwrap_or(text);
+    let letters = || bare.bytes().filter(u8::is_ascii_alphabetic);
+    // `1e3` may as well be a thousand.
+    let exponent = bare.bytes().filter(u8::is_ascii_alphabetic).eq(*b"e")
+        || bare.bytes().filter(u8::is_ascii_alphabetic).eq(*b"E");
+    let is_number = bare.bytes().all(|b| b.is_ascii_hexdigit())
+        && (digits.is_some() || letters().next().is_some())
+        && match bare.len() {
+            0 => false,
+            1 | 2 => true,
+            _ if exponent => false,
+            _ => {
+                bare.bytes().any(|b| b.is_ascii_digit())
+                    || letters().all(|b| b.eq_ignore_ascii_case(&b'F'))
+            }
+        };
+    is_number.then(|| notes.push(Note::BareHex))?;
+    Some(bare)
 }
 
 /// 8 for `017`, 10 for `17`, `08` and `0`; `007` is the same in both and no news.
@@ -109,39 +136,57 @@ fn decimal_or_octal(digits: &str, notes: &mut Vec<Note>) -> u32 {
     8
 }
 
-/// The offset in `$NODEID+n`, in either order, any case and spacing; 0 for `$NODEID`.
+/// The offset in `$NODEID+n`: in any order, case and spacing, with or without `$` and
+/// brackets, and if there is more than one number, their sum; 0 for `$NODEID`.
 ///
 /// `Some(Err)` is a formula with something else in it.
 pub(super) fn node_id(text: &str, notes: &mut Vec<Note>) -> Option<Result<u32, ()>> {
     const NAME: &str = "$NODEID";
-    let at = text
-        .as_bytes()
-        .windows(NAME.len())
-        .position(|w| w.eq_ignore_ascii_case(NAME.as_bytes()))?;
-    // The name is ASCII, so both cuts are between characters.
-    let (before, rest) = text.split_at(at);
-    let (name, behind) = rest.split_at(NAME.len());
-    let (before, after) = (before.trim(), behind.trim());
-    let offset = match (before, after) {
-        ("", "") => "0",
-        ("", after) => match after.strip_prefix('+') {
-            Some(offset) => offset.trim(),
-            None => return Some(Err(())),
-        },
-        (before, "") => match before.strip_suffix('+') {
-            Some(offset) => offset.trim(),
-            None => return Some(Err(())),
-        },
-        _ => return Some(Err(())),
+    // Nearly every value is a number, and has none of these letters.
+    if !text.bytes().any(|b| b.eq_ignore_ascii_case(&b'N')) {
+        return None;
+    }
+    let plain: String = text
+        .chars()
+        .filter(|c| !c.is_whitespace() && !matches!(c, '(' | ')' | '{' | '}'))
+        .map(|c| c.to_ascii_uppercase())
+        .collect();
+    let is_name = |part: &str| {
+        let name = part.strip_prefix('$').unwrap_or(part);
+        matches!(name, "NODEID" | "NODE_ID" | "NODE-ID")
     };
-    if name != NAME || !before.is_empty() || text.contains(char::is_whitespace) {
+    if !["NODEID", "NODE_ID", "NODE-ID"]
+        .iter()
+        .any(|name| plain.contains(name))
+    {
+        return None;
+    }
+    let mut names = 0;
+    let mut offset = 0i128;
+    let mut odd = Vec::new();
+    for part in plain.split('+') {
+        if is_name(part) {
+            names += 1;
+            continue;
+        }
+        match integer(part, &mut odd) {
+            Some(number) if number.value >= 0 => offset += number.value,
+            _ => return Some(Err(())),
+        }
+    }
+    if names != 1 {
+        return Some(Err(()));
+    }
+    let as_written = match text.strip_prefix(NAME) {
+        Some("") => true,
+        Some(rest) => plain.matches('+').count() == 1 && rest.len() + NAME.len() == plain.len(),
+        None => false,
+    };
+    if !as_written {
         notes.push(Note::NodeId);
     }
-    let offset = integer(offset, notes).map(|n| n.value);
-    Some(match offset.map(u32::try_from) {
-        Some(Ok(offset)) => Ok(offset),
-        _ => Err(()),
-    })
+    notes.append(&mut odd);
+    Some(u32::try_from(offset).map_err(|_| ()))
 }
 
 #[cfg(test)]
@@ -172,6 +217,10 @@ mod tests {
         number("0x10L", 16, &[Note::Suffix]);
         number("16UL", 16, &[Note::Suffix]);
         number("5.00", 5, &[Note::Suffix]);
+        number("FF", 255, &[Note::BareHex]);
+        number("1Fh", 31, &[Note::BareHex]);
+        number("80H", 128, &[Note::BareHex]);
+        number("FFFF8000", 0xFFFF_8000, &[Note::BareHex]);
         number("18446744073709551615", i128::from(u64::MAX), &[]);
         for text in [
             "",
@@ -182,6 +231,11 @@ mod tests {
             "--1",
             "0x+1",
             "5.5",
+            "1e3",
+            "add",
+            "h",
+            "red",
+            "é",
             ".",
             "18446744073709551616",
         ] {
@@ -206,15 +260,26 @@ mod tests {
         ] {
             assert_eq!(read(odd), (Some(Ok(0x180)), vec![Note::NodeId]), "{odd}");
         }
+        for (odd, offset) in [
+            ("NODEID+0x180", 0x180),
+            ("nodeid", 0),
+            ("( $Node_ID + 384 )", 0x180),
+            ("0x80000000 + $NODEID + 0x180", 0x8000_0180),
+            ("$ NODEID+1", 1),
+            ("{$NODEID}+1", 1),
+        ] {
+            assert_eq!(read(odd), (Some(Ok(offset)), vec![Note::NodeId]), "{odd}");
+        }
+        assert_eq!(read("$NODEID+017").1, vec![Note::Octal]);
         for bad in [
+            "$NODEID+$NODEID",
             "$NODEID-1",
             "2*$NODEID",
-            "1+$NODEID+1",
             "$NODEID+",
             "$NODEID+0x100000000",
         ] {
             assert_eq!(read(bad).0, Some(Err(())), "{bad}");
         }
-        assert_eq!(read("NODEID+1").0, None);
+        assert_eq!(read("NODE+1").0, None);
     }
 }

@@ -9,6 +9,7 @@ use super::compact::{self, CompactSections};
 use super::entry::{Reader, Unread, extra};
 use super::fields::Fields;
 use super::ini::Placed;
+use super::words;
 use crate::check::rules;
 use crate::fix::Fix;
 use crate::{
@@ -32,20 +33,19 @@ pub(super) fn object(
     let Some(own) = sections.own else {
         return orphan(index, sections.members, log);
     };
-    let mut fields = Fields::new(own, log);
-    let mut reader = Reader {
-        address: Address::new(index, 0),
-        log,
-    };
+    let address = Address::new(index, 0);
+    let mut fields = Fields::new(own, address, log);
+    let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
     let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
     let count = compact::count(&mut reader, &mut fields, &mut unread);
     let has_members = !sections.members.is_empty() || count.is_some();
     let code = object_code(&mut reader, &mut fields, &mut unread, has_members);
-    let mut members = sections.members;
-    let code = match !code.has_members() && has_members {
-        true => contradiction(&mut reader, &fields, code, &mut members, count.as_ref()),
+    let members = sections.members;
+    let mistaken = !code.has_members() && has_members;
+    let code = match mistaken {
+        true => contradiction(&mut reader, &fields, code, &members, count.as_ref()),
         false => code,
     };
     if !code.has_members() {
@@ -63,6 +63,11 @@ pub(super) fn object(
             sections.compact,
             reader.log,
         );
+    } else if mistaken && fields.has("DataType") && !members.contains_key(&0) {
+        // What was said of the VAR is said of sub-index 0, where a VAR has its value.
+        let (mut entry, more) = reader.entry(&mut fields, name.clone(), None);
+        entry.extra = extra(Vec::new(), more);
+        entries.insert(0, entry);
     } else {
         flags = reader.flags(&mut fields, &mut unread).max(flags);
     }
@@ -97,7 +102,7 @@ pub(super) fn object(
         sub_number: Some(sub_number),
         entries,
         flags,
-        extra: extra(fields.rest(), unread),
+        extra: extra(fields.rest(address, reader.log), unread),
         span,
     })
 }
@@ -136,7 +141,7 @@ fn orphan(
 }
 
 fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> EntryDescription {
-    let mut fields = Fields::new(section, log);
+    let mut fields = Fields::new(section, address, log);
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
@@ -156,7 +161,7 @@ fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> Entry
     }
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
     unread.append(&mut more);
-    entry.extra = extra(fields.rest(), unread);
+    entry.extra = extra(fields.rest(address, reader.log), unread);
     entry
 }
 
@@ -174,7 +179,7 @@ fn var(
     };
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
     unread.append(&mut more);
-    entry.extra = extra(fields.rest(), unread);
+    entry.extra = extra(fields.rest(reader.address, reader.log), unread);
     ObjectDescription {
         code,
         sub_number,
@@ -210,6 +215,7 @@ fn object_code(
         .number("ObjectType", &given)
         .and_then(|code| u8::try_from(code).ok())
         .and_then(ObjectCode::from_code);
+    let code = code.or_else(|| words::object_code(reader, &given));
     match code {
         Some(code) => Spanned::new(code, given.span),
         None => {
@@ -225,13 +231,13 @@ fn object_code(
     }
 }
 
-/// An object that can have no members, but has: a RECORD, unless it has a type
-/// itself; an ARRAY where CompactSubObj counts them.
+/// An object that can have no members, but has: a RECORD; an ARRAY where
+/// CompactSubObj counts them.
 fn contradiction(
     reader: &mut Reader<'_>,
     fields: &Fields,
     code: Spanned<ObjectCode>,
-    members: &mut BTreeMap<u8, Placed>,
+    members: &BTreeMap<u8, Placed>,
     count: Option<&Spanned<u8>>,
 ) -> Spanned<ObjectCode> {
     let span = match (members.values().next(), count) {
@@ -250,13 +256,6 @@ fn contradiction(
                 .with_fix(fix),
         );
         return Spanned::new(ObjectCode::Array, code.span);
-    }
-    if fields.has("DataType") {
-        reader.report(finding.with_help(
-            "remove the sub-index sections, or write `ObjectType=0x9` and remove the DataType",
-        ));
-        members.clear();
-        return code;
     }
     let fix = Fix::guess().replace(code.span, "0x9");
     reader.report(

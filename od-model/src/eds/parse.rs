@@ -6,12 +6,13 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::fields::{duplicates, same_content};
+use super::fields::duplicates;
 use super::ini::{self, Placed};
 use super::object::{self, Sections};
-use super::sections::{List, Place, place};
-use super::{Document, Encoding, Parsed, compact, lines, lists, number};
+use super::sections::{List, Place, intended, place};
+use super::{Document, Encoding, Parsed, compact, compact_pdo, lines, lists, number, other};
 use crate::check::rules;
+use crate::fix::Fix;
 use crate::{Address, Diagnostic, Span};
 
 /// Reads an EDS or a DCF.
@@ -84,13 +85,14 @@ struct Sorted {
 
 impl Sorted {
     fn add(&mut self, section: Placed) {
-        match place(&section.section.name) {
+        let place = self.place(&section);
+        match place {
             Place::Object(index) => {
                 let sections = self.objects.entry(index).or_default();
                 let address = Address::new(index, 0);
-                match &sections.own {
+                match &mut sections.own {
                     None => sections.own = Some(section),
-                    Some(first) => self.log.push(twice(first, &section, address)),
+                    Some(first) => self.log.push(twice(first, section, address)),
                 }
             }
             Place::Member(index, sub) => {
@@ -98,8 +100,8 @@ impl Sorted {
                     Entry::Vacant(entry) => {
                         entry.insert(section);
                     }
-                    Entry::Occupied(first) => {
-                        let finding = twice(first.get(), &section, Address::new(index, sub));
+                    Entry::Occupied(mut first) => {
+                        let finding = twice(first.get_mut(), section, Address::new(index, sub));
                         self.log.push(finding);
                     }
                 }
@@ -116,8 +118,8 @@ impl Sorted {
                         duplicates(&section.section.pairs, &mut self.log);
                         entry.insert(section);
                     }
-                    Entry::Occupied(first) => {
-                        let finding = twice(first.get(), &section, Address::new(index, 0));
+                    Entry::Occupied(mut first) => {
+                        let finding = twice(first.get_mut(), section, Address::new(index, 0));
                         self.log.push(finding);
                     }
                 }
@@ -127,8 +129,33 @@ impl Sorted {
         }
     }
 
+    /// What a section is about, even if its name is not quite as it should be.
+    fn place(&mut self, section: &Placed) -> Place {
+        let name = &section.section.name;
+        let exact = place(name);
+        let meant = match exact {
+            Place::Other => intended(name),
+            Place::Member(_, sub) if name.len() > 7 + format!("{sub:X}").len() => Some(exact),
+            _ => None,
+        };
+        let (Some(meant), Some(right)) = (meant, meant.and_then(Place::name)) else {
+            return exact;
+        };
+        self.log.push(
+            rules::I0212
+                .at(
+                    section.header,
+                    format!("[{}] is read as [{right}]", name.value),
+                )
+                .with_help(format!("write `[{right}]`"))
+                .with_fix(Fix::safe().replace(section.header, format!("[{right}]"))),
+        );
+        meant
+    }
+
     fn other(&mut self, section: Placed) {
         duplicates(&section.section.pairs, &mut self.log);
+        other::check(&section, &mut self.log);
         let name = &section.section.name;
         match self.names.entry(name.to_ascii_lowercase()) {
             Entry::Vacant(entry) => {
@@ -162,7 +189,9 @@ impl Sorted {
         }
         self.others.sort_by_key(|section| section.header.start);
         parsed.description.sections = self.others.into_iter().map(|s| s.section).collect();
-        lists::check(&self.lists, &parsed.description, &mut self.log);
+        let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
+        lists::check(&self.lists, &parsed.description, &made, &mut self.log);
+        parsed.description.objects.append(&mut made);
         parsed.diagnostics = self.log;
         crate::check::sort(&mut parsed.diagnostics);
         parsed
@@ -177,20 +206,31 @@ fn counts_members(own: &Placed) -> bool {
         .is_some_and(|count| count > 0)
 }
 
-fn twice(first: &Placed, second: &Placed, address: Address) -> Diagnostic {
+/// Names a second section; what the first lacks is taken from it.
+fn twice(first: &mut Placed, second: Placed, address: Address) -> Diagnostic {
     let name = &second.section.name.value;
-    let same = same_content(&first.section, &second.section);
-    let (rule, message) = match same {
-        true => (rules::W0304, format!("[{name}] stands twice")),
-        false => (
+    let contradict = second.section.pairs.iter().any(|(key, value)| {
+        let same = first.section.get(key);
+        same.is_some_and(|first| first != value)
+    });
+    let (rule, message) = match contradict {
+        true => (
             rules::E0303,
             format!("[{name}] stands twice, and the two differ"),
         ),
+        false => (rules::W0304, format!("[{name}] stands twice")),
     };
-    rule.at(second.header, message)
+    let finding = rule
+        .at(second.header, message)
         .with_address(address)
         .with_label(first.header, "this one counts")
-        .with_help("remove one of the sections")
+        .with_help("remove one of the sections");
+    for (key, value) in second.section.pairs {
+        if first.section.get(&key).is_none() {
+            first.section.pairs.push((key, value));
+        }
+    }
+    finding
 }
 
 #[cfg(test)]
@@ -210,7 +250,7 @@ mod tests {
              [1018sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=1\n\
              [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nOwn=kept\n",
         );
-        assert_eq!(codes(&parsed), ["W0206"]);
+        assert_eq!(codes(&parsed), ["W0206", "I0319"]);
         let object = &parsed.description.objects[&0x1018];
         assert_eq!(*object.code, ObjectCode::Record);
         assert_eq!((object.span.line, object.flags), (4, 1));
@@ -265,15 +305,15 @@ mod tests {
 
     #[test]
     fn sections_without_objects_are_kept_as_they_are() {
-        let parsed = parse("[FileInfo]\nA=1\n[2000Name]\n1=x\n[Tool]\na=2\nA=3\n");
+        let parsed = parse("[FileInfo]\nA=1\n[2000Name]\n1=x\n[Mine]\na=2\nA=3\n");
         let names: Vec<_> = parsed
             .description
             .sections
             .iter()
             .map(|s| &s.name.value)
             .collect();
-        assert_eq!(names, ["FileInfo", "2000Name", "Tool"]);
+        assert_eq!(names, ["FileInfo", "2000Name", "Mine"]);
         assert_eq!(parsed.description.sections[2].pairs.len(), 2);
-        assert_eq!(codes(&parsed), ["W0209", "W0107"]);
+        assert_eq!(codes(&parsed), ["I0319", "W0209", "I0211", "W0107"]);
     }
 }

@@ -1,5 +1,8 @@
 //! What a section is about, by its name.
 
+use alloc::format;
+use alloc::string::String;
+
 /// The three lists of objects.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum List {
@@ -48,6 +51,17 @@ pub(super) enum Place {
     Other,
 }
 
+impl Place {
+    /// The name of the section of an object or a member.
+    pub(super) fn name(self) -> Option<String> {
+        match self {
+            Self::Object(index) => Some(format!("{index:04X}")),
+            Self::Member(index, sub) => Some(format!("{index:04X}sub{sub:X}")),
+            Self::Compact(..) | Self::List(_) | Self::Other => None,
+        }
+    }
+}
+
 /// What the section of this name is about: `1018`, `1018sub2`, `1600Name` …
 pub(super) fn place(name: &str) -> Place {
     for list in List::ALL {
@@ -82,6 +96,39 @@ pub(super) fn place(name: &str) -> Place {
         }
         _ => Place::Other,
     }
+}
+
+/// What a section is meant to be about whose name is not quite right: `0x1018`,
+/// `1018 sub 2`, `1018_sub2`, `1018h`, `5`.
+pub(super) fn intended(name: &str) -> Option<Place> {
+    let plain: String = name
+        .chars()
+        .filter(|c| !c.is_whitespace() && !matches!(c, '_' | '.' | '-'))
+        .map(|c| c.to_ascii_lowercase())
+        .collect();
+    let number = |text: &str| {
+        let text = text.strip_prefix("0x").unwrap_or(text);
+        let text = text.strip_suffix('h').unwrap_or(text);
+        let starts = text.bytes().next()?;
+        // `[add]` is somebody's own section; `[5]` is an object.
+        match text.len() {
+            4 => hex(text),
+            1..=3 if starts.is_ascii_digit() => hex(text),
+            _ => None,
+        }
+    };
+    let (index, rest) = match plain.find("sub") {
+        Some(at) => (&plain[..at], Some(&plain[at + 3..])),
+        None => (&plain[..], None),
+    };
+    let index = u16::try_from(number(index)?).ok()?;
+    let Some(sub) = rest else {
+        return Some(Place::Object(index));
+    };
+    let sub = sub.strip_prefix("0x").unwrap_or(sub);
+    let sub = sub.strip_suffix('h').unwrap_or(sub);
+    let sub = hex(sub).and_then(|sub| u8::try_from(sub).ok())?;
+    Some(Place::Member(index, sub))
 }
 
 fn hex(digits: &str) -> Option<u32> {
@@ -122,6 +169,37 @@ mod tests {
             "abc€",
         ] {
             assert_eq!(place(name), Place::Other, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_that_are_not_quite_right() {
+        for (name, expected) in [
+            ("0x1018", Place::Object(0x1018)),
+            ("1018h", Place::Object(0x1018)),
+            ("5", Place::Object(5)),
+            ("1018 Sub 2", Place::Member(0x1018, 2)),
+            ("1018_sub_0x0a", Place::Member(0x1018, 10)),
+            ("1018sub002", Place::Member(0x1018, 2)),
+            ("0x1018sub2h", Place::Member(0x1018, 2)),
+        ] {
+            assert_eq!(intended(name), Some(expected), "{name}");
+            let name = expected.name().unwrap();
+            assert_eq!(place(&name), expected);
+        }
+        for name in [
+            "",
+            "add",
+            "sub1",
+            "1018sub",
+            "1018sub100",
+            "10180",
+            "FileInfo",
+            "x1",
+            "1Fixed",
+            "é",
+        ] {
+            assert_eq!(intended(name), None, "{name}");
         }
     }
 }

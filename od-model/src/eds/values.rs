@@ -19,7 +19,14 @@ pub(super) fn value(text: &str, data_type: DataType, notes: &mut Vec<Note>) -> O
             Some(Value::Bytes(units.collect()))
         }
         Kind::Bytes => Some(Value::Bytes(bytes(text, notes))),
-        Kind::Real => real(number::without_comment(text, notes), data_type),
+        Kind::Real => {
+            let text = number::without_comment(text, notes);
+            let point = text.replace(',', ".");
+            if point != text {
+                notes.push(Note::Comma);
+            }
+            real(&point, data_type)
+        }
         Kind::Boolean | Kind::Unsigned | Kind::Signed => {
             let text = number::without_comment(text, notes);
             if let Some(offset) = number::node_id(text, notes) {
@@ -282,6 +289,8 @@ mod tests {
             &[],
         );
         check("1.0f", Real32, Value::Real(1.0), &[]);
+        check("-1,5", Real64, Value::Real(-1.5), &[Note::Comma]);
+        assert_eq!(value("1,000.5", Real64, &mut vec![]), None);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::{Document, Edit, EditError, one_line};
 use crate::Span;
 use crate::eds::lines::{self, RawPair, RawSection};
-use crate::eds::number;
+use crate::eds::number::{self, Note};
 
 impl Document {
     /// The value of a key in the sections of a name, both in any case; of keys that stand
@@ -188,9 +188,11 @@ fn holds_comment(key: &str, before: &str) -> bool {
         "LowLimit",
         "HighLimit",
     ];
+    let mut notes = Vec::new();
     NOT_TEXT.iter().any(|word| key.eq_ignore_ascii_case(word))
-        || number::integer(before, &mut Vec::new()).is_some()
-        || number::node_id(before, &mut Vec::new()).is_some()
+        || number::node_id(before, &mut notes).is_some()
+        // `FF` may be a text.
+        || number::integer(before, &mut notes).is_some() && !notes.contains(&Note::BareHex)
 }
 
 #[cfg(test)]

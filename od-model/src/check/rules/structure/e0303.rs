@@ -7,7 +7,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "E0303",
     severity: Error,
     title: "object or sub-index stands twice with different content",
-    why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts.",
+    why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts, with what only the other says.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
     before: "",

@@ -7,7 +7,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "E0305",
     severity: Error,
     title: "VAR has sub-indices",
-    why: "Only an ARRAY or a RECORD has sub-indices. Where the object has no type of its own it is taken for a RECORD, else the sub-indices are left out.",
+    why: "Only an ARRAY or a RECORD has sub-indices. It is taken for a RECORD; a value of its own becomes sub-index 0 where there is none.",
     source: "CiA 301, object codes",
     mending: Mending::Unsafe,
     before: "",

@@ -7,7 +7,7 @@ pub(crate) const RULE: Rule = Rule {
     code: "W0304",
     severity: Warning,
     title: "object or sub-index stands twice",
-    why: "The sections say the same; one is enough.",
+    why: "The sections do not contradict each other; one is enough. What only one of them says counts.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
     before: "",

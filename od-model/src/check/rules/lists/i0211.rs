@@ -1,0 +1,15 @@
+//! I0211: section is none of CiA 306.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0211",
+    severity: Info,
+    title: "section is none of CiA 306",
+    why: "It is kept, and nothing reads it. Tools put their own notes into sections; a slip in the name of an object hides the object.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "[Sub1018]\nParameterName=Vendor-ID\n",
+    after: "[1018sub1]\nParameterName=Vendor-ID\n",
+};

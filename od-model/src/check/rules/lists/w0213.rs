@@ -1,0 +1,15 @@
+//! W0213: section name is nearly one of CiA 306.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0213",
+    severity: Warning,
+    title: "section name is nearly one of CiA 306",
+    why: "It looks like a slip. The section is kept, and nothing reads it.",
+    source: "CiA 306-1, file format",
+    mending: Mending::Unsafe,
+    before: "[OptionalObject]\n",
+    after: "[OptionalObjects]\n",
+};

@@ -1,0 +1,15 @@
+//! I0515: CompactPDO stands for PDO objects.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0515",
+    severity: Info,
+    title: "CompactPDO stands for PDO objects",
+    why: "They have no sections. They are made with the sub-indices that its bits name; a reader that does not know CompactPDO lacks them.",
+    source: "CiA 306-1, DeviceInfo",
+    mending: Mending::None,
+    before: "",
+    after: "",
+};

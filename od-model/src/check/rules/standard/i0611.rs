@@ -1,0 +1,15 @@
+//! I0611: DeviceCommissioning with two m.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0611",
+    severity: Info,
+    title: "DeviceCommissioning with two m",
+    why: "The standard writes `DeviceComissioning`. Both are read; many readers know only one.",
+    source: "CiA 306-1, DCF",
+    mending: Mending::Safe,
+    before: "[DeviceCommissioning]\n",
+    after: "[DeviceComissioning]\n",
+};

@@ -1,0 +1,15 @@
+//! I0320: field is empty.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0320",
+    severity: Info,
+    title: "field is empty",
+    why: "A number, a type or an access says nothing when it is empty. It is read as if the line were not there; many readers stop at it.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Safe,
+    before: "PDOMapping=\n",
+    after: "PDOMapping=0\n",
+};

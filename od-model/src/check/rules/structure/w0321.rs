@@ -1,0 +1,15 @@
+//! W0321: NrOfEntries does not count its section.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0321",
+    severity: Warning,
+    title: "NrOfEntries does not count its section",
+    why: "Many readers read as many entries as it says and no more. All entries are read.",
+    source: "CiA 306-1, CompactSubObj",
+    mending: Mending::Safe,
+    before: "[2000Value]\nNrOfEntries=1\n1=7\n3=9\n",
+    after: "[2000Value]\nNrOfEntries=2\n1=7\n3=9\n",
+};

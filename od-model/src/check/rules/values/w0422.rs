@@ -1,0 +1,15 @@
+//! W0422: hexadecimal number without `0x`.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0422",
+    severity: Warning,
+    title: "hexadecimal number without `0x`",
+    why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. They are read so; many readers refuse them.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::Safe,
+    before: "HighLimit=1Fh\n",
+    after: "HighLimit=0x1F\n",
+};

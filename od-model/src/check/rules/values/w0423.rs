@@ -1,0 +1,15 @@
+//! W0423: decimal comma.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0423",
+    severity: Warning,
+    title: "decimal comma",
+    why: "It is read as a decimal point; many readers refuse it.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::Safe,
+    before: "DefaultValue=1,5\n",
+    after: "DefaultValue=1.5\n",
+};

@@ -1,0 +1,15 @@
+//! W0424: word where CiA 306 has another.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0424",
+    severity: Warning,
+    title: "word where CiA 306 has another",
+    why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType has six words. What is meant is read; many readers refuse it.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Safe,
+    before: "DataType=UNSIGNED8\nAccessType=read-write\n",
+    after: "DataType=0x0005\nAccessType=rw\n",
+};
