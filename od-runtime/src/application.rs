@@ -66,7 +66,7 @@ impl Signals {
 
     /// An error came: an EMCY is sent, 1001h and 1003h follow.
     ///
-    /// An error that is there already is not reported again.
+    /// An error that is there already, with the same bits of 1001h, is not reported again.
     pub fn raise(&mut self, error: emcy::Error) {
         self.errors.push(emcy::Change::Raised(error));
     }
@@ -74,7 +74,21 @@ impl Signals {
     /// An error went: 1001h follows, and an EMCY "error reset" with this
     /// manufacturer information is sent.
     pub fn clear(&mut self, code: u16, info: [u8; 5]) {
-        self.errors.push(emcy::Change::Cleared { code, info });
+        self.errors.push(emcy::Change::Cleared {
+            code,
+            register: None,
+            info,
+        });
+    }
+
+    /// As [`clear`](Self::clear), where several errors share a code: the one that set these
+    /// bits of 1001h went.
+    pub fn clear_one(&mut self, code: u16, register: u8, info: [u8; 5]) {
+        self.errors.push(emcy::Change::Cleared {
+            code,
+            register: Some(register),
+            info,
+        });
     }
 
     /// Communication objects (1000h–1FFFh) were changed from inside; the services take them over.

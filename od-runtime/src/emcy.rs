@@ -31,6 +31,8 @@ pub enum Change {
     Cleared {
         /// Emergency error code.
         code: u16,
+        /// The bits of 1001h that it set, where several errors have this code.
+        register: Option<u8>,
         /// Manufacturer-specific bytes 3–7 of the frame.
         info: [u8; 5],
     },
@@ -42,6 +44,7 @@ pub(crate) type Changes = Fifo<Change, CHANGES>;
 /// Stands where no change waits.
 pub(crate) const NO_CHANGE: Change = Change::Cleared {
     code: 0,
+    register: None,
     info: [0; 5],
 };
 
@@ -107,15 +110,25 @@ impl Producer {
         let before = self.register();
         let (code, info) = match change {
             Change::Raised(error) => {
-                if self.active.iter().any(|known| known.code == error.code) {
+                // Sources that share a code are told apart by what they mean for 1001h.
+                let same =
+                    |known: Error| known.code == error.code && known.register == error.register;
+                if self.active.iter().any(same) {
                     return NO_NEWS;
                 }
                 self.active.push(error);
                 log(store, error.code);
                 (error.code, error.info)
             }
-            Change::Cleared { code, info } => {
-                if !self.active.remove(|known| known.code == code) {
+            Change::Cleared {
+                code,
+                register,
+                info,
+            } => {
+                let is_it = |known: &Error| {
+                    known.code == code && register.is_none_or(|bits| bits == known.register)
+                };
+                if !self.active.remove(is_it) {
                     return NO_NEWS;
                 }
                 (0, info)

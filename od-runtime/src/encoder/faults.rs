@@ -196,7 +196,7 @@ impl Faults {
                 info,
             });
         } else if others == 0 {
-            cx.signals.clear(report.code, info);
+            cx.signals.clear_one(report.code, report.register, info);
         }
     }
 

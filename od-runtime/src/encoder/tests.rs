@@ -346,6 +346,7 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
     bench.with(|encoder, cx| encoder.tick(cx));
     let cleared = ErrorChange::Cleared {
         code: 0x7320,
+        register: Some(0x81),
         info: [0, 0, 0x10, 0, 0],
     };
     assert_eq!(bench.errors(), [cleared]);
