@@ -70,6 +70,14 @@ impl Encoder {
         gear.is_some_and(|gear| gear.kind == GearKind::Output && gear.index == index)
     }
 
+    /// 6001h; without any the sensor's own, 1 or more.
+    fn resolution(&self, store: &Store<'_>) -> u32 {
+        match store.unsigned(0x6001, 0) {
+            0 => self.sensor.steps.max(1),
+            steps => u32::try_from(steps).unwrap_or(u32::MAX),
+        }
+    }
+
     /// The range that a value of 6002h stands for.
     fn range(&self, value: Option<u64>) -> u64 {
         match value {
@@ -88,15 +96,13 @@ impl Encoder {
         let output = self.output_gear(store);
         if let Some((numerator, denominator)) = output {
             let steps = u128::from(range) * u128::from(denominator) / u128::from(numerator);
-            let steps = u64::try_from(steps).unwrap_or(u64::MAX);
-            store.set_unsigned(Address::new(0x6001, 0), steps.min(u32::MAX.into()));
+            // The object takes nothing less than 1.
+            let steps = steps.clamp(1, u32::MAX.into()) as u64;
+            store.set_unsigned(Address::new(0x6001, 0), steps);
         }
-        let steps = match store.try_unsigned(0x6001, 0).unwrap_or(0) {
-            0 => self.sensor.steps,
-            steps => u32::try_from(steps).unwrap_or(u32::MAX),
-        };
+        let steps = self.resolution(store);
         if self.profile.total == Total::Shown {
-            let turns = range / u64::from(steps.max(1));
+            let turns = range / u64::from(steps);
             store.set_unsigned(Address::new(0x6502, 0), turns);
         }
         let scale = if operating & SCALING == 0 {
@@ -178,7 +184,7 @@ impl Encoder {
         if let Some((numerator, denominator)) = self.output_gear(store) {
             return self.check_output(value, numerator, denominator);
         }
-        let steps = store.unsigned(0x6001, 0).max(1);
+        let steps = u64::from(self.resolution(store));
         match self.profile.range_rule {
             RangeRule::Sensor if value == 0 && self.profile.zero_is_full => Ok(()),
             RangeRule::Sensor => self.between(value, 1, self.sensor.range()),

@@ -1,0 +1,198 @@
+//! A whole device with node ID 1 and an empty EEPROM, talked to in frames of eight bytes.
+
+use od_devices::{DeviceKind, find};
+use od_runtime::encoder::{Angle, Encoder};
+use od_runtime::storage::{Memory, image};
+use od_runtime::wire::nmt::State;
+use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+
+pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
+/// U-05.
+pub(crate) const OUT_OF_RANGE: Result<(), u32> = Err(0x0609_0030);
+pub(crate) const TOO_GREAT: Result<(), u32> = Err(0x0609_0031);
+pub(crate) const TOO_LITTLE: Result<(), u32> = Err(0x0609_0032);
+/// C-EN-11.
+pub(crate) const INCOMPATIBLE: Result<(), u32> = Err(0x0604_0043);
+
+pub(crate) struct Bench {
+    kind: &'static DeviceKind,
+    values: Vec<u8>,
+    storage: Memory<Vec<u8>>,
+    pub(crate) encoder: Encoder,
+    node: Node,
+    pub(crate) now: Instant,
+    /// Frames that nobody asked for, in their order.
+    pub(crate) heard: Vec<Frame>,
+}
+
+impl Bench {
+    /// The device of this name, just switched on at time 0.
+    pub(crate) fn new(name: &str) -> Self {
+        let kind = find(name).unwrap();
+        let mut bench = Self {
+            kind,
+            values: vec![0; kind.dictionary.store_len()],
+            storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
+            encoder: kind.new_encoder(),
+            node: Node::new(NodeId::ONE),
+            now: Instant::ZERO,
+            heard: Vec::new(),
+        };
+        bench.power_on();
+        bench
+    }
+
+    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R) -> R {
+        let mut device = Device {
+            dictionary: self.kind.dictionary,
+            values: &mut self.values,
+            application: &mut self.encoder,
+            storage: &mut self.storage,
+            profile: self.kind.profile,
+        };
+        call(&mut self.node, &mut device, self.now)
+    }
+
+    fn listen(&mut self) {
+        let frames: Vec<Frame> = self.with(|node, device, now| {
+            std::iter::from_fn(|| node.poll_transmit(device, now)).collect()
+        });
+        self.heard.extend(frames);
+    }
+
+    pub(crate) fn power_on(&mut self) {
+        self.storage.restore_power();
+        self.with(|node, device, now| node.power_on(device, now).unwrap());
+        self.listen();
+    }
+
+    pub(crate) fn power_off(&mut self) {
+        // A save that goes on in the background is not what is tested here.
+        self.wait(2_000);
+        self.encoder.power_off(self.now);
+        self.node.power_off();
+    }
+
+    /// Off for so long; the shaft turns by so many revolutions meanwhile.
+    pub(crate) fn power_cycle(&mut self, off_ms: u64, revolutions: i64) {
+        self.power_off();
+        self.turn(revolutions);
+        self.now = self.now.plus_millis(off_ms);
+        self.power_on();
+    }
+
+    /// Time passes; everything that is due meanwhile is done when it is due.
+    pub(crate) fn wait(&mut self, ms: u64) {
+        let until = self.now.plus_millis(ms);
+        while let Some(at) = self.node.poll_timeout().filter(|at| *at <= until) {
+            self.now = self.now.max(at);
+            self.with(|node, device, now| node.handle_timeout(device, now));
+            self.listen();
+        }
+        self.now = until;
+    }
+
+    /// An NMT command to all, and the time that a reset takes.
+    pub(crate) fn nmt(&mut self, command: u8) {
+        self.send(0, &[command, 0]);
+        self.wait(1000);
+    }
+
+    pub(crate) fn state(&self) -> State {
+        self.node.state()
+    }
+
+    /// Something in the world changed.
+    pub(crate) fn change(&mut self, act: impl FnOnce(&mut Encoder, Instant)) {
+        act(&mut self.encoder, self.now);
+        self.with(|node, device, now| node.handle_change(device, now));
+        self.listen();
+    }
+
+    pub(crate) fn rpm(&mut self, milli_rpm: i32) {
+        self.change(|encoder, now| encoder.shaft.set_milli_rpm(now, milli_rpm));
+    }
+
+    /// Turns the shaft by whole revolutions.
+    pub(crate) fn turn(&mut self, revolutions: i64) {
+        self.turn_fractions(revolutions << 32);
+    }
+
+    /// Turns the shaft by 2⁻³² revolutions.
+    pub(crate) fn turn_fractions(&mut self, fractions: i64) {
+        let by = Angle::from_fractions(fractions);
+        self.encoder.shaft.turn(self.now, by);
+    }
+
+    pub(crate) fn send(&mut self, id: u16, data: &[u8]) {
+        let frame = Frame::new(CanId::standard(id), data);
+        self.with(|node, device, now| node.handle_frame(device, now, &frame));
+        self.listen();
+    }
+
+    fn request(&mut self, data: [u8; 8]) -> [u8; 8] {
+        let heard = std::mem::take(&mut self.heard);
+        self.send(0x601, &data);
+        let is_answer = |frame: &Frame| frame.id() == CanId::standard(0x581);
+        for _ in 0..1000 {
+            // A save is answered when it is done.
+            if self.heard.iter().any(is_answer) {
+                break;
+            }
+            self.wait(1);
+        }
+        let answers = std::mem::replace(&mut self.heard, heard);
+        let (answer, others): (Vec<Frame>, Vec<Frame>) = answers
+            .into_iter()
+            .partition(|frame| frame.id() == CanId::standard(0x581));
+        self.heard.extend(others);
+        answer[0].data().try_into().unwrap()
+    }
+
+    /// An expedited download; the abort code if there was one.
+    pub(crate) fn write(&mut self, index: u16, sub: u8, value: u32) -> Result<(), u32> {
+        let [low, high] = index.to_le_bytes();
+        let [a, b, c, d] = value.to_le_bytes();
+        match self.request([0x22, low, high, sub, a, b, c, d]) {
+            [0x60, ..] => Ok(()),
+            [0x80, _, _, _, a, b, c, d] => Err(u32::from_le_bytes([a, b, c, d])),
+            other => panic!("{other:02X?}"),
+        }
+    }
+
+    pub(crate) fn read(&mut self, index: u16, sub: u8) -> u32 {
+        let [low, high] = index.to_le_bytes();
+        match self.request([0x40, low, high, sub, 0, 0, 0, 0]) {
+            [0x43 | 0x4B | 0x4F, _, _, _, a, b, c, d] => u32::from_le_bytes([a, b, c, d]),
+            other => panic!("{index:X}h:{sub} {other:02X?}"),
+        }
+    }
+
+    /// An INTEGER16.
+    pub(crate) fn read16(&mut self, index: u16, sub: u8) -> i16 {
+        self.read(index, sub) as u16 as i16
+    }
+
+    pub(crate) fn position(&mut self) -> u32 {
+        self.read(0x6004, 0)
+    }
+
+    /// The EMCYs since the last question: code, 1001h, 6503h, 6505h.
+    pub(crate) fn emcys(&mut self) -> Vec<(u16, u8, u16, u16)> {
+        let heard = std::mem::take(&mut self.heard);
+        let emcys = heard
+            .iter()
+            .filter(|frame| frame.id() == CanId::standard(0x81));
+        emcys
+            .map(|frame| match *frame.data() {
+                [a, b, register, c, d, e, f, 0] => (
+                    u16::from_le_bytes([a, b]),
+                    register,
+                    u16::from_le_bytes([c, d]),
+                    u16::from_le_bytes([e, f]),
+                ),
+                _ => panic!("{frame:?}"),
+            })
+            .collect()
+    }
+}

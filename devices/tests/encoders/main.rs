@@ -1,0 +1,9 @@
+//! EAM and EN580C as manuals 001 and 003 have their encoders, in SDO frames.
+
+mod bench;
+mod diagnosis;
+mod gear;
+mod movement;
+mod position;
+mod power;
+mod reference;

@@ -1,0 +1,84 @@
+//! Time and starts: manual 001 objects 2120h and 6508h, manual 003 chapter 5.1.12.
+
+use od_runtime::encoder::Switches;
+
+use crate::bench::Bench;
+
+#[test]
+fn eam_stamps_time_and_counts_no_hours() {
+    let mut bench = Bench::new("eam_mt");
+    assert_eq!(bench.read(0x6508, 0), 0xFFFF_FFFF);
+    bench.wait(65);
+    assert_eq!(bench.read(0x2120, 0), 65_000);
+    bench.wait(1);
+    assert_eq!(bench.read(0x2120, 0), 66_000 - 65_536);
+    assert_eq!(bench.read(0x2122, 0), 0);
+    bench.wait(3_600_000);
+    assert_eq!(bench.read(0x6508, 0), 0xFFFF_FFFF);
+}
+
+#[test]
+fn en_counts_seconds_tenths_of_hours_and_starts() {
+    let mut bench = Bench::new("en580c");
+    let life = |bench: &mut Bench| {
+        [(0x2A00, 1), (0x2A00, 2), (0x2A01, 0), (0x6508, 0)].map(|(i, s)| bench.read(i, s))
+    };
+    assert_eq!(life(&mut bench), [0, 0, 1, 0]);
+    bench.wait(719_999);
+    assert_eq!(life(&mut bench), [719, 719, 1, 1]);
+    bench.wait(1);
+    assert_eq!(life(&mut bench), [720, 720, 1, 2]);
+    bench.power_cycle(600_000, 0);
+    // Power went two seconds later.
+    assert_eq!(life(&mut bench), [0, 722, 2, 2]);
+    bench.wait(10_000);
+    bench.nmt(0x81);
+    let [current, total, cycles, _] = life(&mut bench);
+    assert!(current <= 1, "{current}");
+    assert_eq!(
+        (total - current, cycles),
+        (732, 2),
+        "a reset is no power-on"
+    );
+    bench
+        .write(0x1011, 1, u32::from_le_bytes(*b"load"))
+        .unwrap();
+    bench.power_cycle(1, 0);
+    assert_eq!(bench.read(0x2A01, 0), 3);
+}
+
+#[test]
+fn en_switches_rule_and_those_without_a_rate_do_not() {
+    let mut bench = Bench::new("en580c");
+    for (node_id, bit_rate, expected) in [
+        (0, 7, 250),
+        (1, 0, 250),
+        (1, 1, 250),
+        (1, 2, 50),
+        (1, 3, 125),
+        (1, 4, 250),
+        (1, 5, 500),
+        (1, 6, 800),
+        (1, 7, 1000),
+    ] {
+        bench.encoder.set_switches(Switches { node_id, bit_rate });
+        bench.power_cycle(1, 0);
+        assert_eq!(
+            bench.encoder.bit_rate(),
+            Some(expected),
+            "{node_id} {bit_rate}"
+        );
+    }
+}
+
+#[test]
+fn eam_has_no_switches() {
+    let mut bench = Bench::new("eam_mt");
+    bench.encoder.set_switches(Switches {
+        node_id: 9,
+        bit_rate: 7,
+    });
+    bench.power_cycle(1, 0);
+    assert_eq!(bench.read(0x2101, 0), 1);
+    assert_eq!(bench.encoder.bit_rate(), Some(50));
+}
