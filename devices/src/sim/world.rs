@@ -95,6 +95,15 @@ impl VirtualDevice {
         })
     }
 
+    /// Lets the shaft speed up or slow down evenly, to this speed after so many microseconds,
+    /// at most 4295 s.
+    pub fn ramp_to_rpm(&mut self, rpm: f64, micros: u64, now: Instant) -> bool {
+        let micros = u32::try_from(micros).unwrap_or(u32::MAX);
+        self.change(now, |encoder| {
+            encoder.shaft.ramp_to(now, (rpm * 1000.0) as i32, micros)
+        })
+    }
+
     /// Sets the rotary switches of the node ID, 0–99; 0 leaves it to the EEPROM. They are
     /// read at the next start.
     pub fn set_node_switch(&mut self, number: u8, now: Instant) {

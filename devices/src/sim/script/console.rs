@@ -10,7 +10,7 @@ use od_runtime::{Frame, Instant};
 
 use super::Problem;
 use super::parse::statement;
-use super::statement::{Action, Power, Shaft, When};
+use super::statement::{Action, Power, When};
 use super::words::Words;
 use crate::sim::VirtualDevice;
 use crate::sim::bus::Bus;
@@ -156,11 +156,7 @@ impl Console {
             Action::Power(Power::On) => self.world(bus, VirtualDevice::power_on)?,
             Action::Power(Power::Off) => self.world(bus, VirtualDevice::power_off)?,
             Action::Shaft(shaft) => {
-                let turned = self.world(bus, |device, now| match *shaft {
-                    Shaft::At(raw) => device.set_position(raw, now),
-                    Shaft::Turn(turns) => device.turn(turns, now),
-                    Shaft::Rpm(rpm) => device.set_rpm(rpm, now),
-                })?;
+                let turned = self.world(bus, |device, now| shaft.act(device, now))?;
                 if !turned {
                     return Err("this device has no shaft".into());
                 }
@@ -177,6 +173,7 @@ impl Console {
                     return Err(format!("this device has no fault `{name}`"));
                 }
             }
+            Action::Bus(event) => self.world(bus, |device, now| device.handle_bus(*event, now))?,
             // A line that only waits; `push` lets nothing else in.
             _ => {}
         }
@@ -204,6 +201,7 @@ fn is_for_a_live_bench(action: &Action) -> bool {
             | Action::SwitchNode(_)
             | Action::SwitchBitrate(_)
             | Action::Fault { .. }
+            | Action::Bus(_)
             | Action::Wait
     )
 }

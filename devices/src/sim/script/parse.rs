@@ -214,7 +214,8 @@ fn label(words: &mut Words<'_>) -> Result<String, Problem> {
 }
 
 fn shaft(words: &mut Words<'_>) -> Result<Action, Problem> {
-    const HELP: &str = "write `shaft at 0x79592` (raw steps), `shaft turn 2.5` or `shaft rpm 60`";
+    const HELP: &str = "write `shaft at 0x79592` (raw steps), `shaft turn 2.5`, `shaft rpm 60` or \
+                        `shaft ramp 6000 over 1s`";
     let what = words.next();
     let here = *words;
     if what == "at" {
@@ -230,7 +231,16 @@ fn shaft(words: &mut Words<'_>) -> Result<Action, Problem> {
     match (what, number) {
         ("turn", Some(turns)) => Ok(Action::Shaft(Shaft::Turn(turns))),
         ("rpm", Some(rpm)) => Ok(Action::Shaft(Shaft::Rpm(rpm))),
-        ("turn" | "rpm", None) => Err(here.problem("a number is missing", HELP)),
+        ("ramp", Some(rpm)) if words.take("over") => {
+            let here = *words;
+            let micros = words.duration()?;
+            if micros > u64::from(u32::MAX) {
+                return Err(here.problem("a ramp is too long", "the limit is 4294s"));
+            }
+            Ok(Action::Shaft(Shaft::Ramp(rpm, micros)))
+        }
+        ("ramp", Some(_)) => Err(words.problem("`over` is missing", HELP)),
+        ("turn" | "rpm" | "ramp", None) => Err(here.problem("a number is missing", HELP)),
         _ => Err(here.problem(format!("a shaft cannot `{what}`"), HELP)),
     }
 }

@@ -306,12 +306,7 @@ impl Runner<'_> {
     }
 
     fn shaft(&mut self, shaft: Shaft) -> Result<()> {
-        let turned = self.with(|device, now| match shaft {
-            Shaft::At(raw) => device.set_position(raw, now),
-            Shaft::Turn(turns) => device.turn(turns, now),
-            Shaft::Rpm(rpm) => device.set_rpm(rpm, now),
-        });
-        if turned {
+        if self.with(|device, now| shaft.act(device, now)) {
             Ok(())
         } else {
             impossible("this device has no shaft")

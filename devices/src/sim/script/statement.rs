@@ -6,7 +6,7 @@ use od_runtime::wire::nmt::Command;
 use od_runtime::{AbortCode, BusEvent, Frame, Instant, NodeId};
 
 use super::Pattern;
-use crate::sim::Led;
+use crate::sim::{Led, VirtualDevice};
 
 /// When a line acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +28,20 @@ pub(super) enum Shaft {
     Turn(f64),
     /// Turns from now on, revolutions a minute.
     Rpm(f64),
+    /// To so many revolutions a minute, evenly, in so many microseconds.
+    Ramp(f64, u64),
+}
+
+impl Shaft {
+    /// Turns the shaft of a device; answers whether it has one.
+    pub(super) fn act(self, device: &mut VirtualDevice, now: Instant) -> bool {
+        match self {
+            Self::At(raw) => device.set_position(raw, now),
+            Self::Turn(turns) => device.turn(turns, now),
+            Self::Rpm(rpm) => device.set_rpm(rpm, now),
+            Self::Ramp(rpm, micros) => device.ramp_to_rpm(rpm, micros, now),
+        }
+    }
 }
 
 /// What happens to the supply.

@@ -32,12 +32,15 @@ fn every_kind_of_line_is_read() {
 fn several_on_a_bus() {
     check(
         "device eam_red node 1 2 as red\nuse red.2\ndevice gxmm node 3 on red\nbus bitrate 250\n\
-         bus bitrate any\nfault temperature on\nexpect bitrate 50\nbus off\nbus active\nbus overrun",
-        "10 lines",
+         bus bitrate any\nfault temperature on\nexpect bitrate 50\nbus off\nbus active\nbus overrun\n\
+         shaft ramp -6000 over 1.5s",
+        "11 lines",
     );
     check("device eam_red node as red", "1:21: `as` does not fit");
     check("device gxmm on", "1:15: a name is missing");
     check("bus bitrate 2000", "1:13: `2000` does not fit");
+    check("shaft ramp 60", "1:14: `over` is missing");
+    check("shaft ramp 60 over 5000s", "1:20: a ramp is too long");
     check("bus stop", "1:5: a bus cannot `stop`");
 }
 
