@@ -22,6 +22,7 @@ impl Application for Encoder {
             }
         }
         self.position = position_handle(cx.store);
+        self.agree_on_links(cx.store);
         self.configure(cx.store);
         if reset == Reset::PowerOn || starts && self.profile.counter == Counter::Volatile {
             self.wake_up(cx.now);

@@ -1,6 +1,6 @@
 //! What the objects for the position mean: they, and the gear, become a [`Scale`].
 
-use od_model::Address;
+use od_model::{Address, Group};
 
 use super::movement::Rate;
 use super::{Counter, Encoder, Gear, GearKind, RangeRule, Scale, Total};
@@ -263,14 +263,21 @@ impl Encoder {
         }
     }
 
-    /// A start: the one of two linked objects that storage held rules.
+    /// A reset: the one of two linked objects that is saved rules; of two, the one that
+    /// storage held.
     pub(super) fn agree_on_links(&self, store: &mut Store<'_>) {
+        let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
+            Ok(entry) => entry.group != Group::None,
+            Err(_) => false,
+        };
         let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
-            Ok(entry) => !store.is_default(entry),
+            Ok(entry) => is_saved(store, at) && !store.is_default(entry),
             Err(_) => false,
         };
         for (first, second) in self.profile.links {
-            if is_stored(store, *second) && !is_stored(store, *first) {
+            if is_saved(store, *second) && !is_saved(store, *first)
+                || is_stored(store, *second) && !is_stored(store, *first)
+            {
                 let value = store.unsigned(second.index, second.sub);
                 store.set_unsigned(*first, value);
             }

@@ -48,7 +48,6 @@ impl Encoder {
         }
         self.forget_movements(cx.now, |_| true);
         self.engage_gear(cx.store);
-        self.agree_on_links(cx.store);
     }
 
     /// What the revolution counter makes of where the shaft is now.
