@@ -37,15 +37,15 @@ impl Consumer {
     }
 
     /// Reads 1016h: bits 0–15 the time in ms, bits 16–23 the node ID. An entry that did
-    /// not change goes on.
-    pub(super) fn configure(&mut self, store: &Store<'_>) {
+    /// not change goes on. Without `enabled` nobody is watched.
+    pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
         self.count = 0;
         for (sub, watch) in (1..).zip(&mut self.watches) {
             let Some(raw) = store.try_unsigned(0x1016, sub) else {
                 break;
             };
             let (node, period_us) = ((raw >> 16) as u8, (raw & 0xFFFF) * 1000);
-            let active = period_us > 0 && NodeId::new(node).is_some();
+            let active = enabled && period_us > 0 && NodeId::new(node).is_some();
             let (node, period_us) = if active { (node, period_us) } else { (0, 0) };
             if (node, period_us) != (watch.node, watch.period_us) {
                 *watch = Watch {

@@ -15,7 +15,8 @@ use crate::{Instant, Profile, Store};
 
 /// Is node guarding in force, and heartbeat not?
 ///
-/// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead.
+/// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
+/// leaves nothing of the heartbeat, neither producer nor consumer.
 pub(crate) fn guards(store: &Store<'_>, profile: &Profile) -> bool {
     match profile.guarding_switch {
         Some((index, mask)) => store.unsigned(index, 0) & u64::from(mask) != 0,
@@ -57,7 +58,8 @@ impl Monitor {
     /// Reads 100Ch, 100Dh and 1016h again.
     pub(crate) fn configure(&mut self, store: &Store<'_>, profile: &Profile) {
         self.guard.configure(store, guards(store, profile));
-        self.consumer.configure(store);
+        let switched_off = profile.guarding_switch.is_some() && guards(store, profile);
+        self.consumer.configure(store, !switched_off);
     }
 
     /// A master guards this node: the byte of the answer, if guarding is in force.
