@@ -169,3 +169,58 @@ impl Piece {
         i128::from(self.milli_rpm) * before + until(to) - until(from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn ms(ms: u64) -> Instant {
+        Instant::from_millis(ms)
+    }
+
+    #[test]
+    fn ways_and_speeds_over_changes() {
+        let mut course = Course::AT_REST;
+        assert_eq!(course.way(ms(0), ms(100)), 0);
+        course.add(ms(100), 1000, Ramp::NONE);
+        course.add(ms(200), 7, Ramp::NONE);
+        course.add(ms(200), -500, Ramp::NONE);
+        assert_eq!(course.way(ms(150), ms(250)), 1000 * 50_000 - 500 * 50_000);
+        assert_eq!(course.way(ms(0), ms(300)), 1000 * 100_000 - 500 * 100_000);
+        assert_eq!(course.way(ms(110), ms(120)), 1000 * 10_000);
+        let speeds = [99, 100, 199, 200].map(|at| course.fine_speed(ms(at)) / FINE);
+        assert_eq!(speeds, [0, 1000, 1000, -500]);
+    }
+
+    #[test]
+    fn a_ramp_is_a_square() {
+        let mut course = Course::AT_REST;
+        let ramp = Ramp {
+            micros: 1_000_000,
+            by: -3000,
+        };
+        course.add(ms(0), 1000, ramp);
+        assert_eq!(course.fine_speed(ms(500)), -500 * FINE);
+        assert_eq!(course.fine_speed(ms(2000)), -2000 * FINE);
+        // 1000 t − 1500 t², t in seconds.
+        assert_eq!(course.way(ms(0), ms(500)), 125_000_000);
+        assert_eq!(course.way(ms(500), ms(1000)), -625_000_000);
+        assert_eq!(course.way(ms(1000), ms(1001)), -2_000_000);
+    }
+
+    #[test]
+    fn what_is_too_old_to_be_remembered_was_as_the_oldest() {
+        let mut course = Course::AT_REST;
+        for step in 1..=100u32 {
+            course.add(ms(u64::from(step) * 10), step as i32, Ramp::NONE);
+        }
+        // 64 pieces: 37 to 100.
+        assert_eq!(course.fine_speed(ms(370)), 37 * FINE);
+        assert_eq!(course.fine_speed(ms(5)), 37 * FINE);
+        assert_eq!(course.way(ms(360), ms(380)), 37 * 20_000);
+        assert_eq!(course.way(ms(990), ms(1010)), (99 + 100) * 10_000);
+        // The same speed again is no change.
+        course.add(ms(2000), 100, Ramp::NONE);
+        assert_eq!(course.fine_speed(ms(370)), 37 * FINE);
+    }
+}

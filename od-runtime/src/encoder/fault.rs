@@ -134,3 +134,20 @@ impl Report {
         injection: None,
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_has_a_name_of_its_own() {
+        for (at, (fault, name)) in Fault::NAMES.into_iter().enumerate() {
+            // Bits and counters go by the number of a fault.
+            assert_eq!(fault as usize, at);
+            assert_eq!((fault.name(), Fault::from_name(name)), (name, Some(fault)));
+            let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
+            assert!(name.chars().all(kebab), "{name}");
+        }
+        assert_eq!(Fault::from_name(""), None);
+    }
+}

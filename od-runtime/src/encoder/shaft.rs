@@ -117,6 +117,11 @@ impl Shaft {
         self.ramp.to(self.milli_rpm)
     }
 
+    /// Does it turn, or will it before its ramp ends?
+    pub const fn is_turning(&self) -> bool {
+        self.milli_rpm != 0 || self.ramp.micros != 0
+    }
+
     /// From `now` on it turns with this speed, in thousandths of a revolution per minute.
     pub fn set_milli_rpm(&mut self, now: Instant, milli_rpm: i32) {
         self.ramp_to(now, milli_rpm, 0);
@@ -248,6 +253,51 @@ mod tests {
             shaft.angle(Instant::from_millis(9_500)).fractions(),
             77 + (1 << 30)
         );
+    }
+
+    #[test]
+    fn a_ramp_ends_where_it_should_and_can_be_left() {
+        let minute = 60_000_000;
+        let mut shaft = Shaft::at_rest(Angle::ZERO);
+        assert!(!shaft.is_turning());
+        shaft.ramp_to(Instant::ZERO, 2000, minute);
+        assert!(shaft.is_turning());
+        let at = |shaft: &Shaft, ms: u64| {
+            let now = Instant::from_millis(ms);
+            (shaft.angle(now).fractions(), shaft.milli_rpm_at(now))
+        };
+        // From 0 to 2 revolutions a minute within a minute: one revolution.
+        assert_eq!(at(&shaft, 30_000), (1 << 30, 1000));
+        assert_eq!(at(&shaft, 60_000), (1 << 32, 2000));
+        assert_eq!(at(&shaft, 90_000), (2 << 32, 2000));
+        shaft.turn(Instant::from_millis(30_000), Angle::from_fractions(5 << 32));
+        assert_eq!(at(&shaft, 60_000), (6 << 32, 2000));
+        // Left half way, for a stop and for another direction.
+        let mut other = shaft;
+        other.set_milli_rpm(Instant::from_millis(45_000), 0);
+        assert!(!other.is_turning());
+        assert_eq!(at(&other, 99_000), at(&other, 45_000));
+        shaft.ramp_to(Instant::from_millis(60_000), -2000, minute);
+        assert_eq!(at(&shaft, 90_000), ((6 << 32) + (1 << 31), 0));
+        assert_eq!(at(&shaft, 120_000), (6 << 32, -2000));
+        assert_eq!(at(&shaft, 150_000), (5 << 32, -2000));
+    }
+
+    #[test]
+    fn no_ramp_is_too_steep_or_too_long() {
+        for (from, to) in [(i32::MIN, i32::MAX), (i32::MAX, i32::MIN)] {
+            for micros in [1, u32::MAX] {
+                let mut shaft = Shaft::at_rest(Angle::ZERO);
+                shaft.set_milli_rpm(Instant::ZERO, from);
+                shaft.ramp_to(Instant::ZERO, to, micros);
+                let end = Instant::from_micros(micros.into());
+                assert_eq!(shaft.milli_rpm_at(end), to);
+                assert_eq!(shaft.milli_rpm_at(Instant::MAX), to);
+                let _ = shaft.angle(Instant::MAX);
+                shaft.turn(Instant::MAX, Angle::ZERO);
+                assert_eq!(shaft.milli_rpm(), to);
+            }
+        }
     }
 
     #[test]

@@ -1,0 +1,160 @@
+//! What the objects say and take.
+
+use super::*;
+
+#[test]
+fn the_trace_of_the_manual() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.at(0x7_9592);
+    assert_eq!(bench.position(), 0x7_9592);
+    bench.write(0x6002, 0, 0x1000_0000).unwrap();
+    bench.write(0x6001, 0, 0x1000).unwrap();
+    assert_eq!(bench.position(), 0x3_CAC9);
+    bench.write(0x6003, 0, 0).unwrap();
+    assert_eq!(bench.position(), 0);
+    assert_eq!(bench.read(0x6509, 0), 0x1000_0000 - 0x3_CAC9);
+    bench.write(0x6200, 0, 5).unwrap();
+    assert_eq!(bench.read(0x1800, 5), 5);
+    assert!(core::mem::take(&mut bench.signals.reconfigure));
+    // 1011h takes the values back, then says so.
+    bench.with(|encoder, cx| {
+        cx.store.reset(|entry| entry.address.index >= 0x6000);
+        encoder.reset(cx, Reset::Defaults);
+    });
+    assert_eq!(bench.position(), 0x7_9592);
+    assert_eq!(bench.read(0x1800, 5), 0x203);
+    assert!(bench.signals.reconfigure);
+}
+
+#[test]
+fn a_new_resolution_clears_the_offset_unless_an_option_keeps_it() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.at(1000);
+    bench.write(0x6003, 0, 5).unwrap();
+    assert_eq!(bench.position(), 5);
+    bench.write(0x6001, 0, 0x2000).unwrap();
+    assert_eq!((bench.position(), bench.read(0x6509, 0)), (1000, 0));
+    bench.write(0x6003, 0, 5).unwrap();
+    bench.write(0x2110, 0, 0x208).unwrap();
+    bench.write(0x6002, 0, 0x1000_0000).unwrap();
+    assert_eq!(bench.read(0x6509, 0), 0x2000_0000 - 995);
+    assert_eq!(bench.position(), 5, "modulo the new range");
+}
+
+#[test]
+fn sense_and_scaling_keep_the_offset() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.at(1000);
+    bench.write(0x6003, 0, 5).unwrap();
+    let offset = bench.read(0x6509, 0);
+    bench.write(0x6000, 0, 5).unwrap();
+    assert_eq!(bench.read(0x6500, 0), 5);
+    assert_eq!(bench.read(0x6509, 0), offset);
+    assert_eq!(
+        bench.position(),
+        (0x2000_0000 - 1000 + offset) % 0x2000_0000
+    );
+    bench.write(0x6000, 0, 0xFFFE).unwrap();
+    assert_eq!(bench.read(0x6500, 0), 4, "what there is");
+    bench.write(0x6001, 0, 1000).unwrap();
+    bench.at(0x1000);
+    assert_eq!(bench.position(), 500);
+    bench.write(0x6000, 0, 0).unwrap();
+    assert_eq!(bench.position(), 0x1000);
+}
+
+#[test]
+fn limits() {
+    use AbortCode::{ValueRange, ValueTooHigh};
+    let mut bench = Bench::new(0x2000_0000);
+    for (index, sub, value, expected) in [
+        (0x6001, 0, 0, Err(ValueRange)),
+        (0x6001, 0, 0x2000, Ok(())),
+        (0x6001, 0, 0x2001, Err(ValueTooHigh)),
+        (0x6002, 0, 0, Err(ValueRange)),
+        (0x6002, 0, 0x2000_0000, Ok(())),
+        (0x6002, 0, 0x2000_0001, Err(ValueTooHigh)),
+        (0x6002, 0, 1000, Ok(())),
+        (0x6003, 0, 999, Ok(())),
+        (0x6003, 0, 1000, Err(ValueTooHigh)),
+        (0x2101, 0, 0, Err(ValueRange)),
+        (0x2101, 0, 127, Ok(())),
+        (0x2101, 0, 128, Err(ValueTooHigh)),
+        (0x2100, 0, 8, Ok(())),
+        (0x2100, 0, 9, Err(ValueRange)),
+        (0x1029, 1, 3, Ok(())),
+        (0x1029, 1, 4, Err(ValueRange)),
+        (0x2110, 0, 0x28, Ok(())),
+        (0x6000, 0, 0xFFFF, Ok(())),
+    ] {
+        assert_eq!(
+            bench.write(index, sub, value),
+            expected,
+            "{index:X} {value:#X}"
+        );
+    }
+}
+
+#[test]
+fn two_timers_are_one() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.write(0x1800, 5, 40).unwrap();
+    assert_eq!(bench.read(0x6200, 0), 40);
+    bench.write(0x2110, 0, 0x108).unwrap();
+    assert_eq!((bench.read(0x6200, 0), bench.read(0x1800, 5)), (40, 42));
+    bench.write(0x6200, 0, 10).unwrap();
+    assert_eq!(bench.read(0x1800, 5), 12);
+    bench.write(0x1800, 5, 7).unwrap();
+    assert_eq!(bench.read(0x6200, 0), 5);
+    bench.write(0x6200, 0, 0).unwrap();
+    assert_eq!(bench.read(0x1800, 5), 0, "off is off");
+    bench.write(0x6200, 0, 0xFFFF).unwrap();
+    assert_eq!(bench.read(0x1800, 5), 0xFFFF);
+    bench.write(0x2110, 0, 8).unwrap();
+    // What a reset takes back is what the other follows.
+    bench.write(0x6200, 0, 9).unwrap();
+    bench.with(|encoder, cx| {
+        cx.store.reset(|entry| entry.address.index < 0x2000);
+        encoder.reset(cx, Reset::Communication);
+    });
+    assert_eq!(
+        (bench.read(0x6200, 0), bench.read(0x1800, 5)),
+        (0x203, 0x203)
+    );
+    // And at a start what storage held: here 6200h alone was saved.
+    bench.with(|encoder, cx| {
+        cx.store.reset(|_| true);
+        cx.store.set_unsigned(Address::new(0x6200, 0), 11);
+        encoder.reset(cx, Reset::Node);
+    });
+    assert_eq!((bench.read(0x6200, 0), bench.read(0x1800, 5)), (11, 11));
+}
+
+#[test]
+fn a_dictionary_describes_its_sensor() {
+    let sensor = |range| {
+        let tables = tables(range);
+        Encoder::for_dictionary(tables.dictionary())
+            .unwrap()
+            .sensor()
+    };
+    assert_eq!(
+        sensor(0x2000_0000),
+        Sensor {
+            steps: 0x2000,
+            turns: 0x1_0000
+        }
+    );
+    assert_eq!(
+        sensor(0x2000),
+        Sensor {
+            steps: 0x2000,
+            turns: 1
+        }
+    );
+    let mut encoder = Encoder::new(&PROFILE).with_serial_number(4711);
+    let mut bench = Bench::new(0x2000);
+    core::mem::swap(&mut bench.encoder, &mut encoder);
+    bench.reset(Reset::PowerOn);
+    assert_eq!((bench.read(0x1018, 4), bench.read(0x650B, 0)), (4711, 4711));
+}

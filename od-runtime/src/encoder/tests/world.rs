@@ -1,0 +1,121 @@
+//! Switches, faults, power.
+
+use super::*;
+
+#[test]
+fn switches_rule_the_node_id_and_the_bit_rate() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.write(0x2101, 0, 7).unwrap();
+    let id = |bench: &mut Bench| bench.with(|encoder, cx| encoder.node_id(cx.store).unwrap().raw());
+    assert_eq!((id(&mut bench), bench.encoder.bit_rate()), (7, Some(50)));
+    bench.encoder.set_switches(Switches {
+        node_id: 42,
+        bit_rate: 3,
+    });
+    assert_eq!((id(&mut bench), bench.encoder.bit_rate()), (42, Some(50)));
+    bench.reset(Reset::Node);
+    assert_eq!(bench.encoder.bit_rate(), Some(125));
+    assert_eq!(bench.read(0x2100, 0), 2, "as it is stored");
+}
+
+#[test]
+fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.encoder.set_fault(Fault::Position, true);
+    bench.encoder.set_fault(Fault::Battery, true);
+    bench.encoder.set_fault(Fault::Watchdog, true);
+    bench.with(|encoder, cx| encoder.tick(cx));
+    let error = |code, register, info| {
+        ErrorChange::Raised(crate::Error {
+            code,
+            register,
+            info,
+        })
+    };
+    let position = error(0x7320, 0x81, [1, 0, 0, 0, 0]);
+    let battery = error(0xFF00, 0x81, [1, 0, 0x10, 0, 0]);
+    assert_eq!(bench.errors(), [position, battery]);
+    bench.with(|encoder, cx| encoder.tick(cx));
+    assert_eq!(bench.errors(), [], "once");
+    assert_eq!((bench.read(0x6503, 0), bench.read(0x6505, 0)), (1, 0x10));
+    bench.encoder.set_fault(Fault::Position, false);
+    bench.with(|encoder, cx| encoder.tick(cx));
+    let cleared = ErrorChange::Cleared {
+        code: 0x7320,
+        register: Some(0x81),
+        info: [0, 0, 0x10, 0, 0],
+    };
+    assert_eq!(bench.errors(), [cleared]);
+    bench.reset(Reset::Node);
+    let watchdog = error(0x6010, 0x01, [0, 0, 0x14, 0, 0]);
+    assert_eq!(
+        bench.errors(),
+        [error(0xFF00, 0x81, [0, 0, 0x10, 0, 0]), watchdog]
+    );
+    bench.reset(Reset::PowerOn);
+    assert_eq!(
+        bench.read(0x6505, 0),
+        0x10,
+        "the watchdog did not bite again"
+    );
+    assert_eq!(
+        (bench.read(0x2201, 1), bench.read(0x2201, 3)),
+        (1, 1),
+        "kept without power"
+    );
+
+    let mut singleturn = Bench::new(0x2000);
+    singleturn.encoder.set_fault(Fault::Battery, true);
+    singleturn.with(|encoder, cx| encoder.tick(cx));
+    assert_eq!(singleturn.errors(), [], "it has no battery");
+}
+
+#[test]
+fn the_shaft_turns_without_power() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.at(100);
+    bench.now = Instant::from_millis(1000);
+    bench.encoder.power_off(bench.now);
+    bench
+        .encoder
+        .shaft
+        .turn(bench.now, Angle::from_fractions(3 << 32));
+    bench.now = Instant::from_millis(5000);
+    bench.reset(Reset::PowerOn);
+    assert_eq!(bench.position(), 100 + 3 * 0x2000);
+    // Three revolutions of 1000 steps; the counter passes its end without power.
+    bench.write(0x6001, 0, 1000).unwrap();
+    bench.write(0x6002, 0, 3000).unwrap();
+    bench.encoder.set_raw_position(bench.now, 65_535 * 0x2000);
+    assert_eq!(bench.position(), 0);
+    let one = Angle::from_fractions(1 << 32);
+    bench.encoder.shaft.turn(bench.now, one);
+    assert_eq!(bench.position(), 1000, "with power it goes on");
+    bench.encoder.shaft.turn(bench.now, Angle::ZERO.minus(one));
+    bench.encoder.power_off(bench.now);
+    bench.encoder.shaft.turn(bench.now, one);
+    bench.with(|encoder, cx| encoder.reset(cx, Reset::PowerOn));
+    assert_eq!(
+        bench.position(),
+        0,
+        "it says what revolution 0 says, not 1000"
+    );
+    bench.encoder.shaft.turn(bench.now, one);
+    assert_eq!(bench.position(), 1000);
+}
+
+#[test]
+fn time_of_operation_is_without_the_time_off() {
+    let mut bench = Bench::new(0x2000_0000);
+    bench.now = Instant::from_millis(800_000);
+    assert_eq!((bench.read(0x2201, 2), bench.read(0x6508, 0)), (800, 2));
+    let next = bench.with(|encoder, cx| encoder.tick(cx));
+    assert_eq!(next, Some(Instant::from_millis(1_080_000)));
+    bench.encoder.power_off(bench.now);
+    bench.now = Instant::from_millis(900_000);
+    bench.reset(Reset::PowerOn);
+    assert_eq!((bench.read(0x2201, 2), bench.read(0x6508, 0)), (800, 0));
+    bench.now = Instant::from_millis(960_500);
+    bench.reset(Reset::Node);
+    assert_eq!((bench.read(0x2201, 2), bench.read(0x6508, 0)), (860, 0));
+}
