@@ -48,7 +48,7 @@ impl VirtualDevice {
         };
         Some(ShaftView {
             turns: encoder.angle(now).fractions() as f64 / REVOLUTION,
-            rpm: f64::from(encoder.shaft.milli_rpm()) / 1000.0,
+            rpm: f64::from(encoder.shaft.milli_rpm_at(now)) / 1000.0,
             raw: encoder.raw_position(now),
         })
     }
@@ -193,7 +193,7 @@ impl VirtualDevice {
     pub(super) fn watches_shaft(&self) -> bool {
         match &self.behaviour {
             Behaviour::Encoder(encoder) => {
-                encoder.shaft.milli_rpm() != 0 && self.profile.pdo.event_on_change
+                encoder.shaft.is_turning() && self.profile.pdo.event_on_change
             }
             Behaviour::Nothing(_) => false,
         }
