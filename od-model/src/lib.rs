@@ -47,6 +47,8 @@ pub mod fix;
 pub mod patch;
 #[cfg(feature = "eds")]
 mod tables;
+#[cfg(feature = "xdd")]
+pub mod xdd;
 
 #[cfg(feature = "eds")]
 pub use description::{Description, EntryDescription, ObjectDescription, Section, Value};

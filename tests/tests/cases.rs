@@ -267,13 +267,14 @@ struct Case {
     document: Document,
 }
 
-/// Every folder of `tests/cases` with an `input.eds`, by name.
+/// Every folder of `tests/cases` with an `input.eds` or `input.xdd`, by name.
 fn cases() -> Vec<Case> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
     let mut cases = Vec::new();
     for entry in fs::read_dir(root).expect("tests/cases is there") {
         let folder = entry.expect("a folder can be listed").path();
-        let Ok(bytes) = fs::read(folder.join("input.eds")) else {
+        let inputs = ["input.eds", "input.xdd"].map(|name| folder.join(name));
+        let Some(bytes) = inputs.iter().find_map(|path| fs::read(path).ok()) else {
             continue;
         };
         cases.push(Case {
@@ -304,7 +305,10 @@ fn eds_files(folder: &Path, files: &mut Vec<PathBuf>) {
         let extension = path.extension().unwrap_or_default();
         if path.is_dir() {
             eds_files(&path, files);
-        } else if extension.eq_ignore_ascii_case("eds") || extension.eq_ignore_ascii_case("dcf") {
+        } else if ["eds", "dcf", "xdd", "xdc", "xpd"]
+            .iter()
+            .any(|known| extension.eq_ignore_ascii_case(known))
+        {
             files.push(path);
         }
     }

@@ -230,7 +230,7 @@ mod tests {
         assert_eq!(codes(&info), [""; 0]);
         let object = OBJECTS.replace("ParameterName=b", ";odkit-allow=W0108 so\nParameterName=b");
         assert_eq!(codes(&object), ["W0108"]);
-        let other = format!("[Tool]\n;odkit-allow=W0108 x\na:1\n{OBJECTS}");
+        let other = format!("[Tools]\n;odkit-allow=W0108 x\nItems:1\n{OBJECTS}");
         assert_eq!(codes(&other), ["W0108", "W0108"]);
     }
 

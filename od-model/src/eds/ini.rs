@@ -10,10 +10,10 @@ use crate::{Diagnostic, Section, Span, Spanned};
 
 /// A section with its places and its `;StorageLocation=` comment.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Placed {
-    pub(super) section: Section,
-    pub(super) header: Span,
-    pub(super) storage: Option<Spanned<String>>,
+pub(crate) struct Placed {
+    pub(crate) section: Section,
+    pub(crate) header: Span,
+    pub(crate) storage: Option<Spanned<String>>,
 }
 
 /// The sections of a text in file order, duplicates and all.

@@ -41,6 +41,10 @@ mod write;
 pub use describe::{About, describe};
 pub use document::{Document, Edit, EditError};
 pub use encoding::{Encoding, decode};
+#[cfg(feature = "xdd")]
+pub(crate) use ini::Placed;
+#[cfg(feature = "xdd")]
+pub(crate) use parse::from_sections;
 pub use parse::parse;
 pub use write::write;
 
@@ -84,5 +88,12 @@ fn checked(mut parsed: Parsed, text: &str) -> Parsed {
         .extend(crate::check::check(&parsed.description));
     crate::check::sort(&mut parsed.diagnostics);
     crate::check::Allows::of(text).apply(&mut parsed.diagnostics);
+    #[cfg(feature = "xdd")]
+    if crate::xdd::is_xml(text) {
+        // What mends an EDS would break an XML.
+        for finding in &mut parsed.diagnostics {
+            finding.fix = None;
+        }
+    }
     parsed
 }

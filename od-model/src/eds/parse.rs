@@ -15,22 +15,38 @@ use crate::check::rules;
 use crate::fix::Fix;
 use crate::{Address, Diagnostic, Span};
 
-/// Reads an EDS or a DCF.
+/// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
 ///
 /// Never fails, never panics: what it cannot read is a diagnostic, and stands as
 /// text in the `extra` of where it was. It does not check: see
 /// [`check`](crate::check::check) and [`load`](super::load).
 pub fn parse(text: &str) -> Parsed {
+    #[cfg(feature = "xdd")]
+    if crate::xdd::is_xml(text) {
+        return crate::xdd::parse(text);
+    }
     let mut diagnostics = Vec::new();
     let sections = ini::read(text, &mut diagnostics);
+    let mut sorted = sorted(sections, diagnostics);
+    sorted.has_lists = true;
+    sorted.parsed()
+}
+
+/// A description from the sections that an XDD has, in which no lists are.
+#[cfg(feature = "xdd")]
+pub(crate) fn from_sections(sections: Vec<Placed>, log: Vec<Diagnostic>) -> Parsed {
+    sorted(sections, log).parsed()
+}
+
+fn sorted(sections: Vec<Placed>, log: Vec<Diagnostic>) -> Sorted {
     let mut sorted = Sorted {
-        log: diagnostics,
+        log,
         ..Sorted::default()
     };
     for section in sections {
         sorted.add(section);
     }
-    sorted.parsed()
+    sorted
 }
 
 /// Reads a file; what there is to say of its encoding comes first.
@@ -50,7 +66,9 @@ fn encoded(document: &Document) -> Vec<Diagnostic> {
         true => ", with a byte order mark",
         false => "",
     };
-    if encoding != Encoding::Ascii {
+    // XML says how it is written, and every reader of XML knows these.
+    let is_xml = text.trim_start().starts_with('<');
+    if encoding != Encoding::Ascii && !is_xml {
         found.push(
             rules::I0111
                 .at(
@@ -80,6 +98,7 @@ struct Sorted {
     lists: BTreeMap<List, Vec<Placed>>,
     others: Vec<Placed>,
     names: BTreeMap<String, Span>,
+    has_lists: bool,
     log: Vec<Diagnostic>,
 }
 
@@ -190,7 +209,9 @@ impl Sorted {
         self.others.sort_by_key(|section| section.header.start);
         parsed.description.sections = self.others.into_iter().map(|s| s.section).collect();
         let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
-        lists::check(&self.lists, &parsed.description, &made, &mut self.log);
+        if self.has_lists {
+            lists::check(&self.lists, &parsed.description, &made, &mut self.log);
+        }
         parsed.description.objects.append(&mut made);
         parsed.diagnostics = self.log;
         crate::check::sort(&mut parsed.diagnostics);

@@ -1,0 +1,15 @@
+//! E0113: XML is not well-formed.
+
+use crate::Severity::Error;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0113",
+    severity: Error,
+    title: "XML is not well-formed",
+    why: "Nothing can be read of such a file.",
+    source: "XML 1.0",
+    mending: Mending::None,
+    before: "<CANopenObject index=\"1000\" name=Device type/>\n",
+    after: "<CANopenObject index=\"1000\" name=\"Device type\"/>\n",
+};
