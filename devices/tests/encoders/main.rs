@@ -1,4 +1,5 @@
-//! EAM and EN580C as manuals 001 and 003 have their encoders, in SDO frames.
+//! EAM and EN580C as manuals 001 and 003 have their encoders, in SDO frames; and the positions
+//! of every family against a second calculation.
 
 mod bench;
 mod diagnosis;
@@ -7,3 +8,4 @@ mod movement;
 mod position;
 mod power;
 mod reference;
+mod reference_bus_cover;

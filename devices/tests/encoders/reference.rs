@@ -6,22 +6,22 @@ use od_runtime::encoder::Angle;
 use crate::bench::{Bench, SAVE};
 
 /// xorshift: the same numbers each time.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         self.0
     }
 
-    fn below(&mut self, end: u64) -> u64 {
+    pub(crate) fn below(&mut self, end: u64) -> u64 {
         self.next() % end
     }
 
     /// Any magnitude is as likely as another.
-    fn magnitude(&mut self, bits: u64) -> u64 {
+    pub(crate) fn magnitude(&mut self, bits: u64) -> u64 {
         self.next() >> (64 - 1 - self.below(bits))
     }
 }
@@ -90,7 +90,8 @@ impl Bench {
     }
 }
 
-fn turns(random: &mut Random) -> i64 {
+/// Some way in either direction, in 2⁻³² revolutions.
+pub(crate) fn turns(random: &mut Random) -> i64 {
     let by = random.magnitude(55) as i64;
     if random.next() & 1 == 0 { by } else { -by }
 }
