@@ -88,7 +88,7 @@ pub(super) enum Expect {
         green: bool,
         led: Led,
     },
-    /// In kbit/s, since the last start.
+    /// In kbit/s.
     BitRate(u16),
 }
 
