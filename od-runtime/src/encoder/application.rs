@@ -130,7 +130,7 @@ impl Application for Encoder {
                 self.set_offset(cx.store, self.offset_for(cx.now, preset));
                 self.configure(cx.store);
             }
-            index if self.is_acting_gear(index) => self.take_new_resolution(cx),
+            index if self.is_acting_gear(cx.store, index) => self.take_new_resolution(cx),
             index if first == TIMER || self.profile.options.is_some_and(|o| o.index == index) => {
                 self.timer_to_event_timer(cx);
             }

@@ -64,10 +64,11 @@ impl Encoder {
         self.output_gear(store).is_some()
     }
 
-    /// Does a write to this index change the gear as it acts now?
-    pub(super) fn is_acting_gear(&self, index: u16) -> bool {
+    /// Does a write to this index change a gear that acts, or acted before it?
+    pub(super) fn is_acting_gear(&self, store: &Store<'_>, index: u16) -> bool {
         let gear = self.profile.gear;
-        gear.is_some_and(|gear| gear.kind == GearKind::Output && gear.index == index)
+        let is_gear = gear.is_some_and(|gear| gear.index == index);
+        is_gear && (self.output.is_some() || self.output_gear(store).is_some())
     }
 
     /// 6001h; without any the sensor's own, 1 or more.
@@ -94,6 +95,7 @@ impl Encoder {
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
         let output = self.output_gear(store);
+        self.output = output;
         if let Some((numerator, denominator)) = output {
             let steps = u128::from(range) * u128::from(denominator) / u128::from(numerator);
             // The object takes nothing less than 1.

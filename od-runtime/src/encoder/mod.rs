@@ -60,6 +60,8 @@ pub struct Encoder {
     rate: Rate,
     /// Numerator and denominator of the gear that the last start found.
     gear: Option<(u64, u64)>,
+    /// The same of the gear that acts at once, as it acts.
+    output: Option<(u64, u64)>,
     /// Where the shaft stood when power went, and when.
     off: Option<(Angle, Instant)>,
     /// What the shaft turned without power and the revolution counter did not see.
@@ -99,6 +101,7 @@ impl Encoder {
             scale: Scale::unscaled(sensor),
             rate: Rate::new(0, 1),
             gear: None,
+            output: None,
             position: None,
             off: None,
             unseen: Angle::ZERO,

@@ -63,7 +63,7 @@ pub enum GearKind {
     Position,
     /// 6002h is one revolution of the output, which is as many of the encoder as the factor
     /// says. It acts at once; 6001h shows steps per revolution of the encoder, rounded down,
-    /// and writing it changes nothing.
+    /// and writing it changes nothing. A new gear is a new resolution: the offset is cleared.
     Output,
 }
 
@@ -194,7 +194,7 @@ pub struct EncoderProfile {
     pub gear: Option<Gear>,
     /// Object with the sensor's position modulo 2³² (600Ch); no scaling, sense or offset.
     pub raw_position: Option<Address>,
-    /// Speeds and accelerations.
+    /// Speeds and accelerations; at most 4.
     pub movements: &'static [Movement],
     /// Objects that are one value: whatever is written to one stands in the other. After a
     /// start the one that storage held rules, the first if both.
