@@ -115,6 +115,7 @@ pub(crate) const fn kind(
     DeviceKind {
         name,
         title,
+        family: "bus-cover",
         dictionary,
         profile: &PROFILE,
         encoder: &ENCODER,

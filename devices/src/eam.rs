@@ -58,6 +58,7 @@ pub(crate) const fn kind(
     DeviceKind {
         name,
         title,
+        family: "eam",
         dictionary,
         profile: &PROFILE,
         encoder,

@@ -33,6 +33,7 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
     DeviceKind {
         name,
         title,
+        family: "en580c",
         dictionary: en580c::DICTIONARY,
         profile: &PROFILE,
         encoder: &ENCODER,

@@ -17,6 +17,8 @@
 extern crate std;
 
 pub mod bus_cover;
+#[cfg(feature = "sim")]
+pub mod datasheet;
 pub mod eam;
 mod eam_diagnosis;
 pub mod en580c;
@@ -38,6 +40,8 @@ pub struct DeviceKind {
     pub name: &'static str,
     /// What it is.
     pub title: &'static str,
+    /// The family, as the folder of its conformance scripts is called.
+    pub family: &'static str,
     /// Its object dictionary.
     pub dictionary: Dictionary<'static>,
     /// What its family does differently from CiA 301.

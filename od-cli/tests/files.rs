@@ -117,6 +117,18 @@ fn crlf_files_look_like_others() {
 }
 
 #[test]
+fn dump_in_markdown_is_a_page() {
+    let page = odkit(&["dump", "eam_mt", "--format", "md"], "");
+    assert_eq!(page.code, 0);
+    let written = repository("docs/datasheets/eam_mt.md");
+    assert_eq!(page.out, std::fs::read_to_string(written).unwrap());
+    let file = repository("devices/eds/GXMM.eds");
+    let page = odkit(&["dump", &file, "--format", "md"], "");
+    assert!(page.out.starts_with("# GXMM\n"), "{}", page.out);
+    assert!(page.out.contains("| Position value |"), "{}", page.out);
+}
+
+#[test]
 fn dump_is_an_aligned_table() {
     let dump = odkit(&["dump", "gxmm"], "");
     assert_eq!(dump.code, 0);
