@@ -154,6 +154,12 @@ pub trait Application {
         let _ = (cx, address);
     }
 
+    /// What storage holds was looked at, before a [`reset`](Self::reset): it is sound or damaged;
+    /// or it is sound again, as a save or restore made it. [`tick`](Self::tick) follows.
+    fn storage_is(&mut self, sound: bool) {
+        let _ = sound;
+    }
+
     /// Bytes 3–7 of an EMCY frame that a service sends of its own accord.
     fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
         let _ = store;

@@ -100,3 +100,26 @@ fn a_save_that_power_cuts_leaves_the_set_before() {
         assert_eq!(values, (1000, 5000), "cut at {cut}");
     }
 }
+
+/// Chapter 4.3.5: 5530h, EEPROM error. The factory values stand, and the error lasts until a
+/// save or a restore leaves something sound.
+#[test]
+fn a_damaged_eeprom_is_an_error() {
+    let mut bench = Bench::new("gxmm");
+    bench.write(0x2300, 1, 7).unwrap();
+    bench.write(0x1010, 1, SAVE).unwrap();
+    bench.write(0x1010, 1, SAVE).unwrap();
+    for byte in bench.storage.bytes_mut().iter_mut().skip(16) {
+        *byte = byte.wrapping_add(1);
+    }
+    for _ in 0..2 {
+        bench.power_cycle();
+        assert_eq!(bench.read(0x2300, 1), 0, "the factory value");
+        assert_eq!(bench.read(0x1001, 0), 1);
+        assert_eq!(bench.read(0x1003, 1), 0x5530);
+    }
+    bench.write(0x1010, 1, SAVE).unwrap();
+    assert_eq!(bench.read(0x1001, 0), 0, "a save mends it");
+    bench.power_cycle();
+    assert_eq!((bench.read(0x1001, 0), bench.read(0x1003, 0)), (0, 0));
+}

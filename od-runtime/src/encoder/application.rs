@@ -143,6 +143,10 @@ impl Application for Encoder {
         super::faults::info(store)
     }
 
+    fn storage_is(&mut self, sound: bool) {
+        self.faults.set_damaged(!sound);
+    }
+
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         self.faults.report(cx, self.profile);
         self.keep_time(cx)

@@ -24,6 +24,9 @@ pub(super) struct Faults {
     at_start: u32,
     /// The last reset was by the watchdog.
     watchdog: bool,
+    /// The last start found the memory damaged: [`Fault::Memory`] until it holds something
+    /// sound again.
+    damaged: bool,
     /// How often each came, as the device remembers it without power.
     counts: [u32; Fault::NAMES.len()],
     /// Rows that the check at the last start found.
@@ -53,6 +56,7 @@ impl Faults {
             broken: 0,
             at_start: 0,
             watchdog: false,
+            damaged: false,
             counts: [0; Fault::NAMES.len()],
             found: 0,
             latched: 0,
@@ -71,6 +75,16 @@ impl Faults {
         }
     }
 
+    /// Does the memory hold something damaged?
+    pub(super) fn set_damaged(&mut self, damaged: bool) {
+        self.damaged = damaged;
+    }
+
+    /// What the device can find broken now, by the host or by itself.
+    fn found(&self) -> u32 {
+        self.broken | if self.damaged { bit(Fault::Memory) } else { 0 }
+    }
+
     pub(super) fn is_set(&self, fault: Fault) -> bool {
         self.broken & bit(fault) != 0 || (fault == Fault::Watchdog && self.watchdog)
     }
@@ -80,7 +94,7 @@ impl Faults {
     pub(super) fn reset(&mut self, cx: &mut Context<'_, '_>, reports: &[Report], off: Off) {
         self.watchdog = self.broken & bit(Fault::Watchdog) != 0;
         self.broken &= !bit(Fault::Watchdog);
-        self.at_start = self.broken;
+        self.at_start = self.found();
         self.shown = 0;
         self.found = 0;
         let mut lasting = 0;
@@ -93,7 +107,10 @@ impl Faults {
                 Off::For(micros) => micros / 1000 >= u64::from(report.off_ms),
                 Off::Always => true,
             };
-            if report.appears == Appears::Startup && checked && self.is_set(report.fault) {
+            if report.appears == Appears::Startup
+                && checked
+                && (self.is_set(report.fault) || self.at_start & bit(report.fault) != 0)
+            {
                 self.found |= row;
             }
             if let Some(counter) = report.counter {
@@ -147,7 +164,7 @@ impl Faults {
         let is_broken = match report.fault {
             // What the host set is for the next start.
             Fault::Watchdog => self.watchdog,
-            fault => self.broken & bit(fault) != 0,
+            fault => self.found() & bit(fault) != 0,
         };
         if !is_broken {
             return false;

@@ -134,6 +134,9 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             {
                 self.events.push(Event::StorageDamaged);
             }
+            // A cut save is what power does to a memory that is sound.
+            let sound = !matches!(loaded, Ok(Loaded::Damaged) | Err(_));
+            objects.application.storage_is(sound);
             match objects.application.node_id(&objects.store) {
                 Some(node_id) if node_id != self.node_id && pass == 0 => self.node_id = node_id,
                 _ => {

@@ -263,6 +263,7 @@ impl<'c> Objects<'c> {
         }
         let profile = &self.profile.store;
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
+        self.storage_is_sound();
         if profile.restore == crate::Restore::AtOnce {
             self.store.reset(|entry| image::restores(entry, sub));
             self.application(|application, context| application.reset(context, Reset::Defaults));
@@ -299,12 +300,21 @@ impl<'c> Objects<'c> {
             return true;
         };
         let done = image::commit(self.storage, pending).is_ok();
+        if done {
+            self.storage_is_sound();
+        }
         self.effect(if done {
             Effect::Saved(sub)
         } else {
             Effect::NotSaved
         });
         done
+    }
+
+    /// The application may report the end of an error that it found at the start.
+    fn storage_is_sound(&mut self) {
+        self.application.storage_is(true);
+        self.outbox.signals.wake();
     }
 
     /// What the device keeps of its own life is brought up to date before it is saved.
