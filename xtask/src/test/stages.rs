@@ -66,6 +66,13 @@ pub(super) const STAGES: &[Stage] = &[
         run: rust::other_outside,
     },
     Stage {
+        name: "fuzz",
+        about: "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters",
+        quick: false,
+        counts: true,
+        run: rust::fuzz,
+    },
+    Stage {
         name: "doc",
         about: "the examples in the documentation",
         quick: false,

@@ -66,7 +66,7 @@ pub(super) fn outside(context: &Context<'_>, name: &str) -> Result<()> {
 /// The test targets of od-tests that have no stage of their own.
 pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
     let mut names = targets(context)?;
-    names.retain(|name| name != "ui" && name != "conformance");
+    names.retain(|name| !["ui", "conformance", "fuzz"].contains(&name.as_str()));
     if names.is_empty() {
         let text = "od-tests has no other tests yet";
         return Err(Error::Missing(String::from(text)));
@@ -76,6 +76,18 @@ pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
         args.extend(["--test", name.as_str()]);
     }
     test(context, "tests from outside", &args)
+}
+
+/// Mutated input: about a second for each target, a minute with `--long`, and then in a build
+/// that is fast and still checks everything.
+pub(super) fn fuzz(context: &Context<'_>) -> Result<()> {
+    let target = ["--package", "od-tests", "--test", "fuzz"];
+    let profile: &[&str] = if context.long {
+        &["--profile", "fuzz"]
+    } else {
+        &[]
+    };
+    test(context, "fuzz targets", &[profile, &target].concat())
 }
 
 pub(super) fn rustdoc(context: &Context<'_>) -> Result<()> {

@@ -1,0 +1,159 @@
+//! From one input to the next.
+
+use crate::random::Random;
+use crate::targets::Target;
+
+/// Numbers where things change.
+const NUMBERS: &[&str] = &[
+    "0",
+    "1",
+    "-1",
+    "7",
+    "8",
+    "9",
+    "127",
+    "128",
+    "255",
+    "256",
+    "32767",
+    "65535",
+    "65536",
+    "2147483647",
+    "2147483648",
+    "4294967295",
+    "4294967296",
+    "18446744073709551615",
+    "99999999999999999999999",
+    "0x",
+    "0x80000000",
+    "$NODEID",
+    "1e9",
+    "0.0000001",
+];
+
+/// A new input: a seed with some changes, now and then nothing but words and chance.
+pub(crate) fn input(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+    let mut bytes = match random.below(20) {
+        0 => Vec::new(),
+        _ => seeds
+            .get(random.below(seeds.len()))
+            .cloned()
+            .unwrap_or_default(),
+    };
+    let changes = match bytes.is_empty() {
+        true => 1 + random.below(60),
+        false => random.size(6),
+    };
+    for _ in 0..changes {
+        change(&mut bytes, target, seeds, random);
+    }
+    bytes.truncate(target.longest);
+    bytes
+}
+
+fn change(bytes: &mut Vec<u8>, target: &Target, seeds: &[Vec<u8>], random: &mut Random) {
+    let at = random.below(bytes.len() + 1);
+    let some = random.size(8);
+    let end = (at + some).min(bytes.len());
+    match random.below(if target.is_text { 10 } else { 7 }) {
+        0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
+        1 if at < bytes.len() => bytes[at] = random.next() as u8,
+        2 => drop(bytes.drain(at..end)),
+        3 => {
+            let again = bytes[at..end].to_vec();
+            insert(bytes, at, &again);
+        }
+        4 => {
+            let noise: Vec<u8> = (0..some.min(16)).map(|_| random.next() as u8).collect();
+            insert(bytes, at, &noise);
+        }
+        5 => {
+            // A piece of another seed.
+            let other = seeds
+                .get(random.below(seeds.len()))
+                .map_or(&[][..], |seed| seed);
+            let from = random.below(other.len() + 1);
+            let to = (from + some).min(other.len());
+            insert(bytes, at, &other[from..to]);
+        }
+        7 => {
+            // A line elsewhere, or once more.
+            let line = line_at(bytes, at).to_vec();
+            let to = line_start(bytes, random.below(bytes.len() + 1));
+            insert(bytes, to, &line);
+        }
+        8 => {
+            let start = line_start(bytes, at);
+            let len = line_at(bytes, at).len();
+            bytes.drain(start..start + len);
+        }
+        9 => number(bytes, at, random),
+        _ => {
+            if !target.words.is_empty() {
+                insert(bytes, at, random.pick(target.words).as_bytes());
+            }
+        }
+    }
+}
+
+fn insert(bytes: &mut Vec<u8>, at: usize, piece: &[u8]) {
+    bytes.splice(at..at, piece.iter().copied());
+}
+
+fn line_start(bytes: &[u8], at: usize) -> usize {
+    let before = bytes[..at].iter().rposition(|byte| *byte == b'\n');
+    before.map_or(0, |end| end + 1)
+}
+
+/// The line around a place, with its end.
+fn line_at(bytes: &[u8], at: usize) -> &[u8] {
+    let rest = &bytes[line_start(bytes, at)..];
+    let end = rest.iter().position(|byte| *byte == b'\n');
+    &rest[..end.map_or(rest.len(), |end| end + 1)]
+}
+
+/// The next number becomes another one.
+fn number(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
+    let is_digit = |byte: &u8| byte.is_ascii_hexdigit();
+    let Some(start) = bytes[at..].iter().position(u8::is_ascii_digit) else {
+        return;
+    };
+    let start = at + start;
+    let len = bytes[start..]
+        .iter()
+        .take_while(|byte| is_digit(byte))
+        .count();
+    bytes.splice(start..start + len, random.pick(NUMBERS).bytes());
+}
+
+/// Smaller inputs that may still fail: without one piece after the other, large ones first.
+/// What an input consists of stays whole: `unit` bytes each.
+pub(crate) fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
+    let mut best = input.to_vec();
+    let mut pieces = best.len().div_ceil(2 * unit);
+    while pieces > 0 {
+        let piece = pieces * unit;
+        let mut at = 0;
+        while at < best.len() {
+            let mut shorter = best.clone();
+            shorter.drain(at..(at + piece).min(best.len()));
+            if fails(&shorter) {
+                best = shorter;
+            } else {
+                at += piece;
+            }
+        }
+        pieces /= 2;
+    }
+    best
+}
+
+/// An input for people, as far as it is short.
+pub(crate) fn shown(input: &[u8]) -> String {
+    const SHOWN: usize = 400;
+    let mut text: String = input[..input.len().min(SHOWN)].escape_ascii().to_string();
+    if input.len() > SHOWN {
+        text.push_str(&format!("… {} bytes", input.len()));
+    }
+    text
+}

@@ -1,0 +1,116 @@
+//! EDS and DCF text: it is read whatever it is, written so that it reads the same, and runs as
+//! far as it goes.
+
+use od_devices::sim::{Bus, EdsOptions, VirtualDevice};
+use od_model::{Tables, eds};
+use od_runtime::{Frame, Instant};
+
+use super::{Target, files};
+
+pub(super) const TARGET: Target = Target {
+    name: "eds",
+    run,
+    seeds: || {
+        let mut seeds = files("tests/cases", &["input.eds", "input.dcf"], 16_384);
+        seeds.extend(files("tests/eds", &[".eds"], 16_384));
+        seeds.extend(files("tests/interop", &[".eds"], 16_384));
+        assert!(seeds.len() > 10, "where are the cases?");
+        seeds
+    },
+    words: &[
+        "[1000]\n",
+        "[1018sub1]\n",
+        "[1A00]\n",
+        "[1A00sub0]\n",
+        "[1A00sub1]\n",
+        "[2000]\n",
+        "[FFFF]\n",
+        "[1003]\n",
+        "[1003Name]\n",
+        "[1003Value]\n",
+        "[DeviceComissioning]\n",
+        "[FileInfo]\n",
+        "[DummyUsage]\n",
+        "[Comments]\n",
+        "ParameterName=x\n",
+        "ObjectType=0x9\n",
+        "ObjectType=0x8\n",
+        "SubNumber=255\n",
+        "CompactSubObj=254\n",
+        "DataType=0x0007\n",
+        "DataType=0x001B\n",
+        "DataType=0x000F\n",
+        "AccessType=const\n",
+        "AccessType=rww\n",
+        "DefaultValue=$NODEID+0x180\n",
+        "LowLimit=-1\n",
+        "HighLimit=0xFFFFFFFFFFFFFFFF\n",
+        "PDOMapping=1\n",
+        "ParameterValue=5\n",
+        "NodeID=127\n",
+        ";StorageLocation=PERSIST_APP\n",
+        "SupportedObjects=65535\n",
+        "=",
+        "\r\n",
+        "\u{feff}",
+        "\u{ff}",
+        "ä",
+        "[",
+        "]",
+        ";",
+        "\"",
+    ],
+    is_text: true,
+    longest: 32_768,
+    ..Target::PLAIN
+};
+
+fn run(input: &[u8]) {
+    let text = eds::decode(input);
+    let parsed = eds::load(&text);
+    let written = eds::write(&parsed.description);
+    let again = eds::parse(&written).description;
+    assert!(
+        again == parsed.description,
+        "read again, the text differs:\n{written}"
+    );
+    let tables = Tables::new(&parsed.description);
+    let dictionary = tables.dictionary();
+    for entry in dictionary.entries() {
+        assert_eq!(dictionary.find(entry.address), Ok(entry));
+    }
+    for diagnostic in &parsed.diagnostics {
+        assert!(!diagnostic.message.is_empty() && !diagnostic.code.is_empty());
+    }
+    let options = EdsOptions {
+        lenient: true,
+        ..EdsOptions::default()
+    };
+    let Ok(device) = VirtualDevice::from_eds(&text, options) else {
+        return;
+    };
+    let mut bus = Bus::new();
+    let number = bus.add(device);
+    bus.with(number, VirtualDevice::power_on);
+    let node = bus.devices()[0].node_id().raw();
+    bus.receive(&Frame::standard(0, &[1, node]));
+    let entries: Vec<_> = bus.devices()[0]
+        .dictionary()
+        .entries()
+        .iter()
+        .map(|entry| entry.address)
+        .collect();
+    for address in entries.into_iter().take(50) {
+        let [low, high] = address.index.to_le_bytes();
+        let request = [0x40, low, high, address.sub, 0, 0, 0, 0];
+        bus.receive(&Frame::standard(0x600 + u16::from(node), &request));
+    }
+    bus.receive(&Frame::standard(0x80, &[]));
+    let mut sent = 0;
+    while bus.poll().is_some() {
+        sent += 1;
+    }
+    assert!(sent < 1000, "{sent} answers to 52 frames");
+    bus.advance(Instant::ZERO.plus_millis(20));
+    bus.with(number, VirtualDevice::power_off);
+}

@@ -1,0 +1,167 @@
+//! A whole device: frames, time, power, shaft, switches and faults in any order. It never
+//! panics, never floods the bus, keeps silent when it is stopped, and is itself again after it
+//! was mended and power-cycled.
+
+use od_devices::sim::{Bus, VirtualDevice};
+use od_runtime::wire::nmt::State;
+use od_runtime::{Frame, Instant};
+
+use super::Target;
+use super::bench::{self, Act, STEP};
+use crate::random::Random;
+use crate::trace;
+
+pub(super) const TARGET: Target = Target {
+    name: "node",
+    run,
+    make: Some(make),
+    unit: STEP,
+    ..Target::PLAIN
+};
+
+fn make(random: &mut Random) -> Vec<u8> {
+    let mut input = vec![0; STEP];
+    input[0] = random.below(bench::kinds()) as u8;
+    for _ in 0..random.below(400) {
+        let halves = [random.next(), random.next()].map(u64::to_le_bytes);
+        input.extend_from_slice(&halves.concat()[..STEP]);
+    }
+    input
+}
+
+fn run(input: &[u8]) {
+    let mut steps = input.chunks_exact(STEP);
+    let Some(head) = steps.next() else {
+        return;
+    };
+    let device = bench::device(usize::from(head[0]));
+    let entries = device.dictionary().entries().to_vec();
+    let faults: Vec<&str> = device.faults();
+    let mut bus = Bus::new();
+    bus.add(device);
+    bus.with(0, VirtualDevice::power_on);
+    for step in steps {
+        let step = step.try_into().expect("chunks are that long");
+        let node = bus.devices()[0].node_id().raw();
+        let before = bus.devices()[0].state();
+        let act = bench::act(step, &entries, node);
+        trace(|| format!("> {act:?}"));
+        match act {
+            Act::Frame(frame) => {
+                bus.receive(&frame);
+                quiet(&mut bus, &frame, before);
+            }
+            Act::Time(micros) => pass(&mut bus, micros),
+            Act::Power(micros) => {
+                bus.with(0, VirtualDevice::power_off);
+                pass(&mut bus, micros);
+                bus.with(0, VirtualDevice::power_on);
+            }
+            Act::Position(raw) => drop(bus.with(0, |device, now| device.set_position(raw, now))),
+            Act::Rpm(rpm) => drop(bus.with(0, |device, now| device.set_rpm(rpm, now))),
+            Act::Turn(turns) => drop(bus.with(0, |device, now| device.turn(turns, now))),
+            Act::Switches(id, rate) => {
+                bus.with(0, |device, now| {
+                    device.set_node_switch(id, now);
+                    device.set_bitrate_switch(rate, now);
+                });
+            }
+            Act::Fault(number, broken) => {
+                if let Some(name) = faults.get(number % faults.len().max(1)) {
+                    bus.with(0, |device, now| device.set_fault(name, broken, now));
+                }
+            }
+        }
+        let device = &bus.devices()[0];
+        // Whatever is shown has to be there at any moment.
+        let _ = (device.leds(), device.shaft(bus.now()), device.bit_rate());
+    }
+    for entry in entries {
+        bus.with(0, |device, now| device.read(entry.address, now));
+    }
+    recovers(&mut bus, &faults);
+}
+
+/// One frame is answered with a few, and in the state Stopped with none of SDO or PDO.
+fn quiet(bus: &mut Bus, frame: &Frame, before: State) {
+    let after = bus.devices()[0].state();
+    let mut count = 0;
+    while let Some(sent) = bus.poll() {
+        count += 1;
+        if before == State::Stopped && after == State::Stopped {
+            let about_lss = frame.id().as_standard() == Some(0x7E5);
+            assert!(
+                about_lss || frame.is_remote(),
+                "stopped, it answers {frame} with {}",
+                sent.frame
+            );
+        }
+    }
+    // A block of 127 segments is the longest answer there is.
+    assert!(count <= 140, "{count} answers to {frame}");
+}
+
+fn pass(bus: &mut Bus, micros: u64) {
+    let start = bus.now();
+    let end = start.plus_micros(micros);
+    bus.advance(end);
+    let mut count = 0_u64;
+    while let Some(sent) = bus.poll() {
+        count += 1;
+        assert!(
+            sent.at >= start && sent.at <= end,
+            "{} is sent at {:?}",
+            sent.frame,
+            sent.at
+        );
+    }
+    // A heartbeat, EMCY, and a PDO each, once a millisecond each, with their repetitions.
+    let most = 200 + micros / 1000 * 70;
+    assert!(count <= most, "{count} frames in {micros} us");
+}
+
+fn recovers(bus: &mut Bus, faults: &[&str]) {
+    bus.with(0, |device, now| {
+        device.power_off(now);
+        for name in faults {
+            device.set_fault(name, false, now);
+        }
+        device.set_rpm(0.0, now);
+        device.set_node_switch(0, now);
+        device.set_bitrate_switch(0, now);
+    });
+    pass(bus, 60_000_000);
+    bus.with(0, VirtualDevice::power_on);
+    let from = bus.now();
+    bus.advance(from.plus_millis(5000));
+    let node = u16::from(bus.devices()[0].node_id().raw());
+    let mut boots = 0;
+    while let Some(sent) = bus.poll() {
+        let boot = Frame::standard(0x700 + node, &[0]);
+        boots += usize::from(sent.frame == boot);
+    }
+    let state = bus.devices()[0].state();
+    // Without a node ID it waits for LSS; a node that starts by itself is operational.
+    if state == State::Initialising {
+        return;
+    }
+    assert_eq!(
+        boots, 1,
+        "boot-up messages of node {node} after a power cycle, {state}"
+    );
+    // What a master saved may put the device into any state at its start; ask in this one.
+    bus.receive(&Frame::standard(0, &[0x80, node as u8]));
+    while bus.poll().is_some() {}
+    bus.receive(&Frame::standard(
+        0x600 + node,
+        &[0x40, 0, 0x10, 0, 0, 0, 0, 0],
+    ));
+    let answer = std::iter::from_fn(|| bus.poll())
+        .find(|sent| sent.frame.bytes()[..4] == [0x43, 0, 0x10, 0]);
+    assert!(
+        answer.is_some(),
+        "node {node} does not say what it is, {:?}",
+        bus.devices()[0].state()
+    );
+    debug_assert!(bus.now() > Instant::ZERO);
+}
