@@ -1,5 +1,5 @@
-//! Fuzzing on a stable compiler: inputs are made by mutation, without coverage to steer them,
-//! and the same seed makes the same inputs. What an input must not do is panic, hang, or break
+//! Fuzzing on a stable compiler (cargo-fuzz needs a nightly one): inputs are made by mutation,
+//! without coverage to steer them, and the same seed makes the same inputs. What an input must not do is panic, hang, or break
 //! what its target says must hold.
 //!
 //! ```text
