@@ -37,14 +37,13 @@ fn rules() -> String {
         let (folder, _) = name.rsplit_once('/').unwrap_or(("", name));
         folders.entry(folder).or_default().push((name, header));
     }
-    let mut page = format!(
+    let mut page = String::from(
         "# Rules\n\n\
-         What our devices do, where it is written, and the script that shows it: {} scripts.\n\
+         What our devices do, where it is written, and the script that shows it.\n\
          Manuals are named by the first digits of their file names; C-… and U-… are the\n\
          decisions on what contradicts itself and on what is left unsaid.\n\n\
          This page is generated from the first lines of the scripts:\n\
          `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules`.\n",
-        headers.len()
     );
     for (folder, scripts) in folders {
         let _ = write!(
