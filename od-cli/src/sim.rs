@@ -13,10 +13,11 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use od_devices::sim::values;
+use od_devices::sim::{VirtualDevice, values};
 use od_runtime::NodeId;
 
-use crate::{Failure, source};
+use crate::Failure;
+use crate::source::{self, Source};
 use clients::Input;
 use link::{Ends, Link, Opened};
 use live::Live;
@@ -38,6 +39,13 @@ pub(crate) struct Args {
     /// One more device on the bus; may be given again
     #[arg(long = "device", value_name = "DEVICE|FILE")]
     more: Vec<String>,
+    #[command(flatten)]
+    options: Options,
+}
+
+/// How devices run, whichever they are.
+#[derive(clap::Args)]
+pub(crate) struct Options {
     /// Node ID that a device starts with, 1 to 127; given again it is for the next device.
     /// A device without one takes 1, or the next that is free
     #[arg(long = "node-id", value_name = "N", value_parser = source::node_id)]
@@ -77,7 +85,33 @@ const INPUTS: usize = 1024;
 const LINKS: usize = 64;
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let devices = fleet::make(args)?;
+    let names: Vec<&String> = args.devices.iter().chain(&args.more).collect();
+    let mut sources = Vec::new();
+    for name in &names {
+        sources.push((name.as_str(), Source::find(name)?));
+    }
+    let makers: Vec<Maker<'_>> = sources
+        .iter()
+        .map(|(name, source)| Maker {
+            name,
+            make: Box::new(|node_id| source.device(node_id)),
+        })
+        .collect();
+    serve(&makers, &args.options)
+}
+
+/// A device that is to be, by the name that it was asked for with.
+pub(crate) struct Maker<'m> {
+    pub(crate) name: &'m str,
+    pub(crate) make: Make<'m>,
+}
+
+/// Makes it with this node ID, or the one that it has by itself.
+type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, Failure> + 'm>;
+
+/// Puts the devices on a bus and runs it until Ctrl-C.
+pub(crate) fn serve(makers: &[Maker<'_>], args: &Options) -> Result<(), Failure> {
+    let devices = fleet::make(makers, args)?;
     let opened = open(args)?;
     let (inputs, waiting) = sync_channel(INPUTS);
     let (wake, stop) = (inputs.clone(), Arc::new(AtomicBool::new(false)));
@@ -92,7 +126,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let ends = opened.iter().filter(|link| matches!(link, Opened::Ends(_)));
     let ends = ends.count();
     let mut live = Live::new(devices, ends, ends < opened.len());
-    greeting::print(args, &live.bus, &opened)?;
+    let first = makers.first().map_or("", |maker| maker.name);
+    greeting::print(first, args, &live.bus, &opened)?;
     let clients = Arc::new(AtomicUsize::new(LINKS));
     let mut outputs = Vec::new();
     for (number, link) in (0..).zip(opened) {
@@ -111,7 +146,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn open(args: &Args) -> Result<Vec<Opened>, Failure> {
+fn open(args: &Options) -> Result<Vec<Opened>, Failure> {
     let mut links = args.links.clone();
     if let Some(place) = &args.slcan {
         links.insert(0, Link::Tcp(adapter::Kind::Slcan, place.clone()));

@@ -39,14 +39,22 @@ impl Source {
 /// What is behind the dictionary.
 pub(super) enum Behaviour {
     Encoder(Box<Encoder>),
-    Nothing(NoApplication),
+    Other(Box<dyn Application>),
 }
 
 impl Behaviour {
+    /// An encoder where there is a position (6004h), else nothing.
+    fn of(dictionary: Dictionary<'_>) -> Self {
+        match Encoder::for_dictionary(dictionary) {
+            Some(encoder) => Self::Encoder(Box::new(encoder)),
+            None => Self::Other(Box::new(NoApplication)),
+        }
+    }
+
     fn as_application(&mut self) -> &mut dyn Application {
         match self {
             Self::Encoder(encoder) => &mut **encoder,
-            Self::Nothing(nothing) => nothing,
+            Self::Other(other) => &mut **other,
         }
     }
 }
@@ -103,6 +111,27 @@ impl VirtualDevice {
         }
     }
 
+    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter, and an
+    /// encoder behind it where there is a position (6004h).
+    pub fn of(title: &str, dictionary: Dictionary<'static>, node_id: NodeId) -> Self {
+        let source = Source::Compiled(dictionary);
+        let behaviour = Behaviour::of(dictionary);
+        Self::build(title.into(), source, behaviour, &Profile::CIA301, node_id)
+    }
+
+    /// The same with behaviour of one's own, and what the services do differently.
+    pub fn with_application(
+        title: &str,
+        dictionary: Dictionary<'static>,
+        profile: &'static Profile,
+        application: Box<dyn Application>,
+        node_id: NodeId,
+    ) -> Self {
+        let source = Source::Compiled(dictionary);
+        let behaviour = Behaviour::Other(application);
+        Self::build(title.into(), source, behaviour, profile, node_id)
+    }
+
     /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
     /// whose channels are nodes of their own. [`Bus::add_beside`](super::Bus::add_beside) puts
     /// the second one on the bus.
@@ -128,10 +157,7 @@ impl VirtualDevice {
             .and_then(|info| info.get("ProductName"));
         let title = product.map(|name| name.value.trim().to_owned());
         let tables = Tables::new(description);
-        let behaviour = match Encoder::for_dictionary(tables.dictionary()) {
-            Some(encoder) => Behaviour::Encoder(Box::new(encoder)),
-            None => Behaviour::Nothing(NoApplication),
-        };
+        let behaviour = Behaviour::of(tables.dictionary());
         let title = title
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
@@ -370,7 +396,7 @@ impl VirtualDevice {
                 let mut errors = reports.filter(|report| report.warning == 0);
                 errors.any(|report| encoder.is_broken(report.fault))
             }
-            Behaviour::Nothing(_) => false,
+            Behaviour::Other(_) => false,
         };
         let register = bits(0x1001);
         let error = broken

@@ -26,7 +26,7 @@ impl VirtualDevice {
     fn encoder(&mut self) -> Option<&mut Encoder> {
         match &mut self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder),
-            Behaviour::Nothing(_) => None,
+            Behaviour::Other(_) => None,
         }
     }
 
@@ -57,7 +57,7 @@ impl VirtualDevice {
     pub(super) fn shaft_now(&self) -> Option<Shaft> {
         match &self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder.shaft),
-            Behaviour::Nothing(_) => None,
+            Behaviour::Other(_) => None,
         }
     }
 
@@ -130,7 +130,7 @@ impl VirtualDevice {
             Behaviour::Encoder(encoder) => {
                 (encoder.switches().node_id, encoder.switches().bit_rate)
             }
-            Behaviour::Nothing(_) => (0, 0),
+            Behaviour::Other(_) => (0, 0),
         }
     }
 
@@ -158,7 +158,7 @@ impl VirtualDevice {
                 let mut reports = encoder.profile().reports.iter();
                 reports.any(|report| report.fault == fault)
             }
-            Behaviour::Nothing(_) => false,
+            Behaviour::Other(_) => false,
         }
     }
 
@@ -175,7 +175,7 @@ impl VirtualDevice {
     pub fn bit_rate(&self) -> Option<u16> {
         match &self.behaviour {
             Behaviour::Encoder(encoder) => self.activated.or(encoder.bit_rate()),
-            Behaviour::Nothing(_) => None,
+            Behaviour::Other(_) => None,
         }
     }
 
@@ -195,7 +195,7 @@ impl VirtualDevice {
             Behaviour::Encoder(encoder) => {
                 encoder.shaft.is_turning() && self.profile.pdo.event_on_change
             }
-            Behaviour::Nothing(_) => false,
+            Behaviour::Other(_) => false,
         }
     }
 }

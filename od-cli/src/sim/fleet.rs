@@ -4,14 +4,12 @@ use od_devices::sim::VirtualDevice;
 use od_runtime::storage::File;
 use od_runtime::{Instant, NodeId};
 
-use super::Args;
+use super::{Maker, Options};
 use crate::Failure;
-use crate::source::Source;
 
 /// Makes the devices, without power.
-pub(super) fn make(args: &Args) -> Result<Vec<VirtualDevice>, Failure> {
-    let names: Vec<&String> = args.devices.iter().chain(&args.more).collect();
-    let count = names.len();
+pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<VirtualDevice>, Failure> {
+    let count = makers.len();
     for (option, given) in [
         ("--node-id", args.node_ids.len()),
         ("--eeprom", args.eeproms.len()),
@@ -24,14 +22,14 @@ pub(super) fn make(args: &Args) -> Result<Vec<VirtualDevice>, Failure> {
         }
     }
     let mut devices: Vec<VirtualDevice> = Vec::new();
-    for (at, name) in names.into_iter().enumerate() {
-        let mut device = one(name, args, at, &devices)?;
+    for (at, maker) in makers.iter().enumerate() {
+        let mut device = one(maker, args, at, &devices)?;
         if let Some(path) = args.eeproms.get(at) {
             let file = File::open(path, device.storage_needed());
             let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
             device = device.with_storage(Box::new(file));
         }
-        set_shaft(args, name, at, &mut device)?;
+        set_shaft(args, maker.name, at, &mut device)?;
         devices.push(device);
     }
     Ok(devices)
@@ -39,14 +37,13 @@ pub(super) fn make(args: &Args) -> Result<Vec<VirtualDevice>, Failure> {
 
 /// A device with the node ID that it is given, else its own, else the next one that is free.
 fn one(
-    name: &str,
-    args: &Args,
+    maker: &Maker<'_>,
+    args: &Options,
     at: usize,
     others: &[VirtualDevice],
 ) -> Result<VirtualDevice, Failure> {
-    let source = Source::find(name)?;
     let wanted = args.node_ids.get(at).copied();
-    let device = source.device(wanted)?;
+    let device = (maker.make)(wanted)?;
     let is_used = |id: NodeId| others.iter().any(|other| other.node_id() == id);
     let own = device.node_id();
     let Some(last) = others.last().map(|other| other.node_id().raw()) else {
@@ -58,7 +55,7 @@ fn one(
     }
     let mut free = (last..=127).chain(1..last).filter_map(NodeId::new);
     match free.find(|id| !is_used(*id)) {
-        Some(id) => source.device(Some(id)),
+        Some(id) => (maker.make)(Some(id)),
         None => Err(Failure::Usage(
             "a bus has room for 127 devices; start another odkit for the rest".into(),
         )),
@@ -66,7 +63,7 @@ fn one(
 }
 
 fn set_shaft(
-    args: &Args,
+    args: &Options,
     name: &str,
     at: usize,
     device: &mut VirtualDevice,

@@ -4,21 +4,26 @@ use std::fmt::Write as _;
 
 use od_devices::sim::Bus;
 
-use super::Args;
+use super::Options;
 use super::adapter::Kind;
 use super::link::Opened;
 use crate::Failure;
 use crate::output::{Output, note, note_text};
 
 /// Prints it: to standard output, or where that carries frames, to standard error.
-pub(super) fn print(args: &Args, bus: &Bus, links: &[Opened]) -> Result<(), Failure> {
+pub(super) fn print(
+    first: &str,
+    args: &Options,
+    bus: &Bus,
+    links: &[Opened],
+) -> Result<(), Failure> {
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
         if *wanted != node {
             note!("the EEPROM says node {node}; --node-id {wanted} is for an empty one");
         }
     }
-    let text = text(args, bus, links);
+    let text = text(first, args, bus, links);
     let has_frames = |link: &Opened| matches!(link, Opened::Ends(ends) if ends.kind == Kind::Lines);
     if links.iter().any(has_frames) {
         note_text(&text);
@@ -30,7 +35,7 @@ pub(super) fn print(args: &Args, bus: &Bus, links: &[Opened]) -> Result<(), Fail
     output.flush().map(|_| ())
 }
 
-fn text(args: &Args, bus: &Bus, links: &[Opened]) -> String {
+fn text(first: &str, args: &Options, bus: &Bus, links: &[Opened]) -> String {
     let places: Vec<String> = links.iter().map(place).collect();
     let places = places.join(", ");
     let mut text = String::new();
@@ -61,10 +66,8 @@ fn text(args: &Args, bus: &Bus, links: &[Opened]) -> String {
         return text;
     };
     let node = device.node_id().raw();
-    let name = args.devices.iter().chain(&args.more).next();
-    let name = name.map(String::as_str).unwrap_or_default();
     for link in links {
-        help(&mut text, link, name, node, args.bitrate);
+        help(&mut text, link, first, node, args.bitrate);
     }
     text.push_str("\nCtrl-C ends it.");
     text

@@ -1,0 +1,232 @@
+//! The files of a new crate, and what stands in the gaps of their templates.
+
+use std::path::PathBuf;
+
+use od_model::{Address, Description, Kind, Literal, Tables};
+use od_runtime::encoder::Encoder;
+
+use super::DeviceFile;
+
+/// A crate that is to be.
+pub(super) struct Project<'p> {
+    pub(super) name: &'p str,
+    pub(super) device: &'p DeviceFile,
+    /// What was mended.
+    pub(super) notes: &'p [String],
+    /// A checkout to depend on.
+    pub(super) odkit: Option<PathBuf>,
+}
+
+/// Words that cannot name a crate, or stand for something else where one is used.
+const TAKEN: [&str; 16] = [
+    "test",
+    "core",
+    "std",
+    "alloc",
+    "proc_macro",
+    "self",
+    "super",
+    "crate",
+    "od_model",
+    "od_macros",
+    "od_runtime",
+    "od_devices",
+    "od_cli",
+    "dictionary",
+    "build",
+    "main",
+];
+
+/// Can a crate have this name?
+pub(super) fn check_name(name: &str) -> Result<(), String> {
+    let starts = name.starts_with(|c: char| c.is_ascii_alphabetic());
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    let identifier = name.replace('-', "_");
+    if !starts || !name.chars().all(fits) || name.len() > 64 {
+        return Err(format!(
+            "`{name}` cannot name a crate; write letters, digits, `-` and `_`, a letter first"
+        ));
+    }
+    if TAKEN.contains(&identifier.as_str()) || is_keyword(&identifier) {
+        return Err(format!(
+            "`{name}` means something in Rust already; take another name"
+        ));
+    }
+    Ok(())
+}
+
+fn is_keyword(word: &str) -> bool {
+    const WORDS: &str = "abstract as async await become box break const continue do dyn else enum \
+        extern false final fn for gen if impl in let loop macro match mod move mut override priv \
+        pub ref return static struct trait true try type typeof union unsafe unsized use virtual \
+        where while yield";
+    WORDS.split_whitespace().any(|keyword| keyword == word)
+}
+
+impl Project<'_> {
+    /// Paths and contents.
+    pub(super) fn files(&self) -> Vec<(String, Vec<u8>)> {
+        let text = |template: &str| self.fill(template).into_bytes();
+        vec![
+            (
+                "Cargo.toml".into(),
+                text(include_str!("template/Cargo.toml.in")),
+            ),
+            (".gitignore".into(), b"/target\n".to_vec()),
+            (
+                "README.md".into(),
+                text(include_str!("template/README.md.in")),
+            ),
+            (self.eds_name(), self.device.bytes.clone()),
+            (
+                "src/lib.rs".into(),
+                text(include_str!("template/lib.rs.in")),
+            ),
+            (
+                "src/main.rs".into(),
+                text(include_str!("template/main.rs.in")),
+            ),
+            (
+                "tests/scripts.rs".into(),
+                text(include_str!("template/scripts.rs.in")),
+            ),
+            (
+                "tests/scripts/boot-up.script".into(),
+                text(include_str!("template/boot-up.script.in")),
+            ),
+        ]
+    }
+
+    fn eds_name(&self) -> String {
+        format!("{}.{}", self.name, self.device.ending)
+    }
+
+    fn fill(&self, template: &str) -> String {
+        let description = &self.device.description;
+        let node_id = description.commissioned_node_id().unwrap_or(1);
+        let tables = Tables::new(description);
+        let dictionary = tables.dictionary();
+        let is_encoder = Encoder::for_dictionary(dictionary).is_some();
+        let first = dictionary
+            .objects()
+            .first()
+            .map_or(0, |object| object.index);
+        let absent = (0x2000..=0xFFFF).find(|index| dictionary.object(*index).is_none());
+        let device = if is_encoder {
+            include_str!("template/encoder.rs.in")
+        } else {
+            include_str!("template/behaviour.rs.in")
+        };
+        template
+            .replace("{{device}}", device.trim_end())
+            .replace("{{absent}}", &format!("{:04X}h", absent.unwrap_or(0x0FFF)))
+            .replace("{{name}}", self.name)
+            .replace("{{crate}}", &self.name.replace('-', "_"))
+            .replace("{{eds}}", &self.eds_name())
+            .replace("{{title}}", &title(description, self.name))
+            .replace("{{node_id}}", &node_id.to_string())
+            .replace(
+                "{{boot_up}}",
+                &format!("{:03X}#00", 0x700 + u16::from(node_id)),
+            )
+            .replace("{{reads}}", &reads(&tables, node_id))
+            .replace("{{first}}", &format!("0x{first:04X}"))
+            .replace("{{dependencies}}", &self.dependencies())
+            .replace("{{mended}}", &self.mended())
+    }
+
+    fn dependencies(&self) -> String {
+        let crates = [
+            ("od-cli", "od-cli", ""),
+            ("od-devices", "devices", ", features = [\"sim\"]"),
+            ("od-macros", "od-macros", ""),
+            ("od-model", "od-model", ""),
+            ("od-runtime", "od-runtime", ""),
+        ];
+        let version = env!("CARGO_PKG_VERSION");
+        let lines = crates.map(|(name, folder, features)| match &self.odkit {
+            Some(root) => {
+                // A literal string of TOML takes what stands in a path; an apostrophe ends it.
+                let path = root.join(folder).display().to_string();
+                let path = toml(&path);
+                format!("{name} = {{ path = {path}{features} }}")
+            }
+            None if features.is_empty() => format!("{name} = \"{version}\""),
+            None => format!("{name} = {{ version = \"{version}\"{features} }}"),
+        });
+        lines.join("\n")
+    }
+
+    /// For README: what the file in the crate says otherwise than the one it was made from.
+    fn mended(&self) -> String {
+        if self.notes.is_empty() {
+            return String::new();
+        }
+        let lines: Vec<String> = self
+            .notes
+            .iter()
+            .map(|note| format!("- {note}\n"))
+            .collect();
+        format!(
+            "\n## What was mended\n\nThe file had errors. The copy beside this text is without \
+             them:\n\n{}",
+            lines.concat()
+        )
+    }
+}
+
+fn toml(text: &str) -> String {
+    if text.contains('\'') {
+        format!("{text:?}")
+    } else {
+        format!("'{text}'")
+    }
+}
+
+/// A name to show, as the file gives it; without what would end a Rust string or a line.
+fn title(description: &Description, name: &str) -> String {
+    let product = description
+        .section("DeviceInfo")
+        .and_then(|info| info.get("ProductName"))
+        .map(|product| product.value.trim().to_owned());
+    let plain = |c: char| !c.is_control() && !matches!(c, '"' | '\\' | '{' | '}');
+    match product {
+        Some(product) if !product.is_empty() => product.chars().filter(|c| plain(*c)).collect(),
+        _ => name.to_owned(),
+    }
+}
+
+/// Script lines that read what the device is: numbers of the communication area that nobody
+/// can have changed.
+fn reads(tables: &Tables, node_id: u8) -> String {
+    let dictionary = tables.dictionary();
+    let mut lines = String::new();
+    for (index, sub) in [(0x1000, 0), (0x1018, 1), (0x1018, 2), (0x1018, 3)] {
+        let Ok(entry) = dictionary.find(Address::new(index, sub)) else {
+            continue;
+        };
+        let known = !matches!(entry.default, Literal::None) && entry.access.readable();
+        let number = entry.default.integer(node_id).filter(|_| known);
+        if let (Some(number), Kind::Unsigned) = (number, entry.data_type.kind()) {
+            let place = Address::new(index, sub);
+            lines.push_str(&format!("sdo read {place} = 0x{number:X}\n"));
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_ones_that_cargo_takes() {
+        for name in ["my-device", "a", "Enc_58"] {
+            assert_eq!(check_name(name), Ok(()), "{name}");
+        }
+        for name in ["", "5x", "-a", "a b", "ü", "test", "fn", "od-model", "a/b"] {
+            assert!(check_name(name).is_err(), "{name}");
+        }
+        assert_eq!(toml("/a b"), "'/a b'");
+    }
+}

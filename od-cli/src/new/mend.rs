@@ -1,0 +1,205 @@
+//! A description with errors becomes one that a device can be built of, and says what it lost.
+
+use std::collections::BTreeMap;
+
+use od_model::{
+    Access, Address, DataType, Description, Diagnostic, EntryDescription, Kind, ObjectCode,
+    ObjectDescription, Spanned, Value, eds,
+};
+
+/// What was changed, a sentence each.
+pub(super) type Notes = Vec<String>;
+
+/// So many rounds: each takes something away, and a file has some thousand entries.
+const ROUNDS: usize = 100;
+
+/// Changes as little as it can until nothing is an error any more.
+///
+/// # Errors
+/// The findings that are left where nothing can be done.
+pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnostic>> {
+    let mut notes = Notes::new();
+    drop_unreadable(description, &mut notes);
+    let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
+    for _ in 0..ROUNDS {
+        let found = eds::load(&eds::write(description)).diagnostics;
+        let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
+        if errors.is_empty() {
+            return Ok(notes);
+        }
+        let mut progress = false;
+        for error in &errors {
+            let tries = tries.entry((error.code, error.address)).or_default();
+            *tries = tries.saturating_add(1);
+            if let Some(note) = step(description, error, *tries) {
+                notes.push(note);
+                progress = true;
+            }
+        }
+        if !progress {
+            return Err(errors);
+        }
+    }
+    let left = eds::load(&eds::write(description)).diagnostics;
+    Err(left.into_iter().filter(Diagnostic::is_error).collect())
+}
+
+/// Entries without a type, and fields whose text is none of theirs, have no meaning to keep.
+fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
+    const FIELDS: [&str; 9] = [
+        "ObjectType",
+        "SubNumber",
+        "DataType",
+        "AccessType",
+        "PDOMapping",
+        "DefaultValue",
+        "LowLimit",
+        "HighLimit",
+        "ParameterValue",
+    ];
+    let is_field = |key: &str| FIELDS.iter().any(|field| field.eq_ignore_ascii_case(key));
+    for (index, object) in &mut description.objects {
+        object.extra.retain(|(key, _)| !is_field(key));
+        object.entries.retain(|sub, entry| {
+            let place = Address::new(*index, *sub);
+            entry.extra.retain(|(key, value)| {
+                let keep = !is_field(key);
+                if !keep && !value.trim().is_empty() {
+                    notes.push(format!("{place}: {key} `{value}` has no meaning, left out"));
+                }
+                keep
+            });
+            let usable = entry
+                .data_type
+                .is_some_and(|data_type| data_type.kind() != Kind::Record);
+            if !usable {
+                notes.push(format!("{place}: left out, it has no data type of a value"));
+            }
+            usable
+        });
+    }
+    description.objects.retain(|index, object| {
+        let keep = !object.entries.is_empty();
+        if !keep {
+            notes.push(format!(
+                "{index:04X}h: left out, it has no entry with a value"
+            ));
+        }
+        keep
+    });
+}
+
+/// One change for one error; `None` where nothing is left to change.
+fn step(description: &mut Description, error: &Diagnostic, tries: u8) -> Option<String> {
+    let mandatory = match error.code {
+        "E0601" => Some(0x1000),
+        "E0602" => Some(0x1001),
+        "E0603" => Some(0x1018),
+        _ => None,
+    };
+    if let Some(index) = mandatory {
+        description.objects.insert(index, standard(index)?);
+        return Some(format!("{index:04X}h: added, every device has it"));
+    }
+    let address = error.address?;
+    let Address { index, sub } = address;
+    let object = description.objects.get_mut(&index)?;
+    match (error.code, tries) {
+        ("E0305", 1) => object.code = Spanned::from(ObjectCode::Record),
+        ("E0309" | "E0310", 1) => count(object),
+        (code, 1) if code.starts_with("E04") => {
+            let entry = object.entries.get_mut(&sub)?;
+            (entry.low, entry.high) = (None, None);
+        }
+        (code, 2) if code.starts_with("E04") => {
+            let entry = object.entries.get_mut(&sub)?;
+            (entry.default, entry.parameter) = (None, None);
+        }
+        (code, 1)
+            if code.starts_with("E05") && matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) =>
+        {
+            unmap(object, sub);
+        }
+        (code, 1) if code.starts_with("E06") => {
+            object.entries.get_mut(&sub)?.access = Spanned::from(Access::Ro);
+        }
+        (_, ..=2) if standard(index).is_some() => {
+            description.objects.insert(index, standard(index)?);
+        }
+        (_, 2) if sub > 0 => {
+            object.entries.remove(&sub)?;
+            count(object);
+            return Some(format!("{address}: left out, {}", error.message));
+        }
+        (_, ..=3) if standard(index).is_none() => {
+            description.objects.remove(&index)?;
+            return Some(format!("{index:04X}h: left out, {}", error.message));
+        }
+        _ => return None,
+    }
+    Some(format!("{address}: changed, {}", error.message))
+}
+
+/// Sub-index 0 says the highest sub-index.
+fn count(object: &mut ObjectDescription) {
+    let highest = object.entries.keys().copied().max().unwrap_or(0);
+    let name = match object.entries.get(&0) {
+        Some(entry) => entry.name.value.clone(),
+        None => "Highest sub-index supported".into(),
+    };
+    let mut entry = EntryDescription::new(name, DataType::Unsigned8);
+    if let Some(old) = object.entries.get(&0) {
+        entry.access = old.access;
+    }
+    entry.default = Some(Spanned::from(Value::Unsigned(highest.into())));
+    object.entries.insert(0, entry);
+    object.sub_number = None;
+}
+
+/// A PDO without this entry and those behind it.
+fn unmap(object: &mut ObjectDescription, sub: u8) {
+    for (at, entry) in &mut object.entries {
+        if *at >= sub.max(1) {
+            entry.default = Some(Spanned::from(Value::Unsigned(0)));
+            entry.parameter = None;
+        }
+    }
+    if let Some(entry) = object.entries.get_mut(&0) {
+        let left = Value::Unsigned(u64::from(sub.saturating_sub(1)));
+        (entry.default, entry.parameter) = (Some(Spanned::from(left)), None);
+    }
+}
+
+/// The three objects that every device has (CiA 301, chapter 7.5.1), in their plainest form.
+fn standard(index: u16) -> Option<ObjectDescription> {
+    let number = |name: &str, data_type, value| EntryDescription {
+        default: Some(Spanned::from(Value::Unsigned(value))),
+        ..EntryDescription::new(name, data_type)
+    };
+    match index {
+        0x1000 => Some(ObjectDescription::var(number(
+            "Device type",
+            DataType::Unsigned32,
+            0,
+        ))),
+        0x1001 => Some(ObjectDescription::var(number(
+            "Error register",
+            DataType::Unsigned8,
+            0,
+        ))),
+        0x1018 => {
+            let mut object =
+                ObjectDescription::var(number("Identity object", DataType::Unsigned8, 1));
+            object.code = Spanned::from(ObjectCode::Record);
+            object.entries = BTreeMap::from([
+                (
+                    0,
+                    number("Highest sub-index supported", DataType::Unsigned8, 1),
+                ),
+                (1, number("Vendor-ID", DataType::Unsigned32, 0)),
+            ]);
+            Some(object)
+        }
+        _ => None,
+    }
+}

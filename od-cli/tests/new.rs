@@ -1,0 +1,195 @@
+//! `odkit new`: what it writes. That it builds and runs is a matter of `cargo xtask test --long`.
+
+mod support;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use support::{file, odkit, repository};
+
+/// A folder of this test that is not there yet.
+fn fresh(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    // It may be left from an earlier run, or not.
+    let _ = fs::remove_dir_all(&path);
+    path
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+#[test]
+fn a_sound_file_goes_into_the_crate_as_it_is() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let folder = fresh("new-encoder");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "my-encoder", "--path", &path], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    assert!(made.out.contains("cargo test"), "{}", made.out);
+    let copy = read(&folder, "my-encoder.eds");
+    assert_eq!(copy, fs::read_to_string(&eds).expect("the file"));
+    let library = read(&folder, "src/lib.rs");
+    assert!(library.contains("eds = \"../my-encoder.eds\""), "{library}");
+    assert!(library.contains("my_encoder::dictionary"), "{library}");
+    let script = read(&folder, "tests/scripts/boot-up.script");
+    assert!(script.contains("expect 701#00"), "{script}");
+    assert!(script.contains("sdo read 1000h:00 = 0x20196"), "{script}");
+    for name in ["Cargo.toml", "README.md", "src/main.rs", "tests/scripts.rs"] {
+        let text = read(&folder, name);
+        assert!(
+            !text.contains("{{") && !text.contains("}}"),
+            "{name}\n{text}"
+        );
+    }
+    let again = odkit(&["new", &eds, "--name", "my-encoder", "--path", &path], "");
+    assert_eq!(again.code, 1);
+    assert!(again.err.contains("not empty"), "{}", again.err);
+}
+
+const BROKEN: &str = "\
+[DeviceInfo]
+ProductName=Gate {{name}} \"7\"
+[MandatoryObjects]
+SupportedObjects=1
+1=0x1001
+[ManufacturerObjects]
+SupportedObjects=2
+1=0x2000
+2=0x2001
+[1001]
+ParameterName=Error register
+DataType=5
+AccessType=rw
+[2000]
+ParameterName=Speed
+DataType=5
+AccessType=rw
+DefaultValue=fast
+LowLimit=9
+HighLimit=3
+[2001]
+ParameterName=Nothing
+AccessType=rw
+";
+
+#[test]
+fn a_broken_file_is_mended_and_what_was_mended_is_told() {
+    let eds = file("broken-new.eds", BROKEN).display().to_string();
+    let folder = fresh("new-broken");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "gate", "--path", &path], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    let readme = read(&folder, "README.md");
+    for told in ["`fast` has no meaning", "1000h: added", "2001h: left out"] {
+        assert!(readme.contains(told), "{told}\n{readme}");
+        assert!(made.err.contains(told), "{told}\n{}", made.err);
+    }
+    let copy = folder.join("gate.eds").display().to_string();
+    let check = odkit(&["check", &copy], "");
+    assert_eq!(check.code, 0, "{}", check.out);
+    assert!(read(&folder, "src/lib.rs").contains("\"Gate name 7\""));
+}
+
+#[test]
+fn what_cannot_be_is_said() {
+    let eds = repository("devices/eds/GXMM.eds");
+    for name in ["5x", "fn", "a b", "od-model"] {
+        let run = odkit(&["new", &eds, "--name", name], "");
+        assert_eq!(run.code, 2, "{name}");
+        assert!(run.err.contains(name), "{}", run.err);
+    }
+    let empty = file("empty-new.eds", "").display().to_string();
+    assert_eq!(odkit(&["new", &empty, "--name", "x1"], "").code, 1);
+}
+
+/// Files of the corpus, one in `step`; none with a message where it is missing.
+fn corpus(step: usize) -> Vec<PathBuf> {
+    let root = PathBuf::from(repository("../shared/corpus"));
+    if !root.is_dir() {
+        println!("skipped: there is no folder with real files");
+        return Vec::new();
+    }
+    let (mut folders, mut files) = (vec![root], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("a file").path();
+            let ending = path.extension().and_then(|ending| ending.to_str());
+            let ending = ending.unwrap_or_default().to_ascii_lowercase();
+            if path.is_dir() {
+                folders.push(path);
+            } else if matches!(ending.as_str(), "eds" | "dcf") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    assert!(files.len() > 100, "{} files", files.len());
+    files.into_iter().step_by(step).collect()
+}
+
+fn is_long() -> bool {
+    std::env::var_os("ODKIT_LONG").is_some()
+}
+
+/// Every file that ships makes a crate whose EDS has no error left.
+#[test]
+fn the_corpus_makes_crates() {
+    let all = fresh("new-corpus");
+    let files = corpus(if is_long() { 1 } else { 8 });
+    for (number, path) in files.iter().enumerate() {
+        let to = all.join(number.to_string()).display().to_string();
+        let from = path.display().to_string();
+        let made = odkit(&["new", &from, "--name", "real", "--path", &to], "");
+        assert_eq!(made.code, 0, "{from}: {}", made.err);
+    }
+    if !files.is_empty() {
+        let check = odkit(&["check", &all.display().to_string()], "");
+        assert_eq!(check.code, 0, "{}", check.out);
+    }
+}
+
+/// `cargo test` passes in a new crate: for our own file, and in a long run for one of each of
+/// twenty vendors.
+#[test]
+fn a_new_crate_builds_and_its_tests_pass() {
+    if !is_long() && std::env::var_os("CI").is_none() {
+        println!("skipped: it builds odkit anew; set CI=true or ODKIT_LONG=1");
+        return;
+    }
+    let mut sources = vec![PathBuf::from(repository("devices/eds/GXMM.eds"))];
+    if is_long() {
+        let vendor = |path: &PathBuf| path.parent().map(Path::to_path_buf);
+        let mut vendors = Vec::new();
+        for path in corpus(1) {
+            if !vendors.contains(&vendor(&path)) && vendors.len() < 20 {
+                vendors.push(vendor(&path));
+                sources.push(path);
+            }
+        }
+    }
+    let all = fresh("new-crates");
+    for (number, source) in sources.iter().enumerate() {
+        let name = format!("made-{number}");
+        let folder = all.join(&name);
+        let (from, to) = (source.display().to_string(), folder.display().to_string());
+        let made = odkit(&["new", &from, "--name", &name, "--path", &to], "");
+        assert_eq!(made.code, 0, "{from}: {}", made.err);
+        let lock = repository("Cargo.lock");
+        // The versions that this checkout was tested with, and what is downloaded already.
+        fs::copy(lock, folder.join("Cargo.lock")).expect("a lock file");
+        let cargo = std::process::Command::new(env!("CARGO"))
+            .args(["test", "--quiet", "--offline"])
+            .env("CARGO_TARGET_DIR", all.with_file_name("new-target"))
+            .env("CARGO_PROFILE_DEV_DEBUG", "0")
+            .current_dir(&folder)
+            .output()
+            .expect("cargo starts");
+        assert!(
+            cargo.status.success(),
+            "{from}\n{}{}",
+            String::from_utf8_lossy(&cargo.stdout),
+            String::from_utf8_lossy(&cargo.stderr)
+        );
+    }
+}
