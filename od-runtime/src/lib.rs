@@ -59,6 +59,8 @@
 //! # Ok::<(), od_runtime::StoreTooSmall>(())
 //! ```
 //!
+//! A host that knows the state of its CAN controller tells it with [`Node::handle_bus`].
+//!
 //! Behaviour of its own plugs in as an [`Application`]; the encoder of CiA 406 is one
 //! ([`encoder::Encoder`]). What one family does differently is a [`Profile`]. Saved values
 //! go to any [`storage::Storage`].

@@ -18,6 +18,10 @@
 //! values then ([`CutSave::Factory`]), the first byte of the last set's magic is 96h while the
 //! save goes on.
 //!
+//! A value is as it stands on the wire; where a family keeps COB-IDs as differences
+//! ([`SavedCobIds::Difference`](crate::SavedCobIds)), one whose default has `$NODEID` in it is
+//! less that default.
+//!
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
