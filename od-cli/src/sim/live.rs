@@ -340,7 +340,8 @@ fn words(event: Event) -> Option<String> {
         Event::Saved(_) => "parameters saved".into(),
         Event::Restored(_) => "defaults restored".into(),
         Event::StorageDamaged => {
-            "the EEPROM is damaged or of another version; defaults were taken".into()
+            "the EEPROM is damaged, of another version, or a save was cut; defaults were taken"
+                .into()
         }
         Event::BusOff { .. } => "bus-off".into(),
         Event::BusOn => "back from bus-off".into(),
