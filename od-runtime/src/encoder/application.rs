@@ -4,8 +4,9 @@ use od_model::typed::{Scalar, Var};
 use od_model::{Address, Entry, Kind};
 
 use super::faults::Faults;
+use super::power::OPERATING_TIME;
 use super::timer::{EVENT_TIMER, TIMER};
-use super::{Counter, Encoder};
+use super::{Counter, Encoder, EncoderProfile};
 use crate::{AbortCode, Application, Context, Instant, NodeId, Reset, Store};
 
 const POSITION: u16 = 0x6004;
@@ -22,6 +23,7 @@ impl Application for Encoder {
             }
         }
         self.position = position_handle(cx.store);
+        self.live = live_bits(self.profile);
         self.agree_on_links(cx.store);
         self.configure(cx.store);
         if reset == Reset::PowerOn || starts && self.profile.counter == Counter::Volatile {
@@ -47,7 +49,7 @@ impl Application for Encoder {
                 cx.store
                     .set(handle, self.scale.position(self.angle(cx.now)));
             }
-        } else {
+        } else if self.live & live_bit(address.index) != 0 {
             self.refresh_other(cx, address);
         }
         Ok(())
@@ -219,6 +221,28 @@ fn in_list(mut list: impl Iterator<Item = u8>, number: u64) -> Result<(), AbortC
     } else {
         Err(AbortCode::ValueRange)
     }
+}
+
+/// The indices of live objects as a set that may name a few others, too: most reads are of
+/// objects that are not live, and one look tells.
+fn live_bits(profile: &EncoderProfile) -> u64 {
+    let others = [
+        Some(OPERATING_TIME),
+        profile.seconds,
+        profile.seconds_since_start,
+        profile.raw_position,
+        profile.time_stamp,
+        profile.diagnosis.map(|(at, _)| at),
+    ];
+    let movements = profile.movements.iter().map(|movement| movement.value);
+    let all = others.into_iter().flatten().chain(movements);
+    all.fold(0, |bits, at| bits | live_bit(at.index))
+}
+
+/// An index as one of 64 bits.
+#[inline]
+const fn live_bit(index: u16) -> u64 {
+    1 << ((index as u32).wrapping_mul(0x9E37_79B9) >> 26)
 }
 
 /// The handle of 6004h, whatever its width; it lies in the store where it lies.

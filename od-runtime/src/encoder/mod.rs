@@ -62,6 +62,8 @@ pub struct Encoder {
     gear: Option<(u64, u64)>,
     /// The same of the gear that acts at once, as it acts.
     output: Option<(u64, u64)>,
+    /// Which objects are live, see `application`.
+    live: u64,
     /// Where the shaft stood when power went, and when.
     off: Option<(Angle, Instant)>,
     /// What the shaft turned without power and the revolution counter did not see.
@@ -103,6 +105,7 @@ impl Encoder {
             gear: None,
             output: None,
             position: None,
+            live: 0,
             off: None,
             unseen: Angle::ZERO,
             started: None,
