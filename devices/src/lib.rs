@@ -13,7 +13,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "sim")]
+#[cfg(feature = "bench")]
 extern crate std;
 
 pub mod bus_cover;
@@ -24,7 +24,7 @@ mod eam_diagnosis;
 pub mod en580c;
 #[cfg(feature = "sim")]
 mod export;
-#[cfg(feature = "sim")]
+#[cfg(feature = "bench")]
 pub mod sim;
 
 use bus_cover::gxmm;

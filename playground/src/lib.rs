@@ -17,14 +17,18 @@
 
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod bench;
+mod motion;
 mod packed;
 mod record;
 mod types;
 mod values;
 
 use od_devices::sim::words::{self, Service, Words};
-use od_devices::sim::{self, EdsOptions, VirtualDevice};
-use od_model::{Address, Diagnostic, Severity};
+use od_devices::sim::{self, VirtualDevice};
+use od_model::Address;
+#[cfg(feature = "eds")]
+use od_model::{Diagnostic, Severity};
 use od_runtime::wire::nmt::State;
 use od_runtime::{Instant, NodeId};
 use wasm_bindgen::prelude::*;
@@ -36,6 +40,7 @@ use record::Record;
 #[derive(Default)]
 pub struct Bus {
     bus: sim::Bus,
+    clockwork: motion::Clockwork,
     batch: Vec<u8>,
 }
 
@@ -51,16 +56,24 @@ impl Bus {
     }
 
     /// Puts a device of ours on the bus and gives it power; answers with its number.
-    /// `builtinDevices` lists the names.
+    /// `builtinDevices` lists the names. With a `place` it takes the place of the device
+    /// with that number. A redundant encoder puts its further channels behind all devices.
     ///
     /// # Errors
     /// Where there is no such device, or the node ID is not 1 to 127.
     #[wasm_bindgen(js_name = addDevice)]
-    pub fn add_device(&mut self, name: &str, node_id: u8) -> Result<usize, JsError> {
+    pub fn add_device(
+        &mut self,
+        name: &str,
+        node_id: u8,
+        place: Option<usize>,
+    ) -> Result<usize, JsError> {
         let node_id = valid(node_id)?;
         let kind = od_devices::find(name)
             .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
-        Ok(self.put(VirtualDevice::new(kind, node_id)))
+        let number = self.put(VirtualDevice::new(kind, node_id), place);
+        self.put_channels(kind, number, node_id);
+        Ok(number)
     }
 
     /// Puts the device that an EDS or DCF text describes on the bus and gives it power.
@@ -69,21 +82,23 @@ impl Bus {
     ///
     /// # Errors
     /// Where the node ID is not 1 to 127.
+    #[cfg(feature = "eds")]
     #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
     pub fn add_eds(
         &mut self,
         text: &str,
         node_id: u8,
         lenient: Option<bool>,
+        place: Option<usize>,
     ) -> Result<JsValue, JsError> {
-        let options = EdsOptions {
+        let options = sim::EdsOptions {
             node_id: Some(valid(node_id)?),
             lenient: lenient.unwrap_or_default(),
         };
         let (device, found) = match VirtualDevice::from_eds(text, options) {
             Ok(device) => {
                 let found = od_model::eds::load(text).diagnostics;
-                (JsValue::from_f64(self.put(device) as f64), found)
+                (JsValue::from_f64(self.put(device, place) as f64), found)
             }
             Err(found) => (JsValue::NULL, found),
         };
@@ -97,8 +112,12 @@ impl Bus {
     /// number of bytes counts.
     pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
         let frame = packed::make(id, data, extended, remote);
-        packed::push(&mut self.batch, self.bus.now(), None, &frame);
-        self.bus.receive(&frame);
+        let now = self.bus.now();
+        let came_through = self.bus.receive(&frame);
+        self.collect_trouble();
+        if came_through {
+            packed::push(&mut self.batch, now, None, &frame);
+        }
         self.collect();
     }
 
@@ -107,9 +126,7 @@ impl Bus {
         let start = self.bus.now();
         let end = start.plus_micros(micros.max(0.0) as u64);
         let full = self.batch.len() + max_frames.max(1) * packed::LEN;
-        while self.batch.len() < full && self.bus.advance_until_sent(end) {
-            self.collect();
-        }
+        self.pass(end, full);
         self.bus.now().micros_since(start) as f64
     }
 
@@ -263,14 +280,53 @@ impl Bus {
         self.collect();
     }
 
-    fn put(&mut self, mut device: VirtualDevice) -> usize {
-        device.power_on(self.bus.now());
-        let number = self.bus.add(device);
-        self.collect();
+    /// Sets a device up for the bit rate of the line and gives it power.
+    fn put(&mut self, mut device: VirtualDevice, place: Option<usize>) -> usize {
+        let others = self.bus.devices().iter().enumerate();
+        let rate = |(number, one): (usize, &VirtualDevice)| {
+            one.bit_rate().filter(|_| Some(number) != place)
+        };
+        device.set_up_for(
+            self.bus
+                .line
+                .bit_rate
+                .or_else(|| others.clone().find_map(rate)),
+        );
+        let number = match place.filter(|place| *place < self.bus.devices().len()) {
+            Some(place) => {
+                self.clockwork.follow(place, &[], false, self.bus.now());
+                self.bus.replace(place, device);
+                place
+            }
+            None => self.bus.add(device),
+        };
+        self.set_power(number, true);
         number
     }
 
+    /// The further channels of a redundant encoder: nodes with the next numbers, on its shaft.
+    fn put_channels(
+        &mut self,
+        kind: &'static od_devices::DeviceKind,
+        first: usize,
+        node_id: NodeId,
+    ) {
+        for channel in 1..kind.channels {
+            let next = node_id.raw().checked_add(channel).and_then(NodeId::new);
+            let mut device = VirtualDevice::new(kind, next.unwrap_or(NodeId::ONE));
+            let rate = self
+                .bus
+                .devices()
+                .get(first)
+                .and_then(VirtualDevice::bit_rate);
+            device.set_up_for(rate);
+            let number = self.bus.add_beside(device, first);
+            self.set_power(number, true);
+        }
+    }
+
     fn collect(&mut self) {
+        self.collect_trouble();
         while let Some(sent) = self.bus.poll() {
             packed::push(&mut self.batch, sent.at, Some(sent.device), &sent.frame);
         }
@@ -290,6 +346,7 @@ pub fn builtin_devices() -> Vec<JsValue> {
 }
 
 /// What there is to say about an EDS or DCF text.
+#[cfg(feature = "eds")]
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
 pub fn check_eds(text: &str) -> Vec<JsValue> {
     od_model::eds::load(text)
@@ -319,10 +376,12 @@ fn valid(node_id: u8) -> Result<NodeId, JsError> {
     NodeId::new(node_id).ok_or_else(|| JsError::new("a node ID is 1 to 127"))
 }
 
+#[cfg(feature = "eds")]
 fn diagnostics(found: &[Diagnostic]) -> JsValue {
     record::list(found.iter().map(diagnostic))
 }
 
+#[cfg(feature = "eds")]
 fn diagnostic(one: &Diagnostic) -> JsValue {
     let span = one.span.unwrap_or_default();
     Record::new()

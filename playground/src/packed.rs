@@ -4,11 +4,15 @@
 //! |---|---|
 //! | 0 | `f64`, virtual microseconds |
 //! | 8 | `u32`, identifier |
-//! | 12 | `u8`, flags: 1 extended, 2 remote, 4 sent by [`Bus::send`](crate::Bus::send) |
+//! | 12 | `u8`, flags: 1 extended, 2 remote, 4 sent by [`Bus::send`](crate::Bus::send), 8 disturbed |
 //! | 13 | `u8`, DLC |
 //! | 14 | `u8`, number of the device that sent it, counted from 1; 0 for none |
 //! | 15 | `u8`, reserved |
 //! | 16 | eight bytes of data, the unused ones 0 |
+//!
+//! A frame that was disturbed on the wire has other data: why (1 no acknowledge, 2 another
+//! bit rate, 3 reflections), failed attempts, 1 if it came through in the end, 1 if its
+//! sender went bus-off, and the sender's transmit error counter in two bytes.
 
 use od_runtime::{CanId, Frame, Instant};
 
@@ -18,6 +22,7 @@ pub(crate) const LEN: usize = 24;
 const EXTENDED: u8 = 1;
 const REMOTE: u8 = 2;
 const OWN: u8 = 4;
+const DISTURBED: u8 = 8;
 
 /// Adds a frame; `device` is `None` for one that was sent from outside.
 pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, frame: &Frame) {
@@ -38,6 +43,21 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
     batch.extend_from_slice(&id.raw().to_le_bytes());
     batch.extend_from_slice(&[flags, frame.dlc(), device, 0]);
     batch.extend_from_slice(&data);
+}
+
+/// Adds what became of a frame that was disturbed.
+pub(crate) fn push_trouble(
+    batch: &mut Vec<u8>,
+    at: Instant,
+    device: Option<usize>,
+    id: CanId,
+    what: &[u8],
+) {
+    let start = batch.len();
+    push(batch, at, device, &Frame::new(id, what));
+    if let Some(flags) = batch.get_mut(start + 12) {
+        *flags |= DISTURBED;
+    }
 }
 
 /// The frame in these bytes; `None` where there are too few.

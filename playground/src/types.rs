@@ -64,6 +64,44 @@ export interface Shaft {
   raw: number;
 }
 
+/** What can be seen of a device from outside. */
+export interface Status {
+  nodeId: number;
+  powered: boolean;
+  nmt: Nmt;
+  leds: Leds;
+  shaft: Shaft | null;
+  /** Rotary switches, 0 to 99. */
+  nodeSwitch: number;
+  /** DIP switches, 0 to 7. */
+  rateSwitch: number;
+  /** Bit rate in kbit/s since the last start; null where it adapts itself. */
+  rate: number | null;
+  /** Names of what can break. */
+  canBreak: string[];
+  /** Names of what is broken. */
+  faults: string[];
+  transmitErrors: number;
+  receiveErrors: number;
+  controller: 'error active' | 'error passive' | 'bus-off';
+  /** Hangs on the line. */
+  plugged: boolean;
+  /** The shaft follows a profile. */
+  moves: boolean;
+}
+
+/** The wire, and the controller of the outside. */
+export interface LineStatus {
+  real: boolean;
+  terminators: number;
+  fixedRate: number | null;
+  rate: number | null;
+  transmitErrors: number;
+  receiveErrors: number;
+  controller: 'error active' | 'error passive' | 'bus-off';
+  plugged: boolean;
+}
+
 export interface Builtin {
   name: string;
   title: string;

@@ -1,7 +1,8 @@
 //! From Rust and TypeScript to the folder that is served.
 //!
 //! 1. `cargo build` makes `od_playground.wasm`,
-//! 2. wasm-bindgen and wasm-opt turn it into `playground/web/src/wasm/`,
+//! 2. wasm-bindgen and wasm-opt turn it into `playground/web/src/wasm/`, and a smaller one
+//!    without EDS texts into `core/` in there: the page begins with that,
 //! 3. `npm run build` bundles the page into `playground/web/dist/`.
 
 use std::fs;
@@ -22,6 +23,30 @@ pub(crate) const OPT_LEVEL: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "
 /// The library's name, which every generated file starts with.
 const LIB: &str = "od_playground";
 
+/// A WebAssembly module of the page.
+struct Module {
+    /// Its folder under the bindings.
+    folder: &'static str,
+    /// Cargo's profile, which keeps the outputs of the modules apart.
+    profile: &'static str,
+    features: &'static [&'static str],
+    what: &'static str,
+}
+
+const WHOLE: Module = Module {
+    folder: "",
+    profile: "release",
+    features: &[],
+    what: "compiling the virtual encoder to WebAssembly",
+};
+
+const CORE: Module = Module {
+    folder: "core",
+    profile: "page",
+    features: &["--no-default-features"],
+    what: "compiling what the page begins with",
+};
+
 /// Builds all of the page.
 pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
     // What cannot be had is said before anything takes time.
@@ -34,7 +59,8 @@ pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
         )));
     }
     let _lock = SetupLock::acquire(repo, console)?;
-    generate(repo, console)?;
+    generate(repo, console, &WHOLE)?;
+    generate(repo, console, &CORE)?;
     node::ci(console, &web, "fetching the page's npm packages")?;
     let mut build = node::npm(&web, &["run", "--silent", "build"]);
     console.run("bundling the page", &mut build)?;
@@ -51,24 +77,25 @@ pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
 pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
     node::check()?;
     let _lock = SetupLock::acquire(repo, console)?;
-    generate(repo, console)
+    generate(repo, console, &WHOLE)
 }
 
 /// Steps 1 and 2, for a caller that holds the lock.
-fn generate(repo: &Repo, console: &Console) -> Result<PathBuf> {
+fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> {
     let compiler = Compiler::get(repo, console, target::WASM)?;
-    let mut build = cargo(&repo.root, &["build", "--release", "--lib"]);
+    let mut build = cargo(&repo.root, &["build", "--lib", "--profile", module.profile]);
     build.args(["--package", "od-playground", "--target", target::WASM]);
+    build.args(module.features);
     build.env(OPT_LEVEL.0, OPT_LEVEL.1);
     compiler.apply(&mut build)?;
-    console.run("compiling the virtual encoder to WebAssembly", &mut build)?;
+    console.run(module.what, &mut build)?;
     let wasm = repo
         .target
         .join(target::WASM)
-        .join("release")
+        .join(module.profile)
         .join(format!("{LIB}.wasm"));
 
-    let out = repo.bindings();
+    let out = repo.bindings().join(module.folder);
     let module = out.join(format!("{LIB}_bg.wasm"));
     let inputs = Fingerprint::new()
         .file(&wasm)?

@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
-use od_runtime::{Frame, Instant};
+use od_runtime::{BusEvent, Frame, Instant};
 
 use super::VirtualDevice;
+use super::line::{Line, Station};
 use super::wiring::Wiring;
 
 /// A frame that a device on the bus sent.
@@ -20,7 +21,8 @@ pub struct Sent {
 }
 
 /// A bus without bit times: a frame reaches everybody at the moment it is sent, or everybody
-/// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters.
+/// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters. A
+/// real [`line`](Bus::line) lets frames fail as CAN does.
 ///
 /// What happens at one moment happens in a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
@@ -29,6 +31,8 @@ pub struct Sent {
 pub struct Bus {
     devices: Vec<VirtualDevice>,
     wiring: Wiring,
+    /// The wire; ideal unless somebody makes it real.
+    pub line: Line,
     now: Instant,
     sent: VecDeque<Sent>,
 }
@@ -63,6 +67,40 @@ impl Bus {
         }
         self.settle(added);
         added
+    }
+
+    /// Takes a device off the bus; those behind it move up by one.
+    pub fn remove(&mut self, device: usize) -> Option<VirtualDevice> {
+        if device >= self.devices.len() {
+            return None;
+        }
+        self.line.remove(device + 1);
+        self.wiring.remove(device);
+        Some(self.devices.remove(device))
+    }
+
+    /// Puts another device in the place of one, on a shaft of its own; answers whether there
+    /// is such a place.
+    pub fn replace(&mut self, place: usize, device: VirtualDevice) -> bool {
+        let Some(old) = self.devices.get_mut(place) else {
+            return false;
+        };
+        *old = device;
+        self.wiring.separate(place);
+        self.line.restart(place + 1);
+        self.settle(place);
+        true
+    }
+
+    /// Starts the CAN controller of a station again: 0 is the outside, devices count from 1.
+    /// A device decides itself what it makes of that after bus-off.
+    pub fn restart_controller(&mut self, station: usize) {
+        self.line.restart(station);
+        if let Some(device) = station.checked_sub(1) {
+            self.with(device, |device, now| {
+                device.handle_bus(BusEvent::Active, now)
+            });
+        }
     }
 
     /// The devices on the shaft of this one follow it.
@@ -114,22 +152,65 @@ impl Bus {
         let now = self.now;
         let one = self.devices.get_mut(device)?;
         let before = one.shaft_now();
+        let was_powered = one.is_powered();
         let result = act(one, now);
         let turned = one.shaft_now() != before;
+        if one.is_powered() && !was_powered {
+            self.line.restart(device + 1);
+        }
         self.settle(device);
         if turned {
             self.turn_along(device);
         }
+        self.tell_controllers();
         Some(result)
     }
 
-    /// A frame from outside: every device receives it, and each other's answers.
-    pub fn receive(&mut self, frame: &Frame) {
-        for device in 0..self.devices.len() {
-            if self.hears_outside(device) {
-                self.devices[device].handle_frame(self.now, frame);
-                self.settle(device);
+    /// A frame from outside: every device receives it, and each other's answers. Answers
+    /// whether the line let it through.
+    pub fn receive(&mut self, frame: &Frame) -> bool {
+        let stations = self.stations();
+        let came_through = self.line.transmit(self.now, &stations, 0, frame);
+        if came_through {
+            for device in 0..self.devices.len() {
+                if self.hears_outside(device) && self.line.hears(&stations, 0, device + 1) {
+                    self.devices[device].handle_frame(self.now, frame);
+                    self.settle(device);
+                }
             }
+        }
+        self.tell_controllers();
+        came_through
+    }
+
+    /// The outside and the devices, as the line sees them; an ideal one does not look.
+    fn stations(&self) -> Vec<Station> {
+        if !self.line.is_real {
+            return Vec::new();
+        }
+        let outside = Station {
+            present: true,
+            rate: None,
+        };
+        let device = |device: &VirtualDevice| Station {
+            present: device.is_powered(),
+            rate: device.bit_rate(),
+        };
+        let mut all: Vec<_> = core::iter::once(outside)
+            .chain(self.devices.iter().map(device))
+            .collect();
+        all[0].rate = self.line.outside_rate(&all);
+        all
+    }
+
+    /// Controllers whose condition changed tell their devices.
+    fn tell_controllers(&mut self) {
+        while let Some((station, event)) = self.line.poll_event() {
+            let Some(device) = station.checked_sub(1).filter(|at| *at < self.devices.len()) else {
+                continue;
+            };
+            self.devices[device].handle_bus(event, self.now);
+            self.settle(device);
         }
     }
 
@@ -175,6 +256,7 @@ impl Bus {
         for _ in 0..STUCK {
             self.devices[device].handle_timeout(self.now);
             self.settle(device);
+            self.tell_controllers();
             match self.devices[device].poll_timeout() {
                 Some(again) if again <= self.now => {}
                 _ => return true,
@@ -194,9 +276,11 @@ impl Bus {
                 return;
             };
             let rate = self.devices[from].bit_rate();
+            let stations = self.stations();
             for other in (0..self.devices.len()).filter(|other| *other != from) {
                 let its = self.devices[other].bit_rate();
-                if !self.wiring.hears(rate, its) {
+                if !self.wiring.hears(rate, its) || !self.line.hears(&stations, from + 1, other + 1)
+                {
                     continue;
                 }
                 self.devices[other].handle_frame(self.now, &frame);
@@ -207,8 +291,12 @@ impl Bus {
 
     fn collect(&mut self, device: usize, carry: &mut VecDeque<(usize, Frame)>) {
         while let Some(frame) = self.devices[device].poll_transmit(self.now) {
+            let stations = self.stations();
+            if !self.line.transmit(self.now, &stations, device + 1, &frame) {
+                continue;
+            }
             // A device may change its bit rate with what it sent last, so it is asked each time.
-            if self.hears_outside(device) {
+            if self.hears_outside(device) && self.line.hears(&stations, device + 1, 0) {
                 self.sent.push_back(Sent {
                     at: self.now,
                     device,

@@ -4,9 +4,11 @@ use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
-use od_model::{Address, Diagnostic, Dictionary, Entry, Tables, eds};
+use od_model::{Address, Dictionary, Entry};
+#[cfg(feature = "sim")]
+use od_model::{Diagnostic, Tables, eds};
 use od_runtime::encoder::{Encoder, Fault};
-use od_runtime::storage::{Memory, Storage, image};
+use od_runtime::storage::{Storage, image};
 use od_runtime::wire::nmt::State;
 use od_runtime::{
     Application, BusEvent, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId,
@@ -22,15 +24,17 @@ use crate::DeviceKind;
 type RoomyNode = Node<64, 0x1_0000>;
 
 /// Where a dictionary comes from.
-enum Source {
+pub(super) enum Source {
     Compiled(Dictionary<'static>),
+    #[cfg(feature = "sim")]
     Loaded(Box<Tables>),
 }
 
 impl Source {
-    fn dictionary(&self) -> Dictionary<'_> {
+    pub(super) fn dictionary(&self) -> Dictionary<'_> {
         match self {
             Self::Compiled(dictionary) => *dictionary,
+            #[cfg(feature = "sim")]
             Self::Loaded(tables) => tables.dictionary(),
         }
     }
@@ -60,6 +64,7 @@ impl Behaviour {
 }
 
 /// What an EDS file leaves open.
+#[cfg(feature = "sim")]
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct EdsOptions {
     /// The node ID; `None`: the one of the DCF, else 1.
@@ -74,13 +79,14 @@ pub struct EdsOptions {
 /// [`Bus`](super::Bus) does it for you.
 pub struct VirtualDevice {
     title: String,
-    source: Source,
-    values: Vec<u8>,
-    node: Box<RoomyNode>,
+    pub(super) source: Source,
+    pub(super) values: Vec<u8>,
+    pub(super) node: Box<RoomyNode>,
     pub(super) behaviour: Behaviour,
-    storage: Eeprom,
+    pub(super) storage: Eeprom,
     pub(super) profile: &'static Profile,
     wanted_id: NodeId,
+    wanted_rate: Option<u16>,
     /// When the turning shaft is looked at again.
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
@@ -144,6 +150,7 @@ impl VirtualDevice {
     ///
     /// # Errors
     /// The diagnostics, if one of them is an error and `options` is not lenient.
+    #[cfg(feature = "sim")]
     pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Diagnostic>> {
         let parsed = eds::load(text);
         if !options.lenient && parsed.diagnostics.iter().any(Diagnostic::is_error) {
@@ -187,9 +194,10 @@ impl VirtualDevice {
             values,
             node: Box::new(Node::new(node_id)),
             behaviour,
-            storage: Eeprom::new(Box::new(Memory::new(erased))),
+            storage: Eeprom::own(erased),
             profile,
             wanted_id: node_id,
+            wanted_rate: None,
             look_at: None,
             activated: None,
             events: VecDeque::new(),
@@ -200,7 +208,7 @@ impl VirtualDevice {
     /// Another EEPROM, with what is in it. Do it before power comes.
     #[must_use]
     pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
-        self.storage = Eeprom::new(storage);
+        self.storage = Eeprom::lent(storage);
         self
     }
 
@@ -211,6 +219,12 @@ impl VirtualDevice {
             **encoder = encoder.clone().with_serial_number(serial_number);
         }
         self
+    }
+
+    /// Set up for this bit rate in kbit/s, as somebody did who put it on a line: it stands in
+    /// an EEPROM that is empty at the first start, where the device can keep it.
+    pub fn set_up_for(&mut self, rate: Option<u16>) {
+        self.wanted_rate = rate;
     }
 
     /// Bytes that an EEPROM of this device needs.
@@ -228,6 +242,9 @@ impl VirtualDevice {
     pub fn power_on(&mut self, now: Instant) {
         if self.node.is_powered() {
             return;
+        }
+        if let Some(memory) = self.storage.memory() {
+            memory.restore_power();
         }
         self.configure_node_id();
         let (node, mut device) = self.parts();
@@ -255,6 +272,7 @@ impl VirtualDevice {
         let (node, mut device) = self.parts();
         node.handle_frame(&mut device, now, frame);
         self.take_events();
+        self.falls_dark(now);
     }
 
     /// Time has passed.
@@ -264,6 +282,14 @@ impl VirtualDevice {
         self.take_events();
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
+        }
+        self.falls_dark(now);
+    }
+
+    /// Power that went while the EEPROM was written went for all.
+    fn falls_dark(&mut self, now: Instant) {
+        if self.storage.is_cut() {
+            self.power_off(now);
         }
     }
 
@@ -406,30 +432,43 @@ impl VirtualDevice {
         leds::dual(self.is_powered(), self.state(), warning, error)
     }
 
-    /// Writes the wanted node ID into an empty EEPROM, as somebody did who set the device up.
+    /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.
     fn configure_node_id(&mut self) {
         let Behaviour::Encoder(encoder) = &self.behaviour else {
             return;
         };
-        let Some(index) = encoder.profile().node_id else {
-            return;
-        };
+        let family = encoder.profile();
         let Self {
             source,
             values,
             storage,
             wanted_id,
+            wanted_rate,
             profile,
             ..
         } = self;
+        let code = wanted_rate.and_then(|rate| {
+            let code = family.bit_rates.iter().position(|known| *known == rate)?;
+            Some((family.bit_rate?, code as u64))
+        });
+        let id = family
+            .node_id
+            .map(|index| (index, u64::from(wanted_id.raw())));
+        let wanted = [id, code];
         let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
             return;
         };
         store.reset(|_| true);
         let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
-        let own = store.unsigned(index, 0);
-        if loaded == Ok(image::Loaded::Blank) && own != u64::from(wanted_id.raw()) {
-            store.set_unsigned(Address::new(index, 0), wanted_id.raw().into());
+        if loaded != Ok(image::Loaded::Blank) {
+            return;
+        }
+        let mut differs = false;
+        for (index, value) in wanted.into_iter().flatten() {
+            differs |= store.unsigned(index, 0) != value;
+            store.set_unsigned(Address::new(index, 0), value);
+        }
+        if differs {
             // Only the group of the object; a storage that fails keeps the default.
             let _ = image::save(storage, &store, &profile.store, 4);
         }

@@ -1,42 +1,83 @@
-//! A device's EEPROM, which can break.
+//! A device's EEPROM, which can break, and whose power can go while it is written.
 
 use std::prelude::v1::*;
 
-use od_runtime::storage::{Storage, StorageError};
+use od_runtime::storage::{Memory, Storage, StorageError};
 
 /// A storage that takes no byte while it is broken; what it holds can still be read.
 pub(super) struct Eeprom {
-    storage: Box<dyn Storage>,
+    storage: Keeper,
     /// Nothing can be written.
     pub(super) broken: bool,
 }
 
+/// Who keeps the bytes.
+enum Keeper {
+    /// A memory of its own, with a supply that can be cut.
+    Own(Memory<Vec<u8>>),
+    Lent(Box<dyn Storage>),
+}
+
+impl Keeper {
+    fn storage(&mut self) -> &mut dyn Storage {
+        match self {
+            Self::Own(memory) => memory,
+            Self::Lent(storage) => &mut **storage,
+        }
+    }
+}
+
 impl Eeprom {
-    pub(super) fn new(storage: Box<dyn Storage>) -> Self {
+    /// Bytes in memory.
+    pub(super) fn own(bytes: Vec<u8>) -> Self {
         Self {
-            storage,
+            storage: Keeper::Own(Memory::new(bytes)),
             broken: false,
         }
+    }
+
+    /// Somebody else's storage.
+    pub(super) fn lent(storage: Box<dyn Storage>) -> Self {
+        Self {
+            storage: Keeper::Lent(storage),
+            broken: false,
+        }
+    }
+
+    /// The memory, where it is its own.
+    pub(super) fn memory(&mut self) -> Option<&mut Memory<Vec<u8>>> {
+        match &mut self.storage {
+            Keeper::Own(memory) => Some(memory),
+            Keeper::Lent(_) => None,
+        }
+    }
+
+    /// Did power go while it was written?
+    pub(super) fn is_cut(&self) -> bool {
+        matches!(&self.storage, Keeper::Own(memory) if memory.is_cut())
     }
 }
 
 impl Storage for Eeprom {
     fn capacity(&self) -> usize {
-        self.storage.capacity()
+        match &self.storage {
+            Keeper::Own(memory) => memory.capacity(),
+            Keeper::Lent(storage) => storage.capacity(),
+        }
     }
 
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
-        self.storage.read(offset, to)
+        self.storage.storage().read(offset, to)
     }
 
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
         if self.broken {
             return Err(StorageError::Device);
         }
-        self.storage.write(offset, bytes)
+        self.storage.storage().write(offset, bytes)
     }
 
     fn flush(&mut self) -> Result<(), StorageError> {
-        self.storage.flush()
+        self.storage.storage().flush()
     }
 }

@@ -11,7 +11,9 @@ mod device;
 mod eeprom;
 pub mod faults;
 mod leds;
+pub mod line;
 pub mod links;
+mod saved;
 pub mod script;
 #[cfg(test)]
 mod tests;
@@ -21,6 +23,10 @@ pub mod words;
 mod world;
 
 pub use bus::Bus;
-pub use device::{EdsOptions, VirtualDevice};
+#[cfg(feature = "sim")]
+pub use device::EdsOptions;
+pub use device::VirtualDevice;
 pub use leds::Led;
+pub use line::Line;
+pub use saved::Saved;
 pub use world::ShaftView;

@@ -19,6 +19,32 @@ impl Wiring {
         self.shafts.push(shaft.unwrap_or(own));
     }
 
+    /// A device less; those behind it move up. The others on its shaft stay together.
+    pub(super) fn remove(&mut self, device: usize) {
+        let heir = self.beside(device).first().copied();
+        if device < self.shafts.len() {
+            self.shafts.remove(device);
+        }
+        for shaft in &mut self.shafts {
+            if *shaft == device {
+                *shaft = heir.unwrap_or(device);
+            }
+            *shaft -= usize::from(*shaft > device);
+        }
+    }
+
+    /// A device goes to a shaft of its own.
+    pub(super) fn separate(&mut self, device: usize) {
+        let heir = self.beside(device).first().copied();
+        for (other, shaft) in self.shafts.iter_mut().enumerate() {
+            if other == device {
+                *shaft = device;
+            } else if *shaft == device {
+                *shaft = heir.unwrap_or(device);
+            }
+        }
+    }
+
     /// The devices that sit on the shaft of this one, without it.
     pub(super) fn beside(&self, device: usize) -> Vec<usize> {
         let Some(shaft) = self.shafts.get(device) else {

@@ -1,14 +1,13 @@
 // Everything a person can do, in one place.
 
-import type { Source } from './sim/api';
+import type { Input, Source } from './sim/api';
 import { candumpLine, type Typed } from './can/text';
-import { open, send } from './sim/link';
-import { forgetWords } from './sim/words';
+import { act, add, restore, select, send } from './sim/link';
 import * as state from './state';
 
 export function sendFrame(frame: Typed): void {
   const data = frame.remote ? new Uint8Array(frame.dlc) : frame.data;
-  send({ op: 'send', id: frame.id, data, extended: frame.extended, remote: frame.remote });
+  act({ op: 'send', id: frame.id, data, extended: frame.extended, remote: frame.remote });
 }
 
 export const NMT_COMMANDS = [
@@ -20,21 +19,21 @@ export const NMT_COMMANDS = [
 ] as const;
 
 export function nmt(code: number): void {
-  send({ op: 'send', id: 0, data: new Uint8Array([code, state.nodeId.value]), extended: false, remote: false });
+  act({ op: 'send', id: 0, data: new Uint8Array([code, state.nodeId.value]), extended: false, remote: false });
 }
 
 export function setPower(on: boolean): void {
-  send({ op: 'power', on });
+  act({ op: 'power', node: state.selectedNode.value, on });
 }
 
 /** Turns the shaft to a number of revolutions; it stands still there. */
 export function turnTo(turns: number): void {
-  if (state.shaft.value?.rpm) setRpm(0);
-  send({ op: 'turn', turns });
+  if (state.shaft.value?.rpm || state.status.value?.moves) setRpm(0);
+  act({ op: 'turn', node: state.selectedNode.value, turns });
 }
 
 export function setRpm(rpm: number): void {
-  send({ op: 'rpm', rpm });
+  act({ op: 'rpm', node: state.selectedNode.value, rpm });
 }
 
 export function setRunning(running: boolean): void {
@@ -47,9 +46,17 @@ export function setSpeed(factor: number): void {
   send({ op: 'speed', factor });
 }
 
-export function step(micros: number): void {
+/** Lets so much time pass, or with `frames` as much as it takes for so many. */
+export function step(micros: number, frames = 0): void {
   setRunning(false);
-  send({ op: 'step', micros });
+  send({ op: 'step', micros, frames });
+}
+
+/** Goes back to the moment before the newest frame. */
+export function stepBack(): void {
+  setRunning(false);
+  const newest = state.ring.get(state.ring.end - 1)?.time;
+  send({ op: 'back', to: (newest ?? state.now.value) - 1 });
 }
 
 export function togglePause(): void {
@@ -84,32 +91,59 @@ export function saveLog(): void {
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-/** Puts a device on the bus; false when its file cannot be used. */
-export async function openDevice(source: Source, nodeId: number): Promise<boolean> {
-  const { device, diagnostics } = await open(source, nodeId);
+/** Puts a device on the bus, in the place of another or in a new one; false when its file cannot be used. */
+export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value): Promise<boolean> {
+  const isNew = place === 'new' || place >= state.devices.value.length;
+  const input: Input = { op: 'add', source, nodeId, ...(isNew ? {} : { place }) };
+  const { node, diagnostics } = await add(input);
   state.diagnostics.value = diagnostics;
-  if (!device) return false;
-  forgetWords();
+  if (node === null) return false;
+  if (node !== state.selectedNode.value) select(node);
   remember();
   return true;
 }
 
-/** Keeps device and node ID in the address, as far as a link can carry them. */
-function remember(): void {
-  const { value } = state.source;
-  const parts = new URLSearchParams();
-  if (value.kind === 'builtin') parts.set('device', value.name);
-  parts.set('node', String(state.device.value?.nodeId ?? 1));
-  history.replaceState(null, '', `#${parts}`);
+/** Takes a device off the bus. */
+export function removeDevice(node: number): void {
+  act({ op: 'remove', node });
+  select(Math.max(0, Math.min(state.selectedNode.value, state.devices.value.length - 2)));
+  remember();
 }
 
-/** Device and node ID of the address. */
-export function recall(): { source: Source; nodeId: number } {
+export const MOST_NODES = 4;
+
+/** The address that opens these devices afresh: `#device=gxmm&node=1&device=gxam&node=2`. */
+function remember(): void {
+  const parts = new URLSearchParams();
+  for (const { source, nodeId, name } of state.devices.value) {
+    // The further channels of an encoder come with its first one.
+    if (source.kind !== 'builtin' || name !== source.name) continue;
+    parts.append('device', source.name);
+    parts.append('node', String(nodeId));
+  }
+  history.replaceState(null, '', parts.size ? `#${parts}` : location.pathname + location.search);
+}
+
+/** The devices of the address; one gxmm where it names none. */
+export function recall(): { source: Source; nodeId: number }[] {
   const parts = new URLSearchParams(location.hash.slice(1));
-  const name = parts.get('device') ?? 'gxmm';
-  const node = Number(parts.get('node') ?? 1);
-  return {
-    source: { kind: 'builtin', name: /^[a-z0-9_]{1,16}$/.test(name) ? name : 'gxmm' },
-    nodeId: Number.isInteger(node) && node >= 1 && node <= 127 ? node : 1,
-  };
+  const nodes = parts.getAll('node').map(Number);
+  const names = parts.getAll('device').slice(0, MOST_NODES);
+  return (names.length ? names : ['gxmm']).map((name, i) => {
+    const node = nodes[i] ?? i + 1;
+    return {
+      source: { kind: 'builtin', name: /^[a-z0-9_]{1,16}$/.test(name) ? name : 'gxmm' },
+      nodeId: Number.isInteger(node) && node >= 1 && node <= 127 ? node : 1,
+    };
+  });
+}
+
+/** A fresh bench with these devices. */
+export async function begin(wanted: { source: Source; nodeId: number }[]): Promise<void> {
+  restore([], 0);
+  for (const { source, nodeId } of wanted) {
+    const isOpen = await openDevice(source, nodeId, 'new');
+    if (!isOpen && source.kind === 'builtin') await openDevice({ kind: 'builtin', name: 'gxmm' }, nodeId, 'new');
+  }
+  select(0);
 }

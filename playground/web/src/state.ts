@@ -2,14 +2,23 @@
 // read them, actions go back to the worker: one way round.
 
 import { computed, signal } from '@preact/signals-core';
-import type { Builtin, Diagnostic, DeviceInfo, Leds, Nmt, ObjectRecord, Shaft, Source, Value } from './sim/api';
+import type { Builtin, DeviceInfo, Diagnostic, Entry, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
 import { Ring } from './can/ring';
 
 export type Health = 'starting' | 'running' | 'restarting' | 'failed';
 
 export const health = signal<Health>('starting');
-export const device = signal<DeviceInfo | null>(null);
-export const source = signal<Source>({ kind: 'builtin', name: 'gxmm' });
+/** What is on the bus, in the order of its numbers. */
+export const devices = signal<DeviceInfo[]>([]);
+/** What can be seen of each. */
+export const statuses = signal<Status[]>([]);
+/** Number of the device that the panels show. */
+export const selectedNode = signal(0);
+export const line = signal<LineStatus | null>(null);
+
+export const device = computed<DeviceInfo | null>(() => devices.value[selectedNode.value] ?? null);
+export const status = computed<Status | null>(() => statuses.value[selectedNode.value] ?? null);
+export const source = computed<Source>(() => device.value?.source ?? { kind: 'builtin', name: 'gxmm' });
 /** The devices that need no file. */
 export const builtins = signal<Builtin[]>([]);
 export const diagnostics = signal<Diagnostic[]>([]);
@@ -20,14 +29,25 @@ export const speed = signal(1);
 /** Virtual seconds per second. */
 export const rate = signal(0);
 
-export const powered = signal(false);
-export const nmt = signal<Nmt>('off');
-export const nodeId = signal(1);
-export const leds = signal<Leds>({ green: 'off', red: 'off' });
-export const shaft = signal<Shaft | null>(null);
+/** A run is made again and is not there yet. */
+export const replaying = signal(false);
+
+export const powered = computed(() => status.value?.powered ?? false);
+export const nmt = computed(() => status.value?.nmt ?? 'off');
+export const nodeId = computed(() => status.value?.nodeId ?? device.value?.nodeId ?? 1);
+export const shaft = computed(() => status.value?.shaft ?? null);
+/** The run so far: everything that was done, with its moment. */
+export const journal: { entries: Entry[] } = { entries: [] };
+export const journaled = signal(0);
+
 export const chain = signal<Value[] | null>(null);
 /** Data of the latest PDO1, with its moment. */
 export const lastPdo = signal<{ time: number; data: Uint8Array } | null>(null);
+
+/** Objects of the selected device that a power cycle would change. */
+export const unsaved = signal<ReadonlySet<number>>(new Set());
+/** The EEPROM of the selected device, while somebody looks. */
+export const eeprom = signal<Uint8Array | null>(null);
 
 /** Captured frames; `captured` changes whenever the ring does. */
 export const ring = new Ring();
@@ -53,7 +73,8 @@ export const tab = signal<Tab>('encoder');
 /** A message that goes away by itself. */
 export const toast = signal<{ text: string; tone: 'info' | 'error' } | null>(null);
 
-export const deviceDialog = signal(false);
+/** Which place on the bus the dialog fills; null while it is closed. */
+export const deviceDialog = signal<number | 'new' | null>(null);
 export const helpDialog = signal(false);
 /** A file that could not be opened, and why. */
 export const attempt = signal<{ name: string; text: string; diagnostics: Diagnostic[] } | null>(null);

@@ -239,7 +239,9 @@ mod tests {
         loop {
             while let Some(done) = console.step(&mut bus) {
                 match done {
-                    Ok(Some(frame)) => bus.receive(&frame),
+                    Ok(Some(frame)) => {
+                        bus.receive(&frame);
+                    }
                     Ok(None) => {}
                     Err(why) => out.push_str(&why),
                 }

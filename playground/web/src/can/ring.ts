@@ -52,6 +52,11 @@ export class Ring {
     this.first = this.end;
   }
 
+  /** Forgets the newest frames, from this number on. */
+  truncate(end: number): void {
+    if (end < this.end) this.end = Math.max(end, this.first);
+  }
+
   /** The frame with this number, if it is still there. */
   get(number: number): Frame | undefined {
     if (number < this.first || number >= this.end) return undefined;

@@ -1,6 +1,6 @@
 // Which CANopen service a COB-ID belongs to, by the predefined connection set (CiA 301).
 
-export type Service = 'NMT' | 'SYNC' | 'TIME' | 'EMCY' | 'PDO' | 'SDO' | 'HB' | 'LSS' | 'CAN';
+export type Service = 'NMT' | 'SYNC' | 'TIME' | 'EMCY' | 'PDO' | 'SDO' | 'HB' | 'LSS' | 'CAN' | 'ERR';
 
 export interface Tag {
   service: Service;
@@ -19,6 +19,7 @@ const FIXED = {
   heartbeat: tag('HB'),
   lss: tag('LSS'),
   can: tag('CAN'),
+  error: tag('ERR'),
   pdo: [1, 2, 3, 4].flatMap((n) => [tag('PDO', `PDO${n}`), tag('PDO', `RPDO${n}`)]),
 };
 
@@ -37,3 +38,7 @@ export function classify(id: number, extended: boolean): Tag {
   if (code === 14) return FIXED.heartbeat;
   return FIXED.can;
 }
+
+/** The tag of a captured frame: one that was disturbed on the wire is an error. */
+export const tagOf = (frame: { id: number; extended: boolean; disturbed: boolean }): Tag =>
+  frame.disturbed ? FIXED.error : classify(frame.id, frame.extended);

@@ -5,7 +5,7 @@ const typed = (text: string): string => {
   const parsed = parseFrame(text);
   if ('error' in parsed) return `${parsed.at}: ${parsed.error}`;
   const { id, extended, remote, data, dlc } = parsed.frame;
-  return typedForm({ time: 0, fromPage: true, id, extended, remote, data, dlc });
+  return typedForm({ time: 0, fromPage: true, disturbed: false, device: 0, id, extended, remote, data, dlc });
 };
 
 test('frames in every spelling', () => {
@@ -53,7 +53,7 @@ test('faults, and where they are', () => {
 });
 
 test('candump lines', () => {
-  const frame = { id: 0x601, extended: false, remote: false, fromPage: true, dlc: 4, data: new Uint8Array([0x40, 4, 0x60, 0]) };
+  const frame = { id: 0x601, extended: false, remote: false, fromPage: true, disturbed: false, device: 0, dlc: 4, data: new Uint8Array([0x40, 4, 0x60, 0]) };
   assert.equal(candumpLine({ ...frame, time: 1_000_001 }), '(1.000001) can0 601#40046000');
   assert.equal(candumpLine({ ...frame, time: 0, remote: true, data: new Uint8Array(0) }), '(0.000000) can0 601#R4');
   assert.equal(candumpLine({ ...frame, time: 0, id: 0x12, extended: true }), '(0.000000) can0 00000012#40046000');

@@ -32,7 +32,9 @@ export interface DeviceInfo {
   name: string;
   /** One line for people. */
   title: string;
+  /** The node ID that it was put on the bus with. */
   nodeId: number;
+  source: Source;
   objects: ObjectRecord[];
 }
 
@@ -67,53 +69,46 @@ export interface Shaft {
   raw: number;
 }
 
-/** A device that could be opened or could not. */
-export type Opened = { device: DeviceInfo; diagnostics: Diagnostic[] } | { device: null; diagnostics: Diagnostic[] };
+export type Condition = 'error active' | 'error passive' | 'bus-off';
 
-/** A CAN bus with one simulated device on it. */
-export interface Bus {
-  /** Puts a device of ours on the bus, powered. */
-  openBuiltin(name: string, nodeId: number): Opened;
-  /** Puts the device that an EDS file describes on the bus, powered; a lenient bus runs what it can of a text with errors. */
-  openEds(text: string, nodeId: number, lenient: boolean): Opened;
-  /** Sends a frame at the present moment. */
-  send(id: number, data: Uint8Array, extended: boolean, remote: boolean): void;
-  /** Lets at most `micros` pass, or less when `maxFrames` were seen; answers with what passed. */
-  advance(micros: number, maxFrames: number): number;
-  /** Virtual microseconds since the bus was made. */
-  now(): number;
-  /** How many frames wait to be drained. */
-  pending(): number;
-  /** All frames since the last call, packed (see packed.ts). */
-  drain(): Uint8Array;
-  /** One packed frame in plain words. */
-  describe(frame: Uint8Array): string;
-  /** The value of an object, without a frame on the bus. */
-  read(index: number, sub: number): Value;
-  nmt(): Nmt;
-  leds(): Leds;
-  nodeId(): number;
-  builtins(): Builtin[];
-  setPower(on: boolean): void;
-  powered(): boolean;
-  shaft(): Shaft | null;
-  setRpm(rpm: number): void;
-  turnTo(turns: number): void;
+/** What can be seen of a device from outside. */
+export interface Status {
+  nodeId: number;
+  powered: boolean;
+  nmt: Nmt;
+  leds: Leds;
+  shaft: Shaft | null;
+  /** Rotary switches, 0 to 99. */
+  nodeSwitch: number;
+  /** DIP switches, 0 to 7. */
+  rateSwitch: number;
+  /** Bit rate in kbit/s since the last start; null where it adapts itself. */
+  rate: number | null;
+  /** Names of what can break. */
+  canBreak: string[];
+  /** Names of what is broken. */
+  faults: string[];
+  transmitErrors: number;
+  receiveErrors: number;
+  controller: Condition;
+  /** Hangs on the line. */
+  plugged: boolean;
+  /** The shaft follows a profile. */
+  moves: boolean;
 }
 
-/** What the page asks of the worker. */
-export type Command =
-  | { op: 'open'; source: Source; nodeId: number }
-  | { op: 'send'; id: number; data: Uint8Array; extended: boolean; remote: boolean }
-  | { op: 'run'; running: boolean }
-  | { op: 'speed'; factor: number }
-  | { op: 'step'; micros: number }
-  | { op: 'power'; on: boolean }
-  | { op: 'turn'; turns: number }
-  | { op: 'rpm'; rpm: number }
-  | { op: 'watch'; addresses: Address[] }
-  | { op: 'describe'; ticket: number; frames: Uint8Array }
-  | { op: 'drawn' };
+/** The wire, and the controller of the page. */
+export interface LineStatus {
+  real: boolean;
+  terminators: number;
+  /** Bit rate of the page in kbit/s; null: that of the first device. */
+  fixedRate: number | null;
+  rate: number | null;
+  transmitErrors: number;
+  receiveErrors: number;
+  controller: Condition;
+  plugged: boolean;
+}
 
 export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
 
@@ -128,10 +123,62 @@ export interface Builtin {
   title: string;
 }
 
+/**
+ * What changes the simulation. The journal keeps every one with its virtual moment, so
+ * that a run can be made again: for a step back, for a link, after a reload.
+ */
+export type Input =
+  | { op: 'add'; source: Source; nodeId: number; place?: number }
+  | { op: 'remove'; node: number }
+  | { op: 'send'; id: number; data: Uint8Array; extended: boolean; remote: boolean }
+  | { op: 'repeat'; key: number; id: number; data: Uint8Array; extended: boolean; remote: boolean; micros: number }
+  | { op: 'power'; node: number; on: boolean }
+  | { op: 'turn'; node: number; turns: number }
+  | { op: 'rpm'; node: number; rpm: number }
+  | { op: 'follow'; node: number; steps: number[]; repeats: boolean }
+  | { op: 'switches'; node: number; id?: number; dip?: { bit: number; on: boolean } }
+  | { op: 'fault'; node: number; name: string; on: boolean }
+  | { op: 'line'; real: boolean; terminators: number; rate: number | null }
+  | { op: 'seed'; seed: number }
+  | { op: 'plug'; station: number; on: boolean }
+  | { op: 'restart'; station: number }
+  | { op: 'cut'; node: number; bytes: number }
+  | { op: 'eeprom'; node: number; bytes: Uint8Array };
+
+/** An input and its virtual moment in microseconds. */
+export interface Entry {
+  at: number;
+  input: Input;
+}
+
+/** What the page asks of the worker. */
+export type Command =
+  | { op: 'do'; input: Input; ticket?: number }
+  | { op: 'restore'; entries: Entry[]; until: number }
+  | { op: 'run'; running: boolean }
+  | { op: 'speed'; factor: number }
+  | { op: 'step'; micros: number; frames: number }
+  | { op: 'back'; to: number }
+  | { op: 'select'; node: number }
+  | { op: 'watch'; addresses: Address[] }
+  | { op: 'plot'; addresses: Address[] }
+  | { op: 'look'; eeprom: boolean }
+  | { op: 'describe'; ticket: number; frames: Uint8Array }
+  | { op: 'drawn' };
+
+/** What came of an input that puts a device on the bus. */
+export interface Added {
+  /** Its number, or null where it cannot run. */
+  node: number | null;
+  diagnostics: Diagnostic[];
+}
+
 /** What the worker tells the page. */
 export type Report =
   | { op: 'ready'; builtins: Builtin[] }
-  | { op: 'opened'; source: Source; result: Opened }
+  | { op: 'added'; ticket: number; added: Added }
+  | { op: 'devices'; devices: DeviceInfo[] }
+  | { op: 'rewound'; to: number }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }
   | { op: 'crashed'; message: string };
@@ -140,21 +187,28 @@ export type Report =
 export interface Snapshot {
   now: number;
   running: boolean;
+  /** It makes a run again and is not there yet. */
+  replaying: boolean;
   /** Virtual seconds per second, as measured. */
   rate: number;
-  powered: boolean;
-  nmt: Nmt;
-  nodeId: number;
-  leds: Leds;
-  shaft: Shaft | null;
+  nodes: Status[];
+  line: LineStatus;
   /** New frames, packed. */
   frames: Uint8Array;
   /** The words of the last frames of the batch. */
   words: string[];
-  /** Values of the position chain: [6000h, 6001h, 6002h, 6004h, 6509h]. */
+  /** The journal from here on has changed. */
+  journal: { from: number; entries: Entry[] } | null;
+  /** Of the selected node: values of the position chain, [6000h, 6001h, 6002h, 6004h, 6509h]. */
   chain: Value[] | null;
-  /** Values of the watched objects, when they were read again. */
+  /** Of the selected node: values of the watched objects, when they were read again. */
   values: Value[] | null;
+  /** Of the selected node: objects that are not saved as they are, as `index * 256 + sub`; with the values. */
+  unsaved: Uint32Array | null;
+  /** Of the selected node: the bytes of its EEPROM, while somebody looks. */
+  eeprom: Uint8Array | null;
+  /** Of the selected node: values of the plotted objects. */
+  plot: Value[] | null;
 }
 
 /** The objects between the shaft and the telegram. */

@@ -2,7 +2,7 @@
 
 import { Transfer, type Outcome, type Request } from '../can/sdo';
 import { nodeId, powered } from '../state';
-import { send } from './link';
+import { act } from './link';
 import type { Frame } from './packed';
 
 let active: Transfer | null = null;
@@ -15,7 +15,7 @@ export function transfer(request: Request): Promise<Outcome> {
       active = new Transfer(
         nodeId.value,
         request,
-        (id, data) => send({ op: 'send', id, data, extended: false, remote: false }),
+        (id, data) => act({ op: 'send', id, data, extended: false, remote: false }),
         (outcome) => {
           active = null;
           resolve(outcome);

@@ -1,8 +1,9 @@
-// The clock of the simulation. It advances the bus in slices that never take longer
+// The clock of the simulation. It advances the bench in slices that never take longer
 // than a budget, and hands the page one snapshot per drawn picture.
 
-import { CHAIN, type Address, type Bus, type Command, type Report, type Value } from './api';
+import { CHAIN, type Address, type Command, type Report, type Snapshot, type Value } from './api';
 import { FRAME_BYTES } from './packed';
+import type { World } from './world';
 
 /** Longest time a slice may compute, in milliseconds. */
 const BUDGET = 8;
@@ -20,6 +21,8 @@ const MOST_UNDRAWN = 2;
 const WITH_WORDS = 48;
 /** Milliseconds between two readings of the watched objects. */
 const WATCH_PERIOD = 200;
+/** Farthest that one step goes in search of a frame, in microseconds. */
+const FARTHEST = 60_000_000;
 
 export class Engine {
   private running = true;
@@ -27,32 +30,43 @@ export class Engine {
   private last = performance.now();
   private undrawn = 0;
   private changed = true;
+  private selected = 0;
   private watched: Address[] = [];
+  private plotted: Address[] = [];
   private watchedAt = 0;
   private watchedAgain = true;
+  private looksAtEeprom = false;
   private rate = 0;
   private rateFrom = { wall: performance.now(), virtual: 0 };
-  private isOpen = false;
+  /** A run that is made again goes at full speed to this moment. */
+  private until: number | null = null;
+  private isBusy = false;
 
   constructor(
-    private readonly bus: Bus,
+    private readonly world: World,
     private readonly report: (report: Report, transfer?: Transferable[]) => void,
   ) {
     this.schedule();
   }
 
-  handle(command: Command): void {
+  async handle(command: Command): Promise<void> {
+    const { world } = this;
     switch (command.op) {
-      case 'open': {
-        const { source, nodeId } = command;
-        const result =
-          source.kind === 'builtin' ? this.bus.openBuiltin(source.name, nodeId) : this.bus.openEds(source.text, nodeId, source.lenient);
-        if (result.device) this.isOpen = true;
-        this.report({ op: 'opened', source, result });
+      case 'do': {
+        this.until = null;
+        this.isBusy = true;
+        const added = await world.act(command.input);
+        this.isBusy = false;
+        if (command.input.op === 'add' || command.input.op === 'remove') this.tellDevices();
+        if (command.ticket !== undefined) this.report({ op: 'added', ticket: command.ticket, added });
         break;
       }
-      case 'send':
-        this.bus.send(command.id, command.data, command.extended, command.remote);
+      case 'restore':
+        this.isBusy = true;
+        await world.restore(command.entries);
+        this.isBusy = false;
+        this.until = command.until;
+        this.tellDevices();
         break;
       case 'run':
         this.running = command.running;
@@ -60,22 +74,31 @@ export class Engine {
         break;
       case 'speed':
         this.factor = command.factor;
-        this.rateFrom = { wall: performance.now(), virtual: this.bus.now() };
+        this.rateFrom = { wall: performance.now(), virtual: world.bus.now() };
         break;
       case 'step':
-        this.bus.advance(command.micros, MOST_FRAMES);
+        world.advance(command.frames ? FARTHEST : command.micros, command.frames || MOST_FRAMES);
         break;
-      case 'power':
-        this.bus.setPower(command.on);
+      case 'back':
+        this.until = null;
+        world.drain();
+        world.rewind(Math.max(0, command.to));
+        this.tellDevices();
+        this.report({ op: 'rewound', to: world.bus.now() });
         break;
-      case 'turn':
-        this.bus.turnTo(command.turns);
-        break;
-      case 'rpm':
-        this.bus.setRpm(command.rpm);
+      case 'select':
+        this.selected = command.node;
+        this.watchedAgain = true;
         break;
       case 'watch':
         this.watched = command.addresses;
+        this.watchedAgain = true;
+        break;
+      case 'plot':
+        this.plotted = command.addresses;
+        break;
+      case 'look':
+        this.looksAtEeprom = command.eeprom;
         this.watchedAgain = true;
         break;
       case 'describe':
@@ -88,59 +111,100 @@ export class Engine {
     this.changed = true;
   }
 
+  private tellDevices(): void {
+    this.report({ op: 'devices', devices: this.world.infos() });
+    this.watchedAgain = true;
+  }
+
   private schedule(): void {
     setTimeout(() => {
-      this.slice();
+      if (!this.isBusy) this.slice();
       this.schedule();
     }, REST);
   }
 
   private slice(): void {
+    const { world } = this;
     const wall = performance.now();
     const gap = Math.min(wall - this.last, LONGEST_GAP);
     this.last = wall;
-    if (!this.isOpen) return;
-    if (this.running) {
-      // What was missed at the end of the budget is missed: time is slower, not late.
-      let left = Math.floor(gap * 1000 * this.factor);
-      while (left > 0 && this.bus.pending() < MOST_FRAMES && performance.now() - wall < BUDGET) {
-        const passed = this.bus.advance(Math.min(left, SLICE), 256);
-        if (passed <= 0) break;
-        left -= passed;
+    if (world.devices.length === 0 && world.done === world.journal.length) {
+      if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+      return;
+    }
+    if (this.until !== null) {
+      this.pass(wall, this.until - world.bus.now());
+      if (world.bus.now() >= this.until) {
+        this.until = null;
+        // Inputs of that very moment are part of it.
+        world.advance(0, MOST_FRAMES);
+        this.tellDevices();
       }
-      this.measure(wall);
+      this.changed = true;
+    } else if (this.running) {
+      this.pass(wall, Math.floor(gap * 1000 * this.factor));
       this.changed = true;
     }
+    if (this.running) this.measure(wall);
     if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+  }
+
+  /** What was missed at the end of the budget is missed: time is slower, not late. */
+  private pass(wall: number, micros: number): void {
+    const { world } = this;
+    let left = micros;
+    const known = world.devices.length;
+    while (left > 0 && world.bus.pending() < MOST_FRAMES && performance.now() - wall < BUDGET) {
+      const before = world.done;
+      const passed = world.advance(Math.min(left, SLICE), 256);
+      if (passed <= 0 && world.done === before) break;
+      left -= passed;
+    }
+    if (world.devices.length !== known) this.tellDevices();
   }
 
   private measure(wall: number): void {
     const passed = wall - this.rateFrom.wall;
     if (passed < 400) return;
-    const now = this.bus.now();
-    this.rate = (now - this.rateFrom.virtual) / 1000 / passed;
+    const now = this.world.bus.now();
+    this.rate = Math.max(0, (now - this.rateFrom.virtual) / 1000 / passed);
     this.rateFrom = { wall, virtual: now };
   }
 
   private describe(frames: Uint8Array): string[] {
     const words: string[] = [];
     for (let at = 0; at + FRAME_BYTES <= frames.length; at += FRAME_BYTES) {
-      words.push(this.bus.describe(frames.subarray(at, at + FRAME_BYTES)));
+      words.push(this.world.bus.describe(frames.subarray(at, at + FRAME_BYTES)));
     }
     return words;
   }
 
+  /** Journal entries that the page does not know yet. */
+  private journal(): Snapshot['journal'] {
+    const { world } = this;
+    if (world.told === world.journal.length) return null;
+    const from = world.told;
+    world.told = world.journal.length;
+    return { from, entries: world.journal.slice(from) };
+  }
+
   private snapshot(wall: number): void {
-    const { bus } = this;
-    const frames = bus.drain();
+    const { world, selected } = this;
+    const { bus } = world;
+    const frames = world.drain();
     const words = this.describe(frames.subarray(Math.max(0, frames.length - WITH_WORDS * FRAME_BYTES)));
+    const read = ({ index, sub }: Address): Value => bus.read(selected, index, sub);
     let values: Value[] | null = null;
+    let unsaved: Uint32Array | null = null;
+    let eeprom: Uint8Array | null = null;
     if (this.watchedAgain || wall - this.watchedAt > WATCH_PERIOD) {
-      values = this.watched.map(({ index, sub }) => bus.read(index, sub));
+      values = this.watched.map(read);
+      unsaved = bus.unsaved(selected, false);
+      if (this.looksAtEeprom) eeprom = bus.eeprom(selected);
       this.watchedAt = wall;
       this.watchedAgain = false;
     }
-    const shaft = bus.shaft();
+    const nodes = world.devices.map((_, number) => bus.status(number));
     this.changed = false;
     this.undrawn += 1;
     this.report(
@@ -149,16 +213,18 @@ export class Engine {
         snapshot: {
           now: bus.now(),
           running: this.running,
+          replaying: this.until !== null,
           rate: this.running ? this.rate : 0,
-          powered: bus.powered(),
-          nmt: bus.nmt(),
-          nodeId: bus.nodeId(),
-          leds: bus.leds(),
-          shaft,
+          nodes,
+          line: bus.line(),
           frames,
           words,
-          chain: shaft && CHAIN.map(({ index, sub }) => bus.read(index, sub)),
+          journal: this.journal(),
+          chain: nodes[selected]?.shaft ? CHAIN.map(read) : null,
           values,
+          unsaved,
+          eeprom,
+          plot: this.plotted.length ? this.plotted.map(read) : null,
         },
       },
       [frames.buffer],

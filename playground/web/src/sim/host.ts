@@ -1,13 +1,14 @@
-// What both workers (WebAssembly and stand-in) share: messages in, reports out, and
-// an end when something throws, so that the page can start a fresh one.
+// The worker: messages in, reports out, and an end when something throws, so that the
+// page can start a fresh one.
 
-import type { Bus, Command, Report } from './api';
+import type { Command, Report } from './api';
 import { Engine } from './engine';
+import { World, type Modules } from './world';
 
 const report = (message: Report, transfer: Transferable[] = []): void =>
   (self as unknown as Worker).postMessage(message, transfer);
 
-export async function host(makeBus: () => Promise<Bus>): Promise<void> {
+export async function host(modules: Modules): Promise<void> {
   const crash = (reason: unknown): void =>
     report({ op: 'crashed', message: reason instanceof Error ? reason.message : String(reason) });
   self.addEventListener('error', (event) => {
@@ -18,21 +19,31 @@ export async function host(makeBus: () => Promise<Bus>): Promise<void> {
     event.preventDefault();
     crash(event.reason);
   });
+  // One command after the other, in their order, though some have to load something.
   const waiting: Command[] = [];
   let engine: Engine | undefined;
-  self.onmessage = ({ data }: MessageEvent<Command>) => {
-    if (engine) engine.handle(data);
-    else waiting.push(data);
+  let isWorking = false;
+  const work = async (): Promise<void> => {
+    if (!engine || isWorking) return;
+    isWorking = true;
+    try {
+      for (let next = waiting.shift(); next; next = waiting.shift()) await engine.handle(next);
+    } catch (reason) {
+      crash(reason);
+    }
+    isWorking = false;
   };
-  let builtins;
+  self.onmessage = ({ data }: MessageEvent<Command>) => {
+    waiting.push(data);
+    void work();
+  };
   try {
-    const bus = await makeBus();
-    builtins = bus.builtins();
-    engine = new Engine(bus, report);
+    const world = new World(modules, await modules.core());
+    report({ op: 'ready', builtins: world.builtins() });
+    engine = new Engine(world, report);
   } catch (reason) {
     crash(reason);
     return;
   }
-  report({ op: 'ready', builtins });
-  for (const command of waiting.splice(0)) engine.handle(command);
+  void work();
 }

@@ -4,9 +4,9 @@
 import { batch } from '@preact/signals-core';
 import * as state from '../state';
 import { frameArrived, tick } from './client';
-import { noteWords } from './words';
-import type { Command, Opened, Report, Snapshot, Source } from './api';
-import { FRAME_BYTES, unpack } from './packed';
+import { forgetWords, noteWords } from './words';
+import type { Added, Command, DeviceInfo, Entry, Input, Report, Snapshot } from './api';
+import { DISTURBED, FRAME_BYTES, unpack } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
 const MOST_CRASHES = 3;
@@ -15,8 +15,9 @@ let worker: Worker | null = null;
 let crashes = 0;
 let ticket = 0;
 const tickets = new Map<number, (words: string[]) => void>();
-let openings: ((result: Opened) => void)[] = [];
-let current: { source: Source; nodeId: number } | null = null;
+const additions = new Map<number, (added: Added) => void>();
+/** Who wants to see the frames as they come. */
+const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
 
 export function start(): void {
   const own = new Worker(new URL('worker.js', import.meta.url), { type: 'module', name: 'odkit simulation' });
@@ -35,13 +36,25 @@ export function send(command: Command): void {
   worker?.postMessage(command);
 }
 
-/** Opens a device; the device before stays when the new one cannot be opened. */
-export function open(source: Source, nodeId: number): Promise<Opened> {
+/** Something happens on the bench. */
+export function act(input: Input): void {
+  send({ op: 'do', input });
+}
+
+/** Puts a device on the bus; what was there stays when it cannot run. */
+export function add(input: Extract<Input, { op: 'add' }>): Promise<Added> {
   return new Promise((resolve) => {
-    openings.push(resolve);
-    send({ op: 'open', source, nodeId });
-    state.nodeId.value = nodeId;
+    ticket += 1;
+    additions.set(ticket, resolve);
+    send({ op: 'do', input, ticket });
   });
+}
+
+/** Makes a run again, from nothing. */
+export function restore(entries: Entry[], until: number): void {
+  state.journal.entries = [];
+  dropFrames();
+  send({ op: 'restore', entries, until });
 }
 
 /** The words of packed frames. */
@@ -53,14 +66,27 @@ export function describe(frames: Uint8Array): Promise<string[]> {
   });
 }
 
+/** Calls `listener` with every snapshot, and the number of its first frame. */
+export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
 function receive(report: Report): void {
   switch (report.op) {
     case 'ready':
       state.health.value = 'running';
       state.builtins.value = report.builtins;
       break;
-    case 'opened':
-      opened(report.source, report.result);
+    case 'added':
+      additions.get(report.ticket)?.(report.added);
+      additions.delete(report.ticket);
+      break;
+    case 'devices':
+      devices(report.devices);
+      break;
+    case 'rewound':
+      rewound(report.to);
       break;
     case 'snapshot':
       apply(report.snapshot);
@@ -76,49 +102,90 @@ function receive(report: Report): void {
   }
 }
 
-function opened(source: Source, result: Opened): void {
-  const { device, diagnostics } = result;
-  if (device) {
-    current = { source, nodeId: device.nodeId };
-    document.title = `${device.name} – odkit`;
-    batch(() => {
-      state.device.value = device;
-      state.source.value = source;
-      state.diagnostics.value = diagnostics;
-      state.selected.value = null;
-      state.values.value = new Map();
-      state.lastPdo.value = null;
-    });
-  }
-  openings.shift()?.(result);
+function devices(list: DeviceInfo[]): void {
+  batch(() => {
+    state.devices.value = list;
+    if (state.selectedNode.value >= list.length) select(Math.max(0, list.length - 1));
+    state.selected.value = null;
+    state.values.value = new Map();
+    state.lastPdo.value = null;
+    forgetWords();
+  });
+  document.title = list.length ? `${list.map((one) => one.name).join(', ')} – odkit` : 'odkit – virtual CANopen encoder';
+}
+
+/** Shows another device in the panels. */
+export function select(node: number): void {
+  batch(() => {
+    state.selectedNode.value = node;
+    state.selected.value = null;
+    state.values.value = new Map();
+    state.unsaved.value = new Set();
+    state.eeprom.value = null;
+    state.chain.value = null;
+    state.lastPdo.value = null;
+  });
+  send({ op: 'select', node });
+}
+
+function rewound(to: number): void {
+  const { ring } = state;
+  let end = ring.end;
+  while (end > ring.first && (ring.get(end - 1)?.time ?? 0) > to) end -= 1;
+  ring.truncate(end);
+  forgetWords();
+  batch(() => {
+    state.pausedAt.value = null;
+    state.chosenFrame.value = null;
+    state.captured.value = ring.end;
+    state.cleared.value += 1;
+  });
+}
+
+function dropFrames(): void {
+  state.ring.clear();
+  batch(() => {
+    state.chosenFrame.value = null;
+    state.pausedAt.value = null;
+    state.captured.value = state.ring.end;
+    state.cleared.value += 1;
+  });
 }
 
 function apply(snapshot: Snapshot): void {
+  const first = state.ring.end;
   batch(() => {
     state.now.value = snapshot.now;
     state.rate.value = snapshot.rate;
     state.running.value = snapshot.running;
-    state.powered.value = snapshot.powered;
-    state.nmt.value = snapshot.nmt;
-    if (snapshot.powered) state.nodeId.value = snapshot.nodeId;
-    const { green, red } = state.leds.peek();
-    if (green !== snapshot.leds.green || red !== snapshot.leds.red) state.leds.value = snapshot.leds;
-    state.shaft.value = snapshot.shaft;
+    state.replaying.value = snapshot.replaying;
+    state.statuses.value = snapshot.nodes;
+    state.line.value = snapshot.line;
     state.chain.value = snapshot.chain;
     if (snapshot.values) watchedValues(snapshot);
+    if (snapshot.unsaved) state.unsaved.value = new Set(snapshot.unsaved);
+    if (snapshot.eeprom) state.eeprom.value = snapshot.eeprom;
+    if (snapshot.journal) {
+      const { from, entries } = snapshot.journal;
+      state.journal.entries.length = Math.min(state.journal.entries.length, from);
+      state.journal.entries.push(...entries);
+      state.journaled.value += 1;
+    }
     if (snapshot.frames.length > 0) frames(snapshot);
     tick(snapshot.now);
   });
+  for (const listener of listeners) listener(snapshot, first);
 }
 
 function frames(snapshot: Snapshot): void {
   const { ring } = state;
   ring.append(snapshot.frames);
   noteWords(ring.end - snapshot.words.length, snapshot.words);
-  const pdo = 0x180 + snapshot.nodeId;
+  const pdo = 0x180 + state.nodeId.value;
   for (let at = 0; at < snapshot.frames.length; at += FRAME_BYTES) {
+    const flags = snapshot.frames[at + 12]!;
+    if (flags & (DISTURBED | 4)) continue;
     const frame = unpack(snapshot.frames, at);
-    if (frame.fromPage) continue;
     if (frame.id === pdo) state.lastPdo.value = { time: frame.time, data: frame.data };
     else frameArrived(frame);
   }
@@ -141,13 +208,14 @@ function watchedValues(snapshot: Snapshot): void {
   state.values.value = map;
 }
 
-/** A Rust panic ends the worker, not the page: a fresh one opens the same device. */
+/** A Rust panic ends the worker, not the page: a fresh one gets the same devices. */
 function crashed(message: string): void {
   worker?.terminate();
   worker = null;
   crashes += 1;
   tickets.clear();
-  openings = [];
+  for (const resolve of additions.values()) resolve({ node: null, diagnostics: [] });
+  additions.clear();
   if (crashes > MOST_CRASHES) {
     state.health.value = 'failed';
     state.toast.value = { text: `The simulation stopped: ${message}`, tone: 'error' };
@@ -158,6 +226,11 @@ function crashed(message: string): void {
   start();
   watch(watched);
   send({ op: 'speed', factor: state.speed.peek() });
-  if (current) void open(current.source, current.nodeId);
+  send({ op: 'select', node: state.selectedNode.peek() });
+  state.journal.entries = [];
+  // From the moment it stopped, so that time on the page does not run backwards.
+  const at = state.now.peek();
+  const entries = state.devices.peek().map(({ source, nodeId }): Entry => ({ at, input: { op: 'add', source, nodeId } }));
+  send({ op: 'restore', entries, until: at });
   setTimeout(() => (crashes = 0), 10_000);
 }

@@ -4,7 +4,8 @@
 import { signal } from '@preact/signals-core';
 import { ring } from '../state';
 import { describe } from './link';
-import { FRAME_BYTES } from './packed';
+import { T } from '../texts';
+import { FRAME_BYTES, type Frame } from './packed';
 
 const MOST_KEPT = 4000;
 
@@ -23,7 +24,10 @@ export function noteWords(from: number, words: string[]): void {
 export function wordsOf(numbers: number[]): (string | undefined)[] {
   const missing = numbers.filter((number) => !known.has(number) && !asked.has(number) && number >= ring.first);
   if (missing.length > 0) void ask(missing);
-  return numbers.map((number) => known.get(number));
+  return numbers.map((number) => {
+    const frame = ring.get(number);
+    return frame?.disturbed ? troubleWords(frame) : known.get(number);
+  });
 }
 
 /** Forgets everything, when another device changes what the bytes mean. */
@@ -44,4 +48,10 @@ async function ask(numbers: number[]): Promise<void> {
     known.set(number, words[i] ?? '');
   });
   wordsArrived.value += 1;
+}
+
+/** What became of a frame that was disturbed on the wire. */
+export function troubleWords({ data }: Frame): string {
+  const [why = 0, attempts = 0, delivered = 0, busOff = 0] = data;
+  return T.trouble.text(T.trouble.why[why] ?? '', attempts, delivered !== 0, busOff !== 0);
 }

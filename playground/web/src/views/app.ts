@@ -42,7 +42,7 @@ class App extends View {
       if (!file) return;
       event.preventDefault();
       this.isDropping = false;
-      void openFile(file, state.device.value?.nodeId ?? 1);
+      void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
     });
     effect(() => {
       const { value } = state.toast;

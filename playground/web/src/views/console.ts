@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { clearConsole, nmt, saveLog, togglePause } from '../actions';
-import { classify } from '../can/service';
+import { tagOf } from '../can/service';
 import { hexBytes, hexId } from '../can/text';
 import { grouped } from '../can/values';
 import { transfer } from '../sim/client';
@@ -146,7 +146,7 @@ class Console extends View {
     if (!frame) return;
     row.dataset['number'] = String(number);
     row.setAttribute('aria-rowindex', String(number + 1));
-    const tag = classify(frame.id, frame.extended);
+    const tag = tagOf(frame);
     const cells = row.children;
     const before = state.ring.get(number - 1);
     row.dataset['service'] = tag.service;
@@ -156,8 +156,8 @@ class Console extends View {
     setText(cells[2], frame.fromPage ? 'Tx' : 'Rx');
     setText(cells[3], hexId(frame.id, frame.extended));
     setText(cells[4]?.firstElementChild, tag.text);
-    setText(cells[5], String(frame.dlc));
-    setText(cells[6], frame.remote ? 'remote request' : hexBytes(frame.data));
+    setText(cells[5], frame.disturbed ? '' : String(frame.dlc));
+    setText(cells[6], frame.disturbed ? '' : frame.remote ? 'remote request' : hexBytes(frame.data));
     row.toggleAttribute('data-abort', tag.service === 'SDO' && frame.data[0] === 0x80);
     setText(cells[7], '');
   }

@@ -3,8 +3,9 @@
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
 import type { Diagnostic } from '../sim/api';
-import { openDevice } from '../actions';
+import { openDevice, removeDevice } from '../actions';
 import * as state from '../state';
+import { T } from '../texts';
 import { openFile, openText } from './files';
 import { icons } from './icons';
 import { View } from './view';
@@ -25,11 +26,11 @@ class DeviceDialog extends View {
     super.firstUpdated(changed);
     const dialog = this.querySelector('dialog')!;
     this.unopen = effect(() => {
-      const isWanted = state.deviceDialog.value;
-      if (isWanted && !dialog.open) {
-        this.node = String(state.device.peek()?.nodeId ?? 1);
+      const place = state.deviceDialog.value;
+      if (place !== null && !dialog.open) {
+        this.node = String(place === 'new' ? this.free() : (state.statuses.peek()[place]?.nodeId ?? 1));
         dialog.showModal();
-      } else if (!isWanted && dialog.open) {
+      } else if (place === null && dialog.open) {
         dialog.close();
       }
     });
@@ -45,41 +46,61 @@ class DeviceDialog extends View {
     return Number.isInteger(node) && node >= 1 && node <= 127 ? node : null;
   }
 
+  /** The first node ID that nobody has. */
+  private free(): number {
+    const taken = new Set(state.statuses.peek().map((one) => one.nodeId));
+    let node = 1;
+    while (taken.has(node)) node += 1;
+    return node;
+  }
+
+  private get place(): number | 'new' {
+    return state.deviceDialog.value ?? state.selectedNode.value;
+  }
+
   private close(): void {
-    state.deviceDialog.value = false;
+    state.deviceDialog.value = null;
     state.attempt.value = null;
   }
 
   private async choose(name: string): Promise<void> {
     const node = this.nodeId();
     if (node === null) return;
-    if (await openDevice({ kind: 'builtin', name }, node)) this.close();
+    if (await openDevice({ kind: 'builtin', name }, node, this.place)) this.close();
   }
 
   private async openFirst(files: FileList | null | undefined): Promise<void> {
     const file = files?.[0];
     const node = this.nodeId();
-    if (file && node !== null) await openFile(file, node);
+    if (file && node !== null) await openFile(file, node, this.place);
   }
 
   private async apply(): Promise<void> {
     const node = this.nodeId();
-    if (node !== null && (await openDevice(state.source.value, node))) this.close();
+    if (node !== null && (await openDevice(this.source(), node, this.place))) this.close();
+  }
+
+  private source() {
+    const { place } = this;
+    return (place === 'new' ? state.source.value : state.devices.value[place]?.source) ?? state.source.value;
   }
 
   protected override render() {
-    const current = state.source.value;
+    const { place } = this;
+    const current = this.source();
+    const isNew = place === 'new';
     const isBad = this.nodeId() === null;
+    const isTwice = state.statuses.value.some((one, number) => number !== place && one.nodeId === this.nodeId());
     return html`<dialog class="dialog" aria-labelledby="device-title" @close=${() => this.close()}
       @click=${(event: Event) => { if (event.target === event.currentTarget) this.close(); }}>
       <div class="dialog-body">
         <header class="dialog-head">
-          <h2 id="device-title">Device on the bus</h2>
+          <h2 id="device-title">${isNew ? T.dialog.another : T.dialog.title}</h2>
           <button class="icon-button" aria-label="Close" @click=${() => this.close()}>${icons.close}</button>
         </header>
         <div class="cards">
           ${state.builtins.value.map(
-            (one) => html`<button class="card" aria-pressed=${current.kind === 'builtin' && current.name === one.name} @click=${() => this.choose(one.name)}>
+            (one) => html`<button class="card" aria-pressed=${!isNew && current.kind === 'builtin' && current.name === one.name} @click=${() => this.choose(one.name)}>
               <strong>${one.name}</strong><span>${one.title.replace(/^[A-Z0-9]+, /, '')}</span>
             </button>`,
           )}
@@ -97,9 +118,10 @@ class DeviceDialog extends View {
         <div class="dialog-foot">
           <label for="node-id">Node ID</label>
           <input id="node-id" class="num" type="number" min="1" max="127" .value=${this.node} aria-invalid=${isBad} @keydown=${(event: KeyboardEvent) => event.key === 'Enter' && void this.apply()} @input=${(event: Event) => (this.node = (event.target as HTMLInputElement).value)}>
-          <span class="note" data-tone=${isBad ? 'error' : ''}>${isBad ? '1 to 127' : ''}</span>
+          <span class="note" data-tone=${isBad ? 'error' : ''}>${isBad ? '1 to 127' : isTwice ? T.dialog.twice(this.nodeId() ?? 0) : ''}</span>
           <div class="spacer"></div>
-          <button class="primary" ?disabled=${isBad} @click=${() => this.apply()}>Apply node ID</button>
+          ${isNew ? nothing : html`<button ?hidden=${state.devices.value.length < 2} @click=${() => { removeDevice(place); this.close(); }}>${T.dialog.remove}</button>
+          <button class="primary" ?disabled=${isBad} @click=${() => this.apply()}>${T.dialog.apply}</button>`}
         </div>
       </div>
     </dialog>`;
@@ -113,7 +135,7 @@ class DeviceDialog extends View {
     return html`<section class="faults" role="alert" aria-label="What is wrong with the file">
       <header>
         <h3>${attempt.name} cannot run: ${errors} error${errors === 1 ? '' : 's'}</h3>
-        <button class="small" title="Leave out what is wrong" @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true)}>Run anyway</button>
+        <button class="small" title="Leave out what is wrong" @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true, this.place)}>Run anyway</button>
       </header>
       <ol class="scroll">${attempt.diagnostics.map((one) => this.fault(one, lines))}</ol>
     </section>`;

@@ -5,10 +5,14 @@ import * as state from '../state';
 import { nmt, setPower, setRpm, turnTo } from '../actions';
 import type { Lamp, Nmt } from '../sim/api';
 import { grouped } from '../can/values';
+import { T } from '../texts';
+import { choose, motionOf, parseMotion, PROFILES } from './motion';
 import { icons } from './icons';
 import { View } from './view';
 import './shaft';
 import './chain';
+import './hardware';
+import './eeprom';
 
 const STATES: Record<Nmt, string> = {
   off: 'Off',
@@ -20,7 +24,20 @@ const STATES: Record<Nmt, string> = {
 
 const FASTEST = 6000;
 
+type Part = keyof typeof T.encoder.tabs;
+
 class Encoder extends View {
+  static override properties = { shown: { state: true }, own: { state: true } };
+  declare shown: Part;
+  /** What was typed for a profile of one's own; null while another is chosen. */
+  declare own: string | null;
+
+  constructor() {
+    super();
+    this.shown = 'shaft';
+    this.own = null;
+  }
+
   protected override render() {
     const isOn = state.powered.value;
     const nmtState = state.nmt.value;
@@ -35,15 +52,52 @@ class Encoder extends View {
           ${icons.power}<span class="switch-track"><span class="switch-thumb"></span></span>
         </button>
       </header>
-      <div class="encoder-body">
-        ${hasShaft ? html`<od-shaft></od-shaft>` : html`<p class="empty">This device has no shaft. It answers on the bus with what its EDS file says.</p>`}
+      <div class="parts" role="group" aria-label=${T.encoder.tabsLabel}>
+        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => (this.shown = part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
+      </div>
+      ${this.shown === 'hardware' ? html`<od-hardware></od-hardware>` : this.shown === 'eeprom' ? html`<od-eeprom></od-eeprom>` : this.shaftPart(hasShaft)}
+    `;
+  }
+
+  /** Something on the hardware page deserves a look. */
+  private isOdd(): boolean {
+    const status = state.status.value;
+    return status !== null && (status.faults.length > 0 || status.controller !== 'error active' || !status.plugged);
+  }
+
+  private shaftPart(hasShaft: boolean): TemplateResult {
+    return html`<div class="encoder-body">
+        ${hasShaft ? html`<od-shaft></od-shaft>` : html`<p class="empty">${T.encoder.noShaft}</p>`}
         <div class="readouts">
-          ${hasShaft ? html`<od-angle></od-angle>${this.rpm()}` : nothing}
+          ${hasShaft ? html`<od-angle></od-angle>${this.rpm()}${this.motion()}` : nothing}
           <od-leds></od-leds>
         </div>
       </div>
-      ${hasShaft ? html`<od-chain></od-chain>` : nothing}
-    `;
+      ${hasShaft ? html`<od-chain></od-chain>` : nothing}`;
+  }
+
+  private motion(): TemplateResult {
+    const now = state.status.value?.moves ? motionOf(state.selectedNode.value) : '';
+    const typed = this.own;
+    const wrong = typed === null ? null : parseMotion(typed);
+    return html`<div class="motion">
+      <label class="field-label" for="motion">${T.encoder.profile}</label>
+      <span class="select bordered"><select id="motion" @change=${(event: Event) => {
+        const { value } = event.target as HTMLSelectElement;
+        this.own = value === 'own' ? '' : null;
+        if (value !== 'own') choose(state.selectedNode.value, value);
+      }}>
+        <option value="" ?selected=${now === '' && typed === null}>${T.encoder.steady}</option>
+        ${PROFILES.map(({ key, text }) => html`<option value=${key} ?selected=${now === key}>${text}</option>`)}
+        <option value="own" ?selected=${typed !== null || now === 'own'}>${T.encoder.own}</option>
+      </select>${icons.chevron}</span>
+      ${typed === null
+        ? nothing
+        : html`<input class="num" aria-label=${T.encoder.own} placeholder="60 2, 0 1, -60 2" .value=${typed} aria-invalid=${typed !== '' && typeof wrong === 'string'}
+            title=${T.encoder.ownHint} @input=${(event: Event) => (this.own = (event.target as HTMLInputElement).value)}
+            @keydown=${(event: KeyboardEvent) => event.key === 'Enter' && choose(state.selectedNode.value, 'own', this.own ?? '')}>
+          <p class="note" data-tone=${typed !== '' && typeof wrong === 'string' ? 'error' : ''}>${typed !== '' && typeof wrong === 'string' ? T.encoder.ownBad(wrong) : T.encoder.ownHint}</p>`}
+    </div>`;
   }
 
   private rpm(): TemplateResult {
@@ -82,7 +136,7 @@ class Angle extends View {
 /** The dual lamp at the back of the bus cover (manual, chapter 7.3). */
 class Lamps extends View {
   protected override render() {
-    const { green, red } = state.leds.value;
+    const { green, red } = state.status.value?.leds ?? { green: 'off', red: 'off' };
     // 200 ms on, 200 ms off, in virtual time as long as an eye can follow it.
     const isFast = state.running.value && state.speed.value > 2;
     const isLit = Math.floor(isFast ? performance.now() / 200 : state.now.value / 200_000) % 2 === 0;
@@ -95,7 +149,7 @@ class Lamps extends View {
   }
 
   private words(): string {
-    const { green, red } = state.leds.value;
+    const { green, red } = state.status.value?.leds ?? { green: 'off', red: 'off' };
     if (red === 'on') return 'Red: error';
     if (red === 'flashing') return 'Red flashing: warning';
     if (green === 'off') return 'Dark: no supply voltage';

@@ -6,27 +6,27 @@ import * as state from '../state';
 /** Longest file that is worth a try: the largest known EDS files have about 2 MB. */
 const LONGEST = 8_000_000;
 
-export async function openFile(file: File, nodeId: number): Promise<boolean> {
+export async function openFile(file: File, nodeId: number, place: number | 'new'): Promise<boolean> {
   if (file.size > LONGEST) {
     state.toast.value = { text: `${file.name} is too large for an EDS file.`, tone: 'error' };
     return false;
   }
-  return openText(file.name, decodeText(new Uint8Array(await file.arrayBuffer())), nodeId, false);
+  return openText(file.name, decodeText(new Uint8Array(await file.arrayBuffer())), nodeId, false, place);
 }
 
 /** Runs an EDS text; a lenient try leaves out what is wrong with it. */
-export async function openText(name: string, text: string, nodeId: number, lenient: boolean): Promise<boolean> {
+export async function openText(name: string, text: string, nodeId: number, lenient: boolean, place: number | 'new'): Promise<boolean> {
   state.attempt.value = null;
-  const isOpen = await openDevice({ kind: 'eds', name, text, lenient }, nodeId);
+  const isOpen = await openDevice({ kind: 'eds', name, text, lenient }, nodeId, place);
   const found = state.diagnostics.value;
   if (isOpen) {
     const warnings = found.filter((one) => one.severity === 'warning').length;
     const rest = lenient ? ', as far as it can be run' : warnings ? `, with ${warnings} warning${warnings > 1 ? 's' : ''}` : '';
     state.toast.value = { text: `${name} is on the bus${rest}.`, tone: 'info' };
-    state.deviceDialog.value = false;
+    state.deviceDialog.value = null;
   } else {
     state.attempt.value = { name, text, diagnostics: found };
-    state.deviceDialog.value = true;
+    state.deviceDialog.value ??= place;
   }
   return isOpen;
 }

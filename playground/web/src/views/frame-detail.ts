@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
-import { classify } from '../can/service';
+import { tagOf } from '../can/service';
 import { hexByte, hexId, typedForm } from '../can/text';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { icons } from './icons';
@@ -14,7 +14,7 @@ class FrameDetail extends View {
     const frame = number === null ? undefined : state.ring.get(number);
     if (number === null || !frame) return nothing;
     void wordsArrived.value;
-    const tag = classify(frame.id, frame.extended);
+    const tag = tagOf(frame);
     const text = typedForm(frame);
     return html`<div class="frame-detail" data-service=${tag.service}>
       <div class="frame-words"><b class="tag-text">${tag.text}</b> <span>${wordsOf([number])[0] ?? ''}</span></div>

@@ -1,8 +1,10 @@
-// Which device, and virtual time.
+// What is on the bus, and virtual time.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
-import { setRunning, setSpeed, step } from '../actions';
+import { MOST_NODES, setRunning, setSpeed, step, stepBack } from '../actions';
+import { select } from '../sim/link';
+import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
 
@@ -25,37 +27,60 @@ class Topbar extends View {
     this.requestUpdate();
   }
 
+  /** One button for each device; the chosen one leads to the dialog. */
+  private nodes() {
+    const { value: devices } = state.devices;
+    const { value: chosen } = state.selectedNode;
+    if (devices.length === 0) return html`<button class="device-button" aria-haspopup="dialog" @click=${() => (state.deviceDialog.value = 'new')}><strong>${T.topbar.starting}</strong></button>`;
+    return devices.map((device, number) => {
+      const status = state.statuses.value[number];
+      const nmt = status?.nmt ?? 'off';
+      const isChosen = number === chosen;
+      const node = status?.powered ? status.nodeId : device.nodeId;
+      return html`<button class=${isChosen ? 'device-button' : 'node-button'} aria-haspopup=${isChosen ? 'dialog' : 'false'} aria-current=${isChosen}
+        title=${isChosen ? T.topbar.change : T.topbar.choose}
+        @click=${() => (isChosen ? (state.deviceDialog.value = number) : select(number))}>
+        <i class="nmt-dot" data-nmt=${nmt}></i>
+        <strong>${device.name}</strong>
+        ${devices.length === 1 ? html`<span class="device-title">${device.source.kind === 'eds' ? device.source.name : device.title}</span>` : nothing}
+        <span class="badge">${T.topbar.nodeBadge(node)}</span><span class="sr">, ${nmt}</span>
+        ${isChosen ? icons.chevron : nothing}
+      </button>`;
+    });
+  }
+
   protected override render() {
-    const device = state.device.value;
-    const source = state.source.value;
     const isRunning = state.running.value;
+    const t = T.topbar;
     return html`<header class="topbar">
-      <a class="brand" href="#" aria-label="odkit, start again" @click=${(event: Event) => { event.preventDefault(); location.hash = ''; location.reload(); }}>
+      <a class="brand" href="#" aria-label=${t.again} @click=${(event: Event) => { event.preventDefault(); location.hash = ''; location.reload(); }}>
         <svg viewBox="0 0 32 32" width="24" height="24" aria-hidden="true"><rect width="32" height="32" rx="9" fill="var(--accent)"/><circle cx="16" cy="16" r="8.5" fill="none" stroke="var(--on-accent)" stroke-width="2.4"/><path d="M16 16V7.5" stroke="var(--on-accent)" stroke-width="2.4" stroke-linecap="round"/><circle cx="16" cy="16" r="2.4" fill="var(--on-accent)"/></svg>
         <span>odkit</span>
       </a>
-      <button class="device-button" aria-haspopup="dialog" @click=${() => (state.deviceDialog.value = true)}>
-        <strong>${device?.name ?? 'Starting'}</strong>
-        <span class="device-title">${source.kind === 'eds' ? source.name : (device?.title ?? '')}</span>
-        <span class="badge">node ${state.nodeId.value}</span>
-        ${icons.chevron}
-      </button>
+      <div class="nodes" role="group" aria-label=${t.devices}>
+        ${this.nodes()}
+        ${state.devices.value.length > 0 && state.devices.value.length < MOST_NODES
+          ? html`<button class="icon-button add-node" aria-label=${t.add} title=${t.add} @click=${() => (state.deviceDialog.value = 'new')}>${icons.plus}</button>`
+          : nothing}
+      </div>
       <div class="spacer"></div>
-      <div class="timebar" role="group" aria-label="Virtual time">
-        <button class="icon-button" aria-label=${isRunning ? 'Stop time' : 'Run time'} title=${isRunning ? 'Stop time' : 'Run time'} aria-pressed=${isRunning}
+      <div class="timebar" role="group" aria-label=${t.time}>
+        <button class="icon-button step" aria-label=${t.back} title=${t.back} @click=${stepBack}>${icons.back}</button>
+        <button class="icon-button" aria-label=${isRunning ? t.stop : t.run} title=${isRunning ? t.stop : t.run} aria-pressed=${isRunning}
           @click=${() => setRunning(!isRunning)}>${isRunning ? icons.pause : icons.play}</button>
-        <button class="icon-button step" aria-label="Step 1 millisecond" title="Step 1 ms" @click=${() => step(1000)}>${icons.step}</button>
+        <button class="icon-button step" aria-label=${t.stepFrame} title=${t.stepFrame} @click=${() => step(0, 1)}>${icons.stepFrame}</button>
+        <button class="icon-button step" aria-label=${t.step} title=${t.step} @click=${() => step(1000)}>${icons.step}</button>
         <od-clock></od-clock>
-        <label class="select" title="Speed of virtual time">
-          <span class="sr">Speed</span>
-          <select aria-label="Speed" @change=${(event: Event) => setSpeed(Number((event.target as HTMLSelectElement).value))}>
+        <label class="select" title=${t.speedTitle}>
+          <span class="sr">${t.speed}</span>
+          <select aria-label=${t.speed} @change=${(event: Event) => setSpeed(Number((event.target as HTMLSelectElement).value))}>
             ${SPEEDS.map((factor) => html`<option value=${factor} ?selected=${factor === state.speed.value}>${factor}×</option>`)}
           </select>
           ${icons.chevron}
         </label>
       </div>
-      <button class="icon-button help-button" aria-label="Keys" title="Keys (?)" @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>
-      <button class="icon-button" aria-label="Light or dark" title="Light or dark" @click=${() => this.toggleTheme()}>${this.isDark() ? icons.sun : icons.moon}</button>
+      <button class="icon-button help-button" aria-label=${t.keys} title=${`${t.keys} (?)`} @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>
+      <button class="icon-button" aria-label=${t.theme} title=${t.theme} @click=${() => this.toggleTheme()}>${this.isDark() ? icons.sun : icons.moon}</button>
     </header>`;
   }
 }
@@ -69,8 +94,8 @@ class Clock extends View {
     const rest = (seconds % 60).toFixed(3).padStart(6, '0');
     const text = `${hours ? `${hours}:` : ''}${String(minutes).padStart(2, '0')}:${rest}`;
     const slow = state.running.value && state.rate.value > 0 && state.rate.value < state.speed.value * 0.7;
-    return html`${slow ? html`<span class="slow num" title="As fast as it goes with so many frames">${state.rate.value < 10 ? state.rate.value.toFixed(1) : Math.round(state.rate.value)}×</span>` : nothing}
-      <span class="clock num" role="timer" aria-label="Virtual time" aria-live="off" title="Virtual time">${text}</span>`;
+    return html`${state.replaying.value ? html`<span class="slow">${T.topbar.replaying}</span>` : slow ? html`<span class="slow num" title=${T.topbar.slow}>${state.rate.value < 10 ? state.rate.value.toFixed(1) : Math.round(state.rate.value)}×</span>` : nothing}
+      <span class="clock num" role="timer" aria-label=${T.topbar.time} aria-live="off" title=${T.topbar.time}>${text}</span>`;
   }
 }
 

@@ -1,0 +1,174 @@
+//! What happens by itself while time passes: shafts that follow a profile, and frames that
+//! are sent again and again.
+
+use od_devices::sim;
+use od_runtime::{Frame, Instant};
+
+use crate::packed;
+
+/// A shaft's profile: speeds, each for so long.
+#[derive(Clone)]
+struct Motion {
+    device: usize,
+    /// Revolutions a minute, and microseconds.
+    steps: Vec<(f64, u64)>,
+    repeats: bool,
+    next: usize,
+    due: Instant,
+}
+
+/// A frame that is sent in a rhythm.
+#[derive(Clone)]
+struct Cyclic {
+    key: u32,
+    frame: Frame,
+    every: u64,
+    due: Instant,
+}
+
+/// Everything that is due at some moment.
+#[derive(Clone, Default)]
+pub(crate) struct Clockwork {
+    motions: Vec<Motion>,
+    cyclic: Vec<Cyclic>,
+}
+
+/// What a moment brings.
+pub(crate) enum Tick {
+    Rpm(usize, f64),
+    Send(Frame),
+}
+
+/// The shortest step of a profile and the shortest rhythm: time must go on in between.
+const SHORTEST: u64 = 100;
+
+impl Clockwork {
+    /// Lets a shaft follow `steps` from now on, pairs of rpm and milliseconds; none stop it.
+    pub(crate) fn follow(&mut self, device: usize, steps: &[f64], repeats: bool, now: Instant) {
+        self.motions.retain(|motion| motion.device != device);
+        let step = |pair: &[f64]| (pair[0], ((pair[1] * 1000.0) as u64).max(SHORTEST));
+        let steps: Vec<_> = steps.chunks_exact(2).map(step).collect();
+        if !steps.is_empty() {
+            self.motions.push(Motion {
+                device,
+                steps,
+                repeats,
+                next: 0,
+                due: now,
+            });
+        }
+    }
+
+    /// Does the shaft follow a profile?
+    pub(crate) fn moves(&self, device: usize) -> bool {
+        self.motions.iter().any(|motion| motion.device == device)
+    }
+
+    /// A device went away; those behind it move up.
+    pub(crate) fn remove(&mut self, device: usize) {
+        self.motions.retain(|motion| motion.device != device);
+        for motion in &mut self.motions {
+            motion.device -= usize::from(motion.device > device);
+        }
+    }
+
+    /// Sends a frame every so many microseconds from now on; 0 ends it. One rhythm a key.
+    pub(crate) fn repeat(&mut self, key: u32, frame: Frame, every: u64, now: Instant) {
+        self.cyclic.retain(|one| one.key != key);
+        if every > 0 {
+            let every = every.max(SHORTEST);
+            self.cyclic.push(Cyclic {
+                key,
+                frame,
+                every,
+                due: now,
+            });
+        }
+    }
+
+    /// When something is due next.
+    pub(crate) fn due(&self) -> Option<Instant> {
+        let motions = self.motions.iter().map(|motion| motion.due);
+        motions.chain(self.cyclic.iter().map(|one| one.due)).min()
+    }
+
+    /// What is due now, one thing after the other.
+    pub(crate) fn take(&mut self, now: Instant) -> Option<Tick> {
+        if let Some(place) = self.motions.iter().position(|motion| motion.due <= now) {
+            let motion = &mut self.motions[place];
+            let device = motion.device;
+            if motion.next == motion.steps.len() {
+                if !motion.repeats {
+                    self.motions.remove(place);
+                    return Some(Tick::Rpm(device, 0.0));
+                }
+                motion.next = 0;
+            }
+            let (rpm, micros) = motion.steps[motion.next];
+            motion.next += 1;
+            motion.due = motion.due.plus_micros(micros);
+            return Some(Tick::Rpm(device, rpm));
+        }
+        let one = self.cyclic.iter_mut().find(|one| one.due <= now)?;
+        one.due = one.due.plus_micros(one.every);
+        Some(Tick::Send(one.frame))
+    }
+}
+
+impl Tick {
+    /// Does it on a bus.
+    pub(crate) fn happen(self, bus: &mut sim::Bus, batch: &mut Vec<u8>) {
+        match self {
+            Self::Rpm(device, rpm) => {
+                bus.with(device, |device, now| device.set_rpm(rpm, now));
+            }
+            Self::Send(frame) => {
+                if bus.receive(&frame) {
+                    packed::push(batch, bus.now(), None, &frame);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_runs_its_steps_and_ends_or_begins_again() {
+        let mut clockwork = Clockwork::default();
+        clockwork.follow(2, &[60.0, 10.0, -60.0, 5.0], false, Instant::ZERO);
+        let mut seen = Vec::new();
+        while let Some(due) = clockwork.due() {
+            if let Some(Tick::Rpm(2, rpm)) = clockwork.take(due) {
+                seen.push((due.as_micros(), rpm));
+            }
+        }
+        assert_eq!(seen, [(0, 60.0), (10_000, -60.0), (15_000, 0.0)]);
+        assert!(!clockwork.moves(2));
+        clockwork.follow(0, &[1.0, f64::NAN], true, Instant::ZERO);
+        for _ in 0..3 {
+            let due = clockwork.due().unwrap_or(Instant::ZERO);
+            assert!(clockwork.take(due).is_some(), "it goes on");
+        }
+        assert_eq!(clockwork.due(), Some(Instant::from_micros(300)));
+    }
+
+    #[test]
+    fn a_rhythm_keeps_its_beat_until_it_is_ended() {
+        let mut clockwork = Clockwork::default();
+        let sync = Frame::standard(0x80, &[]);
+        clockwork.repeat(7, sync, 1000, Instant::from_micros(500));
+        assert!(clockwork.take(Instant::from_micros(499)).is_none());
+        for at in [500, 1500, 2500] {
+            assert_eq!(clockwork.due(), Some(Instant::from_micros(at)));
+            assert!(matches!(
+                clockwork.take(Instant::from_micros(at)),
+                Some(Tick::Send(_))
+            ));
+        }
+        clockwork.repeat(7, sync, 0, Instant::ZERO);
+        assert_eq!(clockwork.due(), None);
+    }
+}

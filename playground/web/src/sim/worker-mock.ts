@@ -1,4 +1,0 @@
-import { host } from './host';
-import { MockBus } from './mock';
-
-void host(async () => new MockBus());

@@ -1,0 +1,224 @@
+// The simulated bench and its journal. What happened is told by the journal alone, so the
+// bench can be made again up to any moment: for a step back, from a link, after a reload.
+
+import type { Added, Builtin, DeviceInfo, Diagnostic, Entry, Input, Source } from './api';
+import type { Bus as Simulation } from '../wasm/od_playground';
+
+/** One of the two WebAssembly modules; the small one knows no EDS texts. */
+export interface Module {
+  Bus: new (micros?: number) => Simulation;
+  builtinDevices(): Builtin[];
+  /** Can it run an EDS text? */
+  whole: boolean;
+}
+
+export interface Modules {
+  core(): Promise<Module>;
+  whole(): Promise<Module>;
+}
+
+/** Frames in one replayed portion: they are thrown away in between. */
+const PORTION = 5000;
+
+const needsWhole = (input: Input): boolean => input.op === 'add' && input.source.kind === 'eds';
+
+export class World {
+  bus: Simulation;
+  devices: { source: Source; nodeId: number; name: string }[] = [];
+  journal: Entry[] = [];
+  /** Entries that have taken effect; those behind are still to come. */
+  done = 0;
+  /** The first entry that the page does not know. */
+  told = 0;
+
+  constructor(
+    private readonly modules: Modules,
+    private module: Module,
+  ) {
+    this.bus = this.fresh();
+  }
+
+  /** An empty bench on a real wire. */
+  private fresh(): Simulation {
+    const bus = new this.module.Bus();
+    bus.setLine(true, 2, undefined);
+    return bus;
+  }
+
+  builtins(): Builtin[] {
+    return this.module.builtinDevices();
+  }
+
+  /** Something happens now. What was still to come of a run before does not happen any more. */
+  async act(input: Input): Promise<Added> {
+    if (needsWhole(input)) await this.enlarge();
+    if (this.done < this.journal.length) {
+      this.journal.length = this.done;
+      this.told = Math.min(this.told, this.done);
+    }
+    const added = this.apply(input);
+    if (input.op !== 'add' || added.node !== null) {
+      this.journal.push({ at: this.bus.now(), input });
+      this.done += 1;
+    }
+    return added;
+  }
+
+  /** Lets time pass, and what the journal has for it; answers with what passed. */
+  advance(micros: number, frames: number): number {
+    const start = this.bus.now();
+    const end = start + micros;
+    const full = this.bus.pending() + frames;
+    for (;;) {
+      const next = this.journal[this.done];
+      const until = next && next.at <= end ? next.at : end;
+      if (until > this.bus.now()) this.bus.advance(until - this.bus.now(), full - this.bus.pending());
+      if (!next || this.bus.now() < next.at || this.bus.pending() >= full) break;
+      this.apply(next.input);
+      this.done += 1;
+    }
+    return this.bus.now() - start;
+  }
+
+  /** The bench as it was at `to`; what came after stays in the journal and comes again. */
+  rewind(to: number): void {
+    const fresh = this.fresh();
+    this.bus.free();
+    this.bus = fresh;
+    this.devices = [];
+    this.done = 0;
+    while (this.bus.now() < to || this.journal[this.done]?.at === to) {
+      const before = this.done;
+      const passed = this.advance(to - this.bus.now(), PORTION);
+      this.bus.drain();
+      if (passed <= 0 && this.done === before) break;
+    }
+  }
+
+  /** A bench without anything, and a run that is to be made again. */
+  async restore(entries: Entry[]): Promise<void> {
+    if (entries.some(({ input }) => needsWhole(input)) && !this.module.whole) this.module = await this.modules.whole();
+    this.journal = entries;
+    this.told = 0;
+    this.rewind(0);
+  }
+
+  private async enlarge(): Promise<void> {
+    if (this.module.whole) return;
+    const pending = this.bus.drain();
+    this.module = await this.modules.whole();
+    this.rewind(this.bus.now());
+    // What the page has not seen yet was sent by the bench before; it is told first.
+    this.unseen = pending;
+  }
+
+  private unseen: Uint8Array = new Uint8Array(0);
+
+  /** All frames since the last call. */
+  drain(): Uint8Array {
+    const fresh = this.bus.drain();
+    if (this.unseen.length === 0) return fresh;
+    const all = new Uint8Array(this.unseen.length + fresh.length);
+    all.set(this.unseen);
+    all.set(fresh, this.unseen.length);
+    this.unseen = new Uint8Array(0);
+    return all;
+  }
+
+  infos(): DeviceInfo[] {
+    return this.devices.map(({ source, nodeId, name }, number) => ({
+      name,
+      title: this.bus.title(number),
+      nodeId,
+      source,
+      objects: this.bus.dictionary(number),
+    }));
+  }
+
+  private apply(input: Input): Added {
+    const { bus } = this;
+    switch (input.op) {
+      case 'add':
+        return this.add(input);
+      case 'remove':
+        bus.removeDevice(input.node);
+        this.devices.splice(input.node, 1);
+        break;
+      case 'send':
+        bus.send(input.id, input.data, input.extended, input.remote);
+        break;
+      case 'repeat':
+        bus.repeat(input.key, input.id, input.data, input.extended, input.remote, input.micros);
+        break;
+      case 'power':
+        bus.setPower(input.node, input.on);
+        break;
+      case 'turn':
+        bus.turnTo(input.node, input.turns);
+        break;
+      case 'rpm':
+        bus.follow(input.node, new Float64Array(0), false);
+        bus.setRpm(input.node, input.rpm);
+        break;
+      case 'follow':
+        bus.follow(input.node, Float64Array.from(input.steps), input.repeats);
+        break;
+      case 'switches':
+        this.setSwitches(input);
+        break;
+      case 'fault':
+        bus.setFault(input.node, input.name, input.on);
+        break;
+      case 'line':
+        bus.setLine(input.real, input.terminators, input.rate);
+        break;
+      case 'seed':
+        bus.setSeed(input.seed);
+        break;
+      case 'plug':
+        bus.setPlugged(input.station, input.on);
+        break;
+      case 'restart':
+        bus.restartController(input.station);
+        break;
+      case 'cut':
+        bus.cutPowerAfter(input.node, input.bytes);
+        break;
+      case 'eeprom':
+        bus.setEeprom(input.node, input.bytes);
+        break;
+    }
+    return { node: null, diagnostics: [] };
+  }
+
+  private setSwitches({ node, id, dip }: Extract<Input, { op: 'switches' }>): void {
+    const { nodeSwitch, rateSwitch } = this.bus.status(node);
+    const rate = dip ? (dip.on ? rateSwitch | dip.bit : rateSwitch & ~dip.bit) : rateSwitch;
+    this.bus.setSwitches(node, id ?? nodeSwitch, rate);
+  }
+
+  private add({ source, nodeId, place }: Extract<Input, { op: 'add' }>): Added {
+    let node: number | null = null;
+    let diagnostics: Diagnostic[] = [];
+    let { name } = source;
+    try {
+      if (source.kind === 'builtin') {
+        node = this.bus.addDevice(name, nodeId, place);
+      } else {
+        const result = this.bus.addEds(source.text, nodeId, source.lenient, place);
+        ({ device: node, diagnostics } = result);
+        if (node !== null) name = this.bus.title(node);
+      }
+    } catch (error) {
+      const message = error instanceof Error ? error.message : String(error);
+      diagnostics = [{ code: '', severity: 'error', message, help: '', line: 0, column: 0, object: '' }];
+    }
+    if (node !== null) this.devices[node] = { source, nodeId, name };
+    // The further channels of a redundant encoder are nodes of their own.
+    for (let channel = 2; this.devices.length < this.bus.deviceCount(); channel++) {
+      const number = this.devices.length;
+      this.devices.push({ source, nodeId: this.bus.nodeId(number), name: `${name}.${channel}` });
+    }
+    return { node, diagnostics };
+  }
+}
