@@ -116,6 +116,8 @@ pub(crate) const fn kind(
         name,
         title,
         family: "bus-cover",
+        // Chapter 7.3.
+        leds: true,
         dictionary,
         profile: &PROFILE,
         encoder: &ENCODER,

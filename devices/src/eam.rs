@@ -59,6 +59,8 @@ pub(crate) const fn kind(
         name,
         title,
         family: "eam",
+        // Manual 001 knows no LED.
+        leds: false,
         dictionary,
         profile: &PROFILE,
         encoder,

@@ -34,6 +34,8 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
         name,
         title,
         family: "en580c",
+        // Manual 003 knows no LED.
+        leds: false,
         dictionary: en580c::DICTIONARY,
         profile: &PROFILE,
         encoder: &ENCODER,

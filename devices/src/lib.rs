@@ -48,6 +48,8 @@ pub struct DeviceKind {
     pub profile: &'static Profile,
     /// What its family does differently from CiA 406.
     pub encoder: &'static EncoderProfile,
+    /// It has the dual LED of the bus cover.
+    pub leds: bool,
     /// Channels on its shaft: nodes of their own on one bus, all of this kind. 2 in a
     /// redundant encoder, else 1.
     pub channels: u8,

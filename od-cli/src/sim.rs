@@ -46,7 +46,8 @@ pub(crate) struct Args {
 /// How devices run, whichever they are.
 #[derive(clap::Args)]
 pub(crate) struct Options {
-    /// Node ID that a device starts with, 1 to 127; given again it is for the next device.
+    /// Node ID that a device starts with, 1 to 127; given again it is for the next device (a
+    /// redundant encoder is two).
     /// A device without one takes 1, or the next that is free
     #[arg(long = "node-id", value_name = "N", value_parser = source::node_id)]
     node_ids: Vec<NodeId>,

@@ -126,6 +126,30 @@ fn several_devices_share_the_bus() {
     );
 }
 
+#[test]
+fn a_redundant_encoder_is_two_nodes_on_one_shaft() {
+    let sim = console(
+        &["eam_red", "gxmm", "--position", "0x2000"],
+        "601#4004600000000000\n602#4004600000000000\nshaft turn 1\n602#4004600000000000\n\
+         602#4018100400000000\n603#4004600000000000",
+    );
+    for frame in [
+        "581#4304600000080000",
+        "582#4304600000080000",
+        "582#4304600000480000",
+        "582#4318100402000000",
+        "583#4304600000200000",
+    ] {
+        assert!(sim.out.contains(frame), "{frame}\n{}", sim.out);
+    }
+    let sim = console(&["eam_red", "--node-id", "7", "--node-id", "9"], "");
+    assert!(
+        sim.err.contains("node 7 ") && sim.err.contains("node 9 "),
+        "{}",
+        sim.err
+    );
+}
+
 /// Runs `odkit sim … --link -` on these lines.
 fn console(args: &[&str], lines: &str) -> support::Done {
     odkit(&[&["sim"], args, &["--link", "-"]].concat(), lines)

@@ -95,6 +95,7 @@ pub struct VirtualDevice {
     events: VecDeque<Event>,
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
+    has_leds: bool,
 }
 
 /// So many events are kept for whoever asks.
@@ -113,6 +114,7 @@ impl VirtualDevice {
         let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node_id);
         Self {
             channels: kind.channels,
+            has_leds: kind.leds,
             ..device
         }
     }
@@ -202,6 +204,7 @@ impl VirtualDevice {
             activated: None,
             events: VecDeque::new(),
             channels: 1,
+            has_leds: true,
         }
     }
 
@@ -409,6 +412,11 @@ impl VirtualDevice {
             ),
             _ => None,
         }
+    }
+
+    /// Does it have the dual LED? A device of an EDS file is taken to have one.
+    pub fn has_leds(&self) -> bool {
+        self.has_leds
     }
 
     /// What the two dies of the LED do: green, red (manual 000, chapter 7.3).

@@ -7,9 +7,24 @@ use od_runtime::{Instant, NodeId};
 use super::{Maker, Options};
 use crate::Failure;
 
-/// Makes the devices, without power.
-pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<VirtualDevice>, Failure> {
-    let count = makers.len();
+/// A device for the bus.
+pub(super) struct Place {
+    /// Without power.
+    pub(super) device: VirtualDevice,
+    /// The place of the device on whose shaft it sits, where it has none of its own.
+    pub(super) beside: Option<usize>,
+}
+
+/// Makes the devices; each channel of a redundant encoder is one.
+pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, Failure> {
+    let nodes: Vec<(&Maker<'_>, u8)> = makers
+        .iter()
+        .flat_map(|maker| {
+            let channels = od_devices::find(maker.name).map_or(1, |kind| kind.channels);
+            (0..channels).map(move |channel| (maker, channel))
+        })
+        .collect();
+    let count = nodes.len();
     for (option, given) in [
         ("--node-id", args.node_ids.len()),
         ("--eeprom", args.eeproms.len()),
@@ -21,18 +36,28 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<VirtualDe
             )));
         }
     }
-    let mut devices: Vec<VirtualDevice> = Vec::new();
-    for (at, maker) in makers.iter().enumerate() {
-        let mut device = one(maker, args, at, &devices)?;
+    let mut places: Vec<Place> = Vec::new();
+    for (at, (maker, channel)) in nodes.into_iter().enumerate() {
+        let mut device = one(maker, args, at, &places)?;
         if let Some(path) = args.eeproms.get(at) {
             let file = File::open(path, device.storage_needed());
             let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
             device = device.with_storage(Box::new(file));
         }
-        set_shaft(args, maker.name, at, &mut device)?;
-        devices.push(device);
+        let beside = match channel {
+            0 => {
+                set_shaft(args, maker.name, at, &mut device)?;
+                None
+            }
+            // Told apart by LSS, and turned by the first channel's shaft.
+            channel => {
+                device = device.with_serial_number(u32::from(channel) + 1);
+                Some(at - usize::from(channel))
+            }
+        };
+        places.push(Place { device, beside });
     }
-    Ok(devices)
+    Ok(places)
 }
 
 /// A device with the node ID that it is given, else its own, else the next one that is free.
@@ -40,13 +65,13 @@ fn one(
     maker: &Maker<'_>,
     args: &Options,
     at: usize,
-    others: &[VirtualDevice],
+    others: &[Place],
 ) -> Result<VirtualDevice, Failure> {
     let wanted = args.node_ids.get(at).copied();
     let device = (maker.make)(wanted)?;
-    let is_used = |id: NodeId| others.iter().any(|other| other.node_id() == id);
+    let is_used = |id: NodeId| others.iter().any(|other| other.device.node_id() == id);
     let own = device.node_id();
-    let Some(last) = others.last().map(|other| other.node_id().raw()) else {
+    let Some(last) = others.last().map(|other| other.device.node_id().raw()) else {
         return Ok(device);
     };
     // A DCF says which node it is; the others follow the device before them.

@@ -12,6 +12,7 @@ use od_runtime::{Event, Frame, Instant};
 
 use super::adapter::{Adapter, FORMS, Kind, Taken};
 use super::clients::{Client, Input};
+use super::fleet::Place;
 use crate::output::note;
 use crate::report;
 
@@ -47,10 +48,13 @@ pub(super) struct Live {
 
 impl Live {
     /// Devices get power, and time begins. `links` are clients that are there from the start.
-    pub(super) fn new(devices: Vec<VirtualDevice>, links: usize, listens: bool) -> Self {
+    pub(super) fn new(places: Vec<Place>, links: usize, listens: bool) -> Self {
         let mut bus = Bus::new();
-        for device in devices {
-            let number = bus.add(device);
+        for Place { device, beside } in places {
+            let number = match beside {
+                Some(other) => bus.add_beside(device, other),
+                None => bus.add(device),
+            };
             bus.with(number, VirtualDevice::power_on);
         }
         let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);

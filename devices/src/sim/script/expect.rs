@@ -68,6 +68,9 @@ impl Runner<'_> {
     }
 
     fn led(&self, green: bool, wanted: Led) -> Result<()> {
+        if !self.device().has_leds() {
+            return impossible("this device has no LED");
+        }
         let leds = self.device().leds();
         let (colour, led) = if green {
             ("green", leds.0)
