@@ -117,7 +117,7 @@ pub struct Movement {
 pub struct Injection {
     /// Takes the codes of [`Report::injection`] one after another; 0 ends them all, what is
     /// no code of the table is answered with 06090030h. A report that nothing ends
-    /// ([`Until::Ever`]) outlasts a start here, too.
+    /// ([`Until::Ever`](super::Until::Ever)) outlasts a start here, too.
     pub code: Address,
     /// Steps that are added to the position.
     pub offset: Address,
