@@ -1,10 +1,12 @@
 //! `cargo xtask`: everything around the product, and no product code.
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
-//! check there is, `wasm-pack` makes the npm package. Standard library only.
+//! check there is, `corpus` reads a folder of device files, `wasm-pack` makes the npm
+//! package. Standard library only.
 
 mod bundle;
 mod console;
+mod corpus;
 mod error;
 mod lock;
 mod play;
@@ -33,6 +35,9 @@ usage: cargo xtask <command> [options]
   test [--quick] [--long] [--only STAGE]... [--list]
         run every check; --quick is the inner loop, --long gives fuzz-like tests
         more time, --only runs single stages, --list names them
+  corpus DIR [--docs FILE]
+        what odkit makes of the device files below a folder: a line a file, then
+        the findings by code; --docs writes the sums as Markdown
   shots
         build and serve the page, write its screenshots to target/shots/
   wasm-pack [arguments]
@@ -79,6 +84,7 @@ fn run(args: &[String]) -> Result<ExitCode> {
             let options = test::Options::parse(rest)?;
             return test::run(&Repo::locate()?, &options);
         }
+        "corpus" => corpus::run(&Repo::locate()?, &Console::terminal(), rest)?,
         "shots" => {
             if let Some(extra) = rest.first() {
                 return Err(Error::Usage(format!("shots takes no `{extra}`")));

@@ -48,7 +48,7 @@ pub(crate) fn no_value(
 /// The finding that a limit stands where there can be none.
 pub(crate) fn no_limit(
     key: &str,
-    given: &Spanned<String>,
+    given: &crate::eds::Text<'_>,
     data_type: Spanned<DataType>,
 ) -> Diagnostic {
     let name = data_type.name();

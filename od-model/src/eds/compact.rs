@@ -2,11 +2,12 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::entry::{Reader, Unread, extra};
 use super::fields::Fields;
-use super::ini::Placed;
+use super::ini::{self, Placed, Text};
 use super::number;
 use super::sections::Compact;
 use crate::check::rules;
@@ -14,7 +15,7 @@ use crate::fix::Fix;
 use crate::{Access, Address, DataType, Diagnostic, EntryDescription, Span, Spanned, Value};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
-pub(super) type CompactSections = BTreeMap<Compact, Placed>;
+pub(super) type CompactSections<'a> = BTreeMap<Compact, Placed<'a>>;
 
 /// The highest sub-index that a member can have.
 const HIGHEST: u8 = 254;
@@ -22,7 +23,7 @@ const HIGHEST: u8 = 254;
 /// CompactSubObj, if the object has one that is not 0.
 pub(super) fn count(
     reader: &mut Reader<'_>,
-    fields: &mut Fields,
+    fields: &mut Fields<'_>,
     unread: &mut Unread,
 ) -> Option<Spanned<u8>> {
     let given = fields.take("CompactSubObj")?;
@@ -47,7 +48,7 @@ pub(super) fn count(
             .with_help("write the number of members besides sub-index 0"),
     );
     if count.is_none() {
-        unread.push(("CompactSubObj".into(), given.value));
+        unread.push(("CompactSubObj".into(), given.value.into_owned()));
     }
     count
 }
@@ -57,7 +58,7 @@ pub(super) fn expand(
     address: Address,
     template: (EntryDescription, Unread),
     count: &Spanned<u8>,
-    sections: CompactSections,
+    sections: CompactSections<'_>,
     log: &mut Vec<Diagnostic>,
 ) -> BTreeMap<u8, EntryDescription> {
     let (template, unread) = template;
@@ -76,7 +77,7 @@ pub(super) fn expand(
     let mut given = BTreeSet::new();
     for (compact, section) in sections {
         entry_count(&section, address, log);
-        for (key, value) in &section.section.pairs {
+        for (key, value) in &section.pairs {
             if key.eq_ignore_ascii_case("NrOfEntries") || value.is_empty() {
                 continue;
             }
@@ -107,14 +108,13 @@ pub(super) fn expand(
 }
 
 /// Names an NrOfEntries that does not count the entries of its section.
-fn entry_count(section: &Placed, address: Address, log: &mut Vec<Diagnostic>) {
+fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Diagnostic>) {
     let entries = section
-        .section
         .pairs
         .iter()
         .filter(|(key, value)| !key.eq_ignore_ascii_case("NrOfEntries") && !value.is_empty())
         .count();
-    let given = section.section.get("NrOfEntries");
+    let given = section.get("NrOfEntries");
     if given.and_then(|given| super::number(given)) == i128::try_from(entries).ok() {
         return;
     }
@@ -142,18 +142,13 @@ fn entry_count(section: &Placed, address: Address, log: &mut Vec<Diagnostic>) {
     );
 }
 
-fn give(
-    mut reader: Reader<'_>,
-    entry: &mut EntryDescription,
-    compact: Compact,
-    value: &Spanned<alloc::string::String>,
-) {
+fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {
     match compact {
-        Compact::Name => entry.name = value.clone(),
+        Compact::Name => entry.name = ini::owned(value.clone()),
         Compact::Denotation => {
             let unread = core::mem::take(&mut entry.extra);
             entry.extra = extra(
-                alloc::vec![("Denotation".into(), value.value.clone())],
+                alloc::vec![("Denotation".into(), value.to_string())],
                 unread,
             );
         }
@@ -162,7 +157,7 @@ fn give(
             unread.retain(|(key, _)| key != "ParameterValue");
             entry.parameter = reader.typed("ParameterValue", value, entry.data_type, None);
             if entry.parameter.is_none() {
-                unread.push(("ParameterValue".into(), value.value.clone()));
+                unread.push(("ParameterValue".into(), value.to_string()));
             }
             entry.extra = extra(Vec::new(), unread);
         }

@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::fields::Fields;
+use super::ini::{self, Text};
 use super::number::{self, Note};
 use super::values;
 use super::words;
@@ -36,8 +37,9 @@ impl Reader<'_> {
     }
 
     /// ParameterName; empty where it is missing.
-    pub(super) fn name(&mut self, fields: &mut Fields) -> Spanned<String> {
-        fields.take("ParameterName").unwrap_or_else(|| {
+    pub(super) fn name(&mut self, fields: &mut Fields<'_>) -> Spanned<String> {
+        let name = fields.take("ParameterName").map(ini::owned);
+        name.unwrap_or_else(|| {
             self.report(
                 rules::W0315
                     .at(fields.header, "there is no ParameterName")
@@ -48,7 +50,7 @@ impl Reader<'_> {
     }
 
     /// A number without a type of its own: ObjectType, SubNumber, ObjFlags …
-    pub(super) fn number(&mut self, key: &str, from: &Spanned<String>) -> Option<i128> {
+    pub(super) fn number(&mut self, key: &str, from: &Text<'_>) -> Option<i128> {
         let mut notes = Vec::new();
         let text = number::without_comment(from, &mut notes);
         let number = number::integer(text, &mut notes)?;
@@ -59,7 +61,7 @@ impl Reader<'_> {
     /// The entry that the fields describe; takes its keys and leaves the others.
     pub(super) fn entry(
         &mut self,
-        fields: &mut Fields,
+        fields: &mut Fields<'_>,
         name: Spanned<String>,
         assumed: Option<DataType>,
     ) -> (EntryDescription, Unread) {
@@ -93,7 +95,11 @@ impl Reader<'_> {
         (entry, unread)
     }
 
-    fn data_type(&mut self, fields: &mut Fields, unread: &mut Unread) -> Option<Spanned<DataType>> {
+    fn data_type(
+        &mut self,
+        fields: &mut Fields<'_>,
+        unread: &mut Unread,
+    ) -> Option<Spanned<DataType>> {
         let given = fields.take("DataType")?;
         let number = self.number("DataType", &given);
         let known = number
@@ -106,12 +112,12 @@ impl Reader<'_> {
                     .at(given.span, format!("`{}` is no data type", given.value))
                     .with_help("write the code of a type, for example `0x0007` for UNSIGNED32"),
             );
-            unread.push(("DataType".into(), given.value));
+            unread.push(("DataType".into(), given.value.into_owned()));
         }
         known.map(|data_type| Spanned::new(data_type, given.span))
     }
 
-    fn access(&mut self, fields: &mut Fields, unread: &mut Unread) -> Spanned<Access> {
+    fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
         let Some(given) = fields.take("AccessType") else {
             self.report(
                 rules::W0404
@@ -146,13 +152,13 @@ impl Reader<'_> {
                         .with_help("write ro, wo, rw, rwr, rww or const; `ro` is taken now"),
                 );
                 let span = given.span;
-                unread.push(("AccessType".into(), given.value));
+                unread.push(("AccessType".into(), given.value.into_owned()));
                 Spanned::new(Access::Ro, span)
             }
         }
     }
 
-    fn mappable(&mut self, fields: &mut Fields, unread: &mut Unread) -> Spanned<bool> {
+    fn mappable(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<bool> {
         let Some(given) = fields.take("PDOMapping") else {
             return Spanned::from(false);
         };
@@ -169,7 +175,7 @@ impl Reader<'_> {
                         .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`")
                         .with_fix(Fix::guess().replace(given.span, "0")),
                 );
-                unread.push(("PDOMapping".into(), given.value.clone()));
+                unread.push(("PDOMapping".into(), given.to_string()));
                 false
             }),
         };
@@ -177,7 +183,7 @@ impl Reader<'_> {
     }
 
     /// ObjFlags; 0 where it is missing.
-    pub(super) fn flags(&mut self, fields: &mut Fields, unread: &mut Unread) -> u32 {
+    pub(super) fn flags(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> u32 {
         let Some(given) = fields.take("ObjFlags") else {
             return 0;
         };
@@ -191,14 +197,14 @@ impl Reader<'_> {
                         .with_help("write `ObjFlags=0`, or leave the line out")
                         .with_fix(Fix::guess().replace(given.span, "0")),
                 );
-                unread.push(("ObjFlags".into(), given.value));
+                unread.push(("ObjFlags".into(), given.value.into_owned()));
                 0
             })
     }
 
     fn value(
         &mut self,
-        fields: &mut Fields,
+        fields: &mut Fields<'_>,
         key: &'static str,
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
@@ -211,12 +217,12 @@ impl Reader<'_> {
         {
             let finding = text::no_limit(key, &given, data_type);
             self.report(finding);
-            unread.push((key.into(), given.value));
+            unread.push((key.into(), given.value.into_owned()));
             return None;
         }
         let value = self.typed(key, &given, data_type, low);
         if value.is_none() {
-            unread.push((key.into(), given.value));
+            unread.push((key.into(), given.value.into_owned()));
         }
         value
     }
@@ -226,7 +232,7 @@ impl Reader<'_> {
     pub(super) fn typed(
         &mut self,
         key: &str,
-        given: &Spanned<String>,
+        given: &Text<'_>,
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
     ) -> Option<Spanned<Value>> {
@@ -259,7 +265,7 @@ impl Reader<'_> {
         &mut self,
         notes: &[Note],
         key: &str,
-        given: &Spanned<String>,
+        given: &Text<'_>,
         canonical: impl Fn() -> String,
     ) {
         for note in notes {

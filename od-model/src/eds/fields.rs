@@ -1,11 +1,12 @@
 //! The keys of one section, taken one by one; what nobody takes is left over.
 
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::ini::Placed;
+use super::ini::{Placed, Text};
 use super::number::before_comment;
 use super::other::unknown_object_keys;
 use crate::check::rules;
@@ -24,18 +25,18 @@ const NOT_EMPTY: [&str; 7] = [
 ];
 
 /// The keys of a section that describes an object or a member.
-pub(super) struct Fields {
-    pairs: Vec<(Spanned<String>, Spanned<String>)>,
+pub(super) struct Fields<'a> {
+    pairs: Vec<(Text<'a>, Text<'a>)>,
     /// The section header.
     pub(super) header: Span,
     /// What the `;StorageLocation=` comment says, if it says something known.
     pub(super) group: Option<Spanned<Group>>,
 }
 
-impl Fields {
+impl<'a> Fields<'a> {
     /// The fields of a section; of keys that stand twice, the first counts.
-    pub(super) fn new(placed: Placed, address: Address, log: &mut Vec<Diagnostic>) -> Self {
-        let mut pairs = placed.section.pairs;
+    pub(super) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Diagnostic>) -> Self {
+        let mut pairs = placed.pairs;
         let mut twice = duplicates(&pairs, log).into_iter().peekable();
         let mut at = 0;
         pairs.retain(|_| {
@@ -56,7 +57,7 @@ impl Fields {
                         ))
                         .with_fix(Fix::safe().remove_line(key.span)),
                 );
-                value.value.clear();
+                value.value = Cow::Borrowed("");
             }
         }
         let group = placed
@@ -70,7 +71,7 @@ impl Fields {
     }
 
     /// Takes the value of a key; an empty one counts as none.
-    pub(super) fn take(&mut self, key: &str) -> Option<Spanned<String>> {
+    pub(super) fn take(&mut self, key: &str) -> Option<Text<'a>> {
         let at = self
             .pairs
             .iter()
@@ -91,7 +92,7 @@ impl Fields {
         unknown_object_keys(&self.pairs, address, log);
         self.pairs
             .into_iter()
-            .map(|(key, value)| (key.value, value.value))
+            .map(|(key, value)| (key.value.into_owned(), value.value.into_owned()))
             .collect()
     }
 }
@@ -121,12 +122,9 @@ pub(super) const fn location(group: Group) -> &'static str {
 }
 
 /// Names the keys that stand twice, and returns the positions of the later ones.
-pub(super) fn duplicates(
-    pairs: &[(Spanned<String>, Spanned<String>)],
-    log: &mut Vec<Diagnostic>,
-) -> Vec<usize> {
+pub(super) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Diagnostic>) -> Vec<usize> {
     let mut found = Vec::new();
-    let mut report = |(first, same): (&Spanned<String>, &Spanned<String>), at: usize| {
+    let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
         log.push(
             rules::W0107
@@ -144,7 +142,7 @@ pub(super) fn duplicates(
     // Sections are short; a tree is for the text that was made to be slow.
     if pairs.len() <= 24 {
         for at in 1..pairs.len() {
-            let same = |(k, _): &&(Spanned<String>, _)| k.eq_ignore_ascii_case(&pairs[at].0);
+            let same = |(k, _): &&(Text<'_>, _)| k.eq_ignore_ascii_case(&pairs[at].0);
             if let Some((first, value)) = pairs[..at].iter().find(same) {
                 report((first, value), at);
             }

@@ -1,11 +1,10 @@
 //! Where everything stands: sections, keys and values line by line.
 //!
-//! rust-ini reads the text but reports no places, and gives up at the first line
-//! it does not know. This scanner finds the places, names the lines that are
-//! neither section, key nor comment, and hands rust-ini a text without them.
+//! INI readers report no places, and give up at the first line they do not know. This
+//! scanner finds the places and names the lines that are neither section, key nor
+//! comment; what it makes of all others is compared with rust-ini in a test.
 
 use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::check::rules;
@@ -36,9 +35,7 @@ pub(super) struct RawPair<'a> {
 pub(super) struct Scan<'a> {
     /// Sections in file order, duplicates and all.
     pub(super) sections: Vec<RawSection<'a>>,
-    /// The same as INI text that rust-ini reads without a fault.
-    pub(super) clean: String,
-    /// What was left out of `clean`, or amended there.
+    /// What was left out, or amended.
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
@@ -120,7 +117,6 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
 pub(super) fn scan(text: &str) -> Scan<'_> {
     let mut scan = Scan {
         sections: Vec::new(),
-        clean: String::with_capacity(text.len() + text.len() / 16),
         diagnostics: Vec::new(),
     };
     for line in lines(text) {
@@ -202,9 +198,6 @@ impl<'a> Scan<'a> {
             pairs: Vec::new(),
             storage: None,
         });
-        self.clean.push('[');
-        self.push_clean(name);
-        self.clean.push_str("]\n");
     }
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
@@ -266,19 +259,6 @@ impl<'a> Scan<'a> {
                     storage: None,
                 });
             }
-        }
-        self.push_clean(key);
-        self.clean.push('=');
-        self.push_clean(value);
-        self.clean.push('\n');
-    }
-
-    /// A name, key or value as rust-ini gives it back: it takes a backslash
-    /// together with what follows, so the last one is followed by a blank.
-    fn push_clean(&mut self, text: &str) {
-        self.clean.push_str(text);
-        if text.ends_with('\\') {
-            self.clean.push(' ');
         }
     }
 }

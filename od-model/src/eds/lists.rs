@@ -14,7 +14,7 @@ use crate::{Address, Description, Diagnostic, ObjectDescription, Span, Spanned};
 
 /// Compares the lists of a file with the objects it has, and those that CompactPDO made.
 pub(super) fn check(
-    lists: &BTreeMap<List, Vec<Placed>>,
+    lists: &BTreeMap<List, Vec<Placed<'_>>>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     log: &mut Vec<Diagnostic>,
@@ -49,7 +49,7 @@ pub(super) fn check(
 
 fn entries(
     list: List,
-    placed: &Placed,
+    placed: &Placed<'_>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
@@ -57,7 +57,7 @@ fn entries(
 ) {
     let mut count: Option<&Spanned<_>> = None;
     let mut found = 0;
-    for (key, value) in &placed.section.pairs {
+    for (key, value) in &placed.pairs {
         let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
         if word
             .map(|b| b.to_ascii_lowercase())

@@ -43,6 +43,7 @@ pub use document::{Document, Edit, EditError};
 pub use encoding::{Encoding, decode};
 #[cfg(feature = "xdd")]
 pub(crate) use ini::Placed;
+pub(crate) use ini::Text;
 #[cfg(feature = "xdd")]
 pub(crate) use parse::from_sections;
 pub use parse::parse;

@@ -18,16 +18,16 @@ use crate::{
 
 /// The sections of one object.
 #[derive(Default)]
-pub(super) struct Sections {
-    pub(super) own: Option<Placed>,
-    pub(super) members: BTreeMap<u8, Placed>,
-    pub(super) compact: CompactSections,
+pub(super) struct Sections<'a> {
+    pub(super) own: Option<Placed<'a>>,
+    pub(super) members: BTreeMap<u8, Placed<'a>>,
+    pub(super) compact: CompactSections<'a>,
 }
 
 /// The object that the sections describe; `None` if there is neither its own nor a member's.
 pub(super) fn object(
     index: u16,
-    sections: Sections,
+    sections: Sections<'_>,
     log: &mut Vec<Diagnostic>,
 ) -> Option<ObjectDescription> {
     let Some(own) = sections.own else {
@@ -110,7 +110,7 @@ pub(super) fn object(
 /// Members without the section of their object.
 fn orphan(
     index: u16,
-    members: BTreeMap<u8, Placed>,
+    members: BTreeMap<u8, Placed<'_>>,
     log: &mut Vec<Diagnostic>,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
@@ -140,7 +140,7 @@ fn orphan(
     })
 }
 
-fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> EntryDescription {
+fn member(address: Address, section: Placed<'_>, log: &mut Vec<Diagnostic>) -> EntryDescription {
     let mut fields = Fields::new(section, address, log);
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
@@ -153,7 +153,7 @@ fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> Entry
             .and_then(ObjectCode::from_code);
         // A member is a VAR; what else is said is kept.
         if code != Some(ObjectCode::Var) {
-            unread.push(("ObjectType".into(), given.value));
+            unread.push(("ObjectType".into(), given.value.into_owned()));
         }
         if code == Some(ObjectCode::Domain) {
             assumed = Some(DataType::Domain);
@@ -167,7 +167,7 @@ fn member(address: Address, section: Placed, log: &mut Vec<Diagnostic>) -> Entry
 
 fn var(
     mut reader: Reader<'_>,
-    mut fields: Fields,
+    mut fields: Fields<'_>,
     name: Spanned<String>,
     code: Spanned<ObjectCode>,
     sub_number: Option<Spanned<u32>>,
@@ -189,7 +189,7 @@ fn var(
 
 fn object_code(
     reader: &mut Reader<'_>,
-    fields: &mut Fields,
+    fields: &mut Fields<'_>,
     unread: &mut Unread,
     has_members: bool,
 ) -> Spanned<ObjectCode> {
@@ -225,7 +225,7 @@ fn object_code(
                     .with_help("write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD"),
             );
             let span = given.span;
-            unread.push(("ObjectType".into(), given.value));
+            unread.push(("ObjectType".into(), given.value.into_owned()));
             Spanned::new(guess, span)
         }
     }
@@ -235,9 +235,9 @@ fn object_code(
 /// CompactSubObj counts them.
 fn contradiction(
     reader: &mut Reader<'_>,
-    fields: &Fields,
+    fields: &Fields<'_>,
     code: Spanned<ObjectCode>,
-    members: &BTreeMap<u8, Placed>,
+    members: &BTreeMap<u8, Placed<'_>>,
     count: Option<&Spanned<u8>>,
 ) -> Spanned<ObjectCode> {
     let span = match (members.values().next(), count) {
@@ -282,7 +282,7 @@ impl SubNumber {
     }
 }
 
-fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields, unread: &mut Unread) -> SubNumber {
+fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unread) -> SubNumber {
     let Some(given) = fields.take("SubNumber") else {
         return SubNumber::Missing;
     };
@@ -297,7 +297,7 @@ fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields, unread: &mut Unread)
                     .at(given.span, format!("`{}` is no number", given.value))
                     .with_help("write how many sub-index sections there are"),
             );
-            unread.push(("SubNumber".into(), given.value));
+            unread.push(("SubNumber".into(), given.value.into_owned()));
             SubNumber::Unread
         }
     }

@@ -4,17 +4,17 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::ini::Placed;
+use super::ini::{Placed, Text};
 use super::known::{self, Form, Known, OBJECT_KEYS};
 use super::number;
 use super::sections::List;
 use crate::check::rules;
 use crate::fix::Fix;
-use crate::{Address, Diagnostic, Spanned};
+use crate::{Address, Diagnostic};
 
 /// Names what is unknown in a section, and values that are not what they should be.
-pub(super) fn check(placed: &Placed, log: &mut Vec<Diagnostic>) {
-    let name = &placed.section.name;
+pub(super) fn check(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
+    let name = &placed.name;
     if name.is_empty() || known::is_of_objects(name) {
         return;
     }
@@ -33,7 +33,7 @@ pub(super) fn check(placed: &Placed, log: &mut Vec<Diagnostic>) {
                 .with_fix(Fix::safe().replace(placed.header, "[DeviceComissioning]")),
         );
     }
-    for (key, value) in &placed.section.pairs {
+    for (key, value) in &placed.pairs {
         match known::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
             None => unknown_key(key, value, known.keys.iter().map(|(key, _)| *key), log),
@@ -41,8 +41,8 @@ pub(super) fn check(placed: &Placed, log: &mut Vec<Diagnostic>) {
     }
 }
 
-fn unknown_section(placed: &Placed, log: &mut Vec<Diagnostic>) {
-    let name = &placed.section.name;
+fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
+    let name = &placed.name;
     let names = known::SECTIONS
         .iter()
         .map(|known| known.name)
@@ -66,7 +66,7 @@ fn unknown_section(placed: &Placed, log: &mut Vec<Diagnostic>) {
 
 /// Names a key that nobody reads, and the one that may be meant.
 pub(super) fn unknown_key<'a>(
-    key: &Spanned<String>,
+    key: &Text<'_>,
     value: &str,
     keys: impl Iterator<Item = &'a str>,
     log: &mut Vec<Diagnostic>,
@@ -90,7 +90,7 @@ pub(super) fn unknown_key<'a>(
 
 /// Names the keys of an object or a member that nobody reads.
 pub(super) fn unknown_object_keys(
-    rest: &[(Spanned<String>, Spanned<String>)],
+    rest: &[(Text<'_>, Text<'_>)],
     address: Address,
     log: &mut Vec<Diagnostic>,
 ) {
@@ -110,13 +110,7 @@ pub(super) fn unknown_object_keys(
     }
 }
 
-fn check_value(
-    known: &Known,
-    key: &str,
-    value: &Spanned<String>,
-    form: Form,
-    log: &mut Vec<Diagnostic>,
-) {
+fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Vec<Diagnostic>) {
     if value.is_empty() || matches!(form, Form::Text) {
         return;
     }

@@ -34,11 +34,11 @@ pub fn parse(text: &str) -> Parsed {
 
 /// A description from the sections that an XDD has, in which no lists are.
 #[cfg(feature = "xdd")]
-pub(crate) fn from_sections(sections: Vec<Placed>, log: Vec<Diagnostic>) -> Parsed {
+pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Diagnostic>) -> Parsed {
     sorted(sections, log).parsed()
 }
 
-fn sorted(sections: Vec<Placed>, log: Vec<Diagnostic>) -> Sorted {
+fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sorted<'a> {
     let mut sorted = Sorted {
         log,
         ..Sorted::default()
@@ -93,17 +93,17 @@ fn encoded(document: &Document) -> Vec<Diagnostic> {
 
 /// The sections of a file by what they are about.
 #[derive(Default)]
-struct Sorted {
-    objects: BTreeMap<u16, Sections>,
-    lists: BTreeMap<List, Vec<Placed>>,
-    others: Vec<Placed>,
+struct Sorted<'a> {
+    objects: BTreeMap<u16, Sections<'a>>,
+    lists: BTreeMap<List, Vec<Placed<'a>>>,
+    others: Vec<Placed<'a>>,
     names: BTreeMap<String, Span>,
     has_lists: bool,
     log: Vec<Diagnostic>,
 }
 
-impl Sorted {
-    fn add(&mut self, section: Placed) {
+impl<'a> Sorted<'a> {
+    fn add(&mut self, section: Placed<'a>) {
         let place = self.place(&section);
         match place {
             Place::Object(index) => {
@@ -134,7 +134,7 @@ impl Sorted {
                     .entry(compact)
                 {
                     Entry::Vacant(entry) => {
-                        duplicates(&section.section.pairs, &mut self.log);
+                        duplicates(&section.pairs, &mut self.log);
                         entry.insert(section);
                     }
                     Entry::Occupied(mut first) => {
@@ -149,8 +149,8 @@ impl Sorted {
     }
 
     /// What a section is about, even if its name is not quite as it should be.
-    fn place(&mut self, section: &Placed) -> Place {
-        let name = &section.section.name;
+    fn place(&mut self, section: &Placed<'_>) -> Place {
+        let name = &section.name;
         let exact = place(name);
         let meant = match exact {
             Place::Other => intended(name),
@@ -172,10 +172,10 @@ impl Sorted {
         meant
     }
 
-    fn other(&mut self, section: Placed) {
-        duplicates(&section.section.pairs, &mut self.log);
+    fn other(&mut self, section: Placed<'a>) {
+        duplicates(&section.pairs, &mut self.log);
         other::check(&section, &mut self.log);
-        let name = &section.section.name;
+        let name = &section.name;
         match self.names.entry(name.to_ascii_lowercase()) {
             Entry::Vacant(entry) => {
                 entry.insert(section.header);
@@ -196,7 +196,7 @@ impl Sorted {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
                 for section in core::mem::take(&mut sections.compact).into_values() {
-                    let name = &section.section.name;
+                    let name = &section.name;
                     self.log
                         .push(compact::unclaimed(name, section.header, index));
                     self.others.push(section);
@@ -207,7 +207,7 @@ impl Sorted {
             }
         }
         self.others.sort_by_key(|section| section.header.start);
-        parsed.description.sections = self.others.into_iter().map(|s| s.section).collect();
+        parsed.description.sections = self.others.into_iter().map(Placed::into_section).collect();
         let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
         if self.has_lists {
             lists::check(&self.lists, &parsed.description, &made, &mut self.log);
@@ -220,18 +220,17 @@ impl Sorted {
 }
 
 /// Has the object a CompactSubObj that counts something?
-fn counts_members(own: &Placed) -> bool {
-    own.section
-        .get("CompactSubObj")
+fn counts_members(own: &Placed<'_>) -> bool {
+    own.get("CompactSubObj")
         .and_then(|count| number(count))
         .is_some_and(|count| count > 0)
 }
 
 /// Names a second section; what the first lacks is taken from it.
-fn twice(first: &mut Placed, second: Placed, address: Address) -> Diagnostic {
-    let name = &second.section.name.value;
-    let contradict = second.section.pairs.iter().any(|(key, value)| {
-        let same = first.section.get(key);
+fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Diagnostic {
+    let name = second.name.value.clone();
+    let contradict = second.pairs.iter().any(|(key, value)| {
+        let same = first.get(key);
         same.is_some_and(|first| first != value)
     });
     let (rule, message) = match contradict {
@@ -246,9 +245,9 @@ fn twice(first: &mut Placed, second: Placed, address: Address) -> Diagnostic {
         .with_address(address)
         .with_label(first.header, "this one counts")
         .with_help("remove one of the sections");
-    for (key, value) in second.section.pairs {
-        if first.section.get(&key).is_none() {
-            first.section.pairs.push((key, value));
+    for (key, value) in second.pairs {
+        if first.get(&key).is_none() {
+            first.pairs.push((key, value));
         }
     }
     finding

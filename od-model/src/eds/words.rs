@@ -4,13 +4,14 @@ use alloc::format;
 use alloc::string::String;
 
 use super::entry::Reader;
+use super::ini::Text;
 use super::number::before_comment;
 use crate::check::rules;
 use crate::fix::Fix;
-use crate::{Access, DataType, ObjectCode, Spanned};
+use crate::{Access, DataType, ObjectCode};
 
 /// A data type by its name: `UNSIGNED8`.
-pub(super) fn data_type(reader: &mut Reader<'_>, given: &Spanned<String>) -> Option<DataType> {
+pub(super) fn data_type(reader: &mut Reader<'_>, given: &Text<'_>) -> Option<DataType> {
     let word = before_comment(given);
     let data_type = DataType::ALL.into_iter().find(|t| same(word, t.name()))?;
     report(
@@ -23,7 +24,7 @@ pub(super) fn data_type(reader: &mut Reader<'_>, given: &Spanned<String>) -> Opt
 }
 
 /// An object code by its name: `VAR`.
-pub(super) fn object_code(reader: &mut Reader<'_>, given: &Spanned<String>) -> Option<ObjectCode> {
+pub(super) fn object_code(reader: &mut Reader<'_>, given: &Text<'_>) -> Option<ObjectCode> {
     let word = before_comment(given);
     let code = (0..=9)
         .filter_map(ObjectCode::from_code)
@@ -33,11 +34,7 @@ pub(super) fn object_code(reader: &mut Reader<'_>, given: &Spanned<String>) -> O
 }
 
 /// An access in other words than those of CiA 306.
-pub(super) fn access(
-    reader: &mut Reader<'_>,
-    given: &Spanned<String>,
-    word: &str,
-) -> Option<Access> {
+pub(super) fn access(reader: &mut Reader<'_>, given: &Text<'_>, word: &str) -> Option<Access> {
     let known: &[(&str, Access)] = &[
         ("r", Access::Ro),
         ("read", Access::Ro),
@@ -58,7 +55,7 @@ pub(super) fn access(
 }
 
 /// PDOMapping as a word.
-pub(super) fn mappable(reader: &mut Reader<'_>, given: &Spanned<String>) -> Option<bool> {
+pub(super) fn mappable(reader: &mut Reader<'_>, given: &Text<'_>) -> Option<bool> {
     let word = before_comment(given);
     let known = [
         ("no", false),
@@ -83,7 +80,7 @@ fn same(a: &str, b: &str) -> bool {
     !a.is_empty() && letters(a) == letters(b)
 }
 
-fn report(reader: &mut Reader<'_>, key: &str, given: &Spanned<String>, right: &str) {
+fn report(reader: &mut Reader<'_>, key: &str, given: &Text<'_>, right: &str) {
     reader.report(
         rules::W0424
             .at(

@@ -11,7 +11,7 @@ use crate::eds::Placed;
 use crate::{Span, Spanned};
 
 /// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
-pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed> {
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
     let mut made = Vec::new();
     let mut bodies = below(root, "ProfileBody");
     if let Some(body) = bodies.next() {
@@ -23,7 +23,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Place
     made
 }
 
-fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Placed {
+fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Placed<'static> {
     let mut made = Made::new("FileInfo", reader.tag(body));
     let take = |name| {
         reader
@@ -85,7 +85,7 @@ fn time(given: Spanned<String>) -> Spanned<String> {
     Spanned::new(turned.unwrap_or(given.value), span)
 }
 
-fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed> {
+fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
     let identity = below(root, "DeviceIdentity").next();
     let general = below(root, "CANopenGeneralFeatures").next();
     let master = below(root, "CANopenMasterFeatures").next();
@@ -155,7 +155,7 @@ fn flag(given: Spanned<String>) -> Spanned<String> {
 }
 
 /// `<dummy entry="Dummy0005=1"/>`
-fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed> {
+fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
     let usage = below(root, "dummyUsage").next()?;
     let mut made = Made::new("DummyUsage", reader.tag(usage));
     for dummy in children(usage, "dummy") {
@@ -170,7 +170,7 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed> {
     Some(made.placed)
 }
 
-fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed> {
+fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
     let element = below(root, "deviceCommissioning").next()?;
     let mut made = Made::new("DeviceComissioning", reader.tag(element));
     let take = |name| {

@@ -9,6 +9,7 @@
 //! Elements are known by their local names, so the namespaces of CiA 311 1.0 and 1.1
 //! are the same, and so are project files (`.xpd`) that hold one device.
 
+use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
@@ -18,7 +19,7 @@ use roxmltree::{Document, Node};
 
 use crate::check::rules;
 use crate::eds::{Parsed, Placed, from_sections};
-use crate::{Diagnostic, Section, Span, Spanned};
+use crate::{Diagnostic, Span, Spanned};
 
 mod info;
 mod objects;
@@ -176,17 +177,15 @@ fn below<'a, 'i>(node: Node<'a, 'i>, name: &'static str) -> impl Iterator<Item =
 
 /// A section as an EDS has it, made of elements and attributes.
 struct Made {
-    placed: Placed,
+    placed: Placed<'static>,
 }
 
 impl Made {
     fn new(name: impl Into<String>, header: Span) -> Self {
         Self {
             placed: Placed {
-                section: Section {
-                    name: Spanned::new(name.into(), header),
-                    pairs: Vec::new(),
-                },
+                name: Spanned::new(Cow::Owned(name.into()), header),
+                pairs: Vec::new(),
                 header,
                 storage: None,
             },
@@ -196,10 +195,11 @@ impl Made {
     /// Adds a key, if there is a value for it and the key is not there yet.
     fn put(&mut self, key: &str, value: Option<Spanned<String>>) {
         if let Some(value) = value
-            && self.placed.section.get(key).is_none()
+            && self.placed.get(key).is_none()
         {
-            let key = Spanned::new(key.into(), value.span);
-            self.placed.section.pairs.push((key, value));
+            let key = Spanned::new(Cow::Owned(key.into()), value.span);
+            let value = Spanned::new(Cow::Owned(value.value), value.span);
+            self.placed.pairs.push((key, value));
         }
     }
 }

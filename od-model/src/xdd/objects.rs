@@ -14,7 +14,7 @@ use crate::eds::Placed;
 use crate::{DataType, ObjectCode, Span, Spanned};
 
 /// The sections of all objects.
-pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed> {
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
     let ids = Ids::new(root);
     let mut made = Vec::new();
     for object in below(root, "CANopenObject") {
@@ -151,7 +151,8 @@ fn flags(node: Node<'_, '_>, reader: &Reader<'_>) -> Option<Spanned<String>> {
 }
 
 fn storage(made: &mut Made, parameter: Option<Parameter<'_, '_>>, reader: &Reader<'_>) {
-    made.placed.storage = parameter.and_then(|own| own.property("CO_storageGroup", reader));
+    let group = parameter.and_then(|own| own.property("CO_storageGroup", reader));
+    made.placed.storage = group.map(|group| Spanned::new(group.value.into(), group.span));
 }
 
 /// The fields of a value: what the object says, else what its parameter says.

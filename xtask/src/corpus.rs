@@ -1,0 +1,39 @@
+//! `cargo xtask corpus DIR`: what odkit makes of a folder of device files.
+//!
+//! The work is done by an example of `od-tests`, because xtask itself depends on nothing.
+
+use std::path::{Path, absolute};
+
+use crate::console::{Console, cargo};
+use crate::error::{Error, Result};
+use crate::repo::Repo;
+
+/// Builds the example and lets it read the folder that the first argument names.
+pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()> {
+    let (folder, docs) = match args {
+        [folder] => (folder, None),
+        [folder, option, file] if option == "--docs" => (folder, Some(file)),
+        _ => {
+            let text = "corpus takes a folder, and perhaps `--docs FILE`";
+            return Err(Error::Usage(String::from(text)));
+        }
+    };
+    // The example runs in the root of the repository; the arguments are the caller's.
+    let place =
+        |path: &str| absolute(Path::new(path)).map_err(|e| Error::io("find", Path::new(path), &e));
+    let example = [
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "od-tests",
+        "--example",
+        "corpus",
+    ];
+    let mut command = cargo(&repo.root, &example);
+    command.arg("--").arg(place(folder)?);
+    if let Some(file) = docs {
+        command.arg("--docs").arg(place(file)?);
+    }
+    console.run("reading the corpus", &mut command)
+}
