@@ -153,3 +153,19 @@ fn the_behaviour_comes_again_with_nmt_start_while_the_error_lasts() {
     bench.send("000#0101");
     assert_eq!(bench.node.state(), State::Operational);
 }
+
+#[test]
+fn a_node_has_one_heartbeat_time() {
+    let mut bench = bench(1);
+    bench.ask("601#23161001C8000500");
+    assert_eq!(
+        bench.ask("601#2316100264000500"),
+        "581#8016100243000406",
+        "CiA 301, chapter 7.5.2.13: 06040043h"
+    );
+    // Time 0 watches nobody, another node is another, and an entry may be written again.
+    for (sub, value) in [(2, "00000500"), (2, "64000600"), (1, "64000500")] {
+        let answer = bench.ask(&format!("601#231610{sub:02X}{value}"));
+        assert_eq!(answer, format!("581#601610{sub:02X}00000000"));
+    }
+}

@@ -244,3 +244,37 @@ fn what_a_family_lacks_is_not_answered() {
     }
     assert!(bench.send("7E5#040100").is_empty() && bench.send("7E5#R8").is_empty());
 }
+
+#[test]
+fn fastscan_does_not_look_for_who_was_found() {
+    let mut bench = bench(ALL);
+    let begin = "7E5#5100000000800000";
+    assert_eq!(bench.ask(begin), "7E4#4F00000000000000");
+    bench.send("7E5#0401000000000000");
+    assert!(bench.send(begin).is_empty(), "in configuration state");
+    bench.send("7E5#0400000000000000");
+    assert_eq!(bench.ask(begin), "7E4#4F00000000000000");
+}
+
+#[test]
+fn a_family_may_be_silent_for_two_switch_delays() {
+    let two = LssProfile {
+        second_delay: true,
+        ..ALL
+    };
+    let mut bench = bench(two);
+    bench.send("7E5#0401000000000000");
+    bench.ask("7E5#1300020000000000");
+    while bench.node.poll_event().is_some() {}
+    bench.send("7E5#150A000000000000");
+    bench.wait(9);
+    assert_eq!(bench.node.poll_event(), None);
+    bench.wait(1);
+    assert_eq!(bench.node.poll_event(), Some(Event::BitRate(6)));
+    assert!(
+        bench.send("7E5#5E00000000000000").is_empty(),
+        "still silent"
+    );
+    bench.wait(10);
+    assert_eq!(bench.ask("7E5#5E00000000000000"), "7E4#5E01000000000000");
+}
