@@ -59,6 +59,7 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     };
     facts.push(fact("6502h", total));
     let counter = match profile.counter {
+        _ if sensor.turns == 1 => "the angle is known, revolutions are not counted".to_owned(),
         Counter::Sensor => "whole ranges of the sensor are not noticed".to_owned(),
         Counter::Kept { turns } => {
             format!("up to {} revolutions either way are noticed", turns / 2)
@@ -127,7 +128,7 @@ fn row(report: &Report, columns: usize) -> Vec<String> {
         bits => format!("{bits:04X}h"),
     };
     let seen = match (report.appears, report.off_ms) {
-        (Appears::Always, _) => "always".to_owned(),
+        (Appears::Always, _) => "as it comes".to_owned(),
         (Appears::Startup, 0) => "at the start".to_owned(),
         (Appears::Startup, ms) => format!("at a start after {} s without power", ms / 1000),
         (Appears::Runtime, _) => "at run time".to_owned(),

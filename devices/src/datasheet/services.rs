@@ -16,6 +16,8 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     store(kind, &mut facts);
     lss(kind, &mut facts);
     bit_rates(kind, &mut facts);
+    errors(kind, &mut facts);
+    options(kind, &mut facts);
     facts
 }
 
@@ -173,5 +175,74 @@ fn bit_rates(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
              kbit/s: {rates}"
         );
         facts.push(fact("Switches", switches));
+    }
+}
+
+fn errors(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
+    let errors = &kind.profile.errors;
+    let has = |sub| kind.dictionary.entry(0x1029, sub).is_some();
+    let rules = errors.behaviour.iter().filter(|(_, sub)| has(*sub));
+    let rules: Vec<String> = rules
+        .map(|(bits, sub)| format!("1029h:{sub:02X} on bits {bits:02X}h of 1001h"))
+        .collect();
+    if !rules.is_empty() {
+        facts.push(fact("Error behaviour", rules.join(", ")));
+    }
+    let notices = [
+        ("lost master", Some(errors.lost)),
+        ("bus warning", errors.bus_warning),
+        ("error passive", errors.bus_passive),
+        ("back from bus-off", errors.bus_recovered),
+        ("lost frames", errors.overrun),
+    ];
+    let known = notices.iter().filter_map(|(name, notice)| {
+        let notice = (*notice)?;
+        Some(format!("{:04X}h {name}", notice.code))
+    });
+    facts.push(fact(
+        "EMCY of the bus",
+        known.collect::<Vec<_>>().join(", "),
+    ));
+}
+
+/// What bits of the manufacturer's options do.
+fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
+    let profile = kind.profile;
+    let mut bits: Vec<(u16, u32, &str)> = Vec::new();
+    let mut add = |switch: Option<(u16, u32)>, what| {
+        if let Some((index, mask)) = switch.filter(|(index, mask)| *mask != 0 && *index != 0x1F80) {
+            bits.push((index, mask, what));
+        }
+    };
+    add(
+        profile.guarding_switch,
+        "node guarding in place of heartbeat",
+    );
+    add(profile.pdo.sync_only, "synchronous PDOs alone");
+    add(profile.nmt.self_start, "starts by itself");
+    add(profile.nmt.reset_node_light, "reset node keeps the values");
+    add(
+        profile.errors.off.restart,
+        "the bus begins anew after bus-off",
+    );
+    if let Some(options) = &kind.encoder.options {
+        let at = |mask| Some((options.index, mask));
+        add(at(options.keep_offset), "a new resolution keeps the offset");
+        add(at(options.delay_timer), "1800h:05 is later than 6200h");
+        add(
+            at(options.ignore_sense),
+            "speed and acceleration without the sense of rotation",
+        );
+    }
+    bits.sort_by_key(|(index, mask, _)| (*index, mask.trailing_zeros()));
+    for (index, mask, what) in bits {
+        let numbers: Vec<String> = (0..32)
+            .filter(|bit| mask >> bit & 1 == 1)
+            .map(|bit| bit.to_string())
+            .collect();
+        facts.push(fact(
+            &format!("{index:04X}h bit {}", numbers.join(", ")),
+            what,
+        ));
     }
 }
