@@ -103,6 +103,29 @@ impl Bus {
         }
     }
 
+    /// Power comes or goes. The channels of one device have one connector, so all of them get
+    /// it or lose it.
+    pub fn set_power(&mut self, device: usize, on: bool) {
+        let Some(one) = self.devices.get(device) else {
+            return;
+        };
+        let mut all = if one.channels() > 1 {
+            self.wiring.beside(device)
+        } else {
+            Vec::new()
+        };
+        all.retain(|other| self.devices[*other].channels() > 1);
+        all.push(device);
+        all.sort_unstable();
+        let act = match on {
+            true => VirtualDevice::power_on,
+            false => VirtualDevice::power_off,
+        };
+        for channel in all {
+            self.with(channel, act);
+        }
+    }
+
     /// The devices on the shaft of this one follow it.
     fn turn_along(&mut self, device: usize) {
         let Some(shaft) = self.devices.get(device).and_then(VirtualDevice::shaft_now) else {

@@ -149,12 +149,12 @@ impl Console {
                 return Ok(Some(Frame::standard(0, &repr.emit())));
             }
             Action::Power(Power::Cycle(micros)) => {
-                self.world(bus, VirtualDevice::power_off)?;
+                self.supply(bus, false)?;
                 let on = Action::Power(Power::On);
                 self.rest.push_front((now.plus_micros(*micros), on));
             }
-            Action::Power(Power::On) => self.world(bus, VirtualDevice::power_on)?,
-            Action::Power(Power::Off) => self.world(bus, VirtualDevice::power_off)?,
+            Action::Power(Power::On) => self.supply(bus, true)?,
+            Action::Power(Power::Off) => self.supply(bus, false)?,
             Action::Shaft(shaft) => {
                 let turned = self.world(bus, |device, now| shaft.act(device, now))?;
                 if !turned {
@@ -178,6 +178,12 @@ impl Console {
             _ => {}
         }
         Ok(None)
+    }
+
+    fn supply(&self, bus: &mut Bus, on: bool) -> Result<(), String> {
+        self.world(bus, |_, _| ())?;
+        bus.set_power(self.current, on);
+        Ok(())
     }
 
     fn world<R>(

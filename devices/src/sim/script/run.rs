@@ -40,8 +40,6 @@ pub(super) struct Runner<'h> {
     host: &'h mut dyn Host,
     pub(super) bus: Bus,
     labels: Vec<Option<String>>,
-    /// The first channel of each device.
-    firsts: Vec<usize>,
     current: usize,
     /// Frames that the devices sent and no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
@@ -61,7 +59,6 @@ pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary
         host,
         bus: Bus::new(),
         labels: Vec::new(),
-        firsts: Vec::new(),
         current: 0,
         pending: VecDeque::new(),
         ignored: Vec::new(),
@@ -217,7 +214,6 @@ impl Runner<'_> {
             Some(other) => self.bus.add_beside(device, other),
             None => self.bus.add(device),
         };
-        self.firsts.push(first);
         self.labels.push(wanted.label.map(str::to_owned));
         for channel in 1..channels {
             let next = wanted.nodes.get(usize::from(channel)).copied();
@@ -230,7 +226,6 @@ impl Runner<'_> {
             let serial_number = u32::from(channel) + 1;
             self.bus
                 .add_beside(device.with_serial_number(serial_number), first);
-            self.firsts.push(first);
             let label = wanted.label.map(|label| format!("{label}.{}", channel + 1));
             self.labels.push(label);
         }
@@ -325,19 +320,9 @@ impl Runner<'_> {
         }
     }
 
-    /// Channels of one device have one connector.
     fn supply(&mut self, on: bool) {
-        let first = self.firsts[self.current];
-        for channel in 0..self.firsts.len() {
-            if self.firsts[channel] == first {
-                let act = match on {
-                    true => VirtualDevice::power_on,
-                    false => VirtualDevice::power_off,
-                };
-                self.bus.with(channel, act);
-                self.collect();
-            }
-        }
+        self.bus.set_power(self.current, on);
+        self.collect();
     }
 
     /// A value as the current device has it now, in words and bytes.
