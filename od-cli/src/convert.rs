@@ -6,14 +6,15 @@ mod json;
 
 use std::path::{Path, PathBuf};
 
-use od_model::{Description, Tables, eds};
+use od_devices::datasheet;
+use od_model::{Description, Tables, eds, xdd};
 use od_runtime::NodeId;
 
 use crate::output::{self, Output};
 use crate::source::{self, Source};
 use crate::{Failure, report};
 
-/// Convert a device description: EDS, DCF, C header, JSON
+/// Convert a device description: EDS, DCF, XDD, Markdown, C header, JSON
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
@@ -42,6 +43,11 @@ enum Form {
     Eds,
     /// The same with node ID, bit rate and values of one configured device
     Dcf,
+    /// CiA 311 device description in XML; an XDC where the input is a DCF
+    #[value(alias = "xdc")]
+    Xdd,
+    /// Datasheet in Markdown
+    Md,
     /// C header with a macro for each index, sub-index, default and limit
     #[value(alias = "h")]
     C,
@@ -56,6 +62,8 @@ impl Form {
         match ending.as_str() {
             "eds" => Some(Self::Eds),
             "dcf" => Some(Self::Dcf),
+            "xdd" | "xdc" => Some(Self::Xdd),
+            "md" => Some(Self::Md),
             "h" => Some(Self::C),
             "json" => Some(Self::Json),
             _ => None,
@@ -67,7 +75,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let form = args
         .to
         .or_else(|| Form::of(args.output.as_deref()?))
-        .ok_or_else(|| Failure::Usage("say what it becomes: --to eds, dcf, c or json".into()))?;
+        .ok_or_else(|| {
+            Failure::Usage("say what it becomes: --to eds, dcf, xdd, md, c or json".into())
+        })?;
     if form != Form::Dcf
         && (args.node_id.is_some() || args.bit_rate.is_some() || !args.values.is_empty())
     {
@@ -82,6 +92,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             dcf::configure(&mut description, args)?;
             eds::write(&description)
         }
+        Form::Xdd => xdd::write(&description),
+        Form::Md => match Source::find(&args.input)? {
+            Source::BuiltIn(kind) => datasheet::page(kind),
+            Source::File { .. } => {
+                let tables = Tables::new(&description);
+                datasheet::objects_page(&args.input, tables.dictionary())
+            }
+        },
         Form::C => {
             let tables = Tables::new(&description);
             let stem = Path::new(&args.input)

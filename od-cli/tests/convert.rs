@@ -1,4 +1,4 @@
-//! `odkit convert`: EDS, DCF, C header, JSON.
+//! `odkit convert`: EDS, DCF, XDD, Markdown, C header, JSON.
 
 mod support;
 
@@ -48,6 +48,27 @@ fn a_dcf_is_one_device_with_its_values() {
     let script = format!("device {path}\nexpect 705#00\nsdo read 6001h = 4096\n");
     let run = odkit(&["run", "-"], &script);
     assert_eq!(run.code, 0, "{}", run.err);
+}
+
+#[test]
+fn an_xdd_of_a_device_is_the_device() {
+    for device in ["gxmm", "eam_mt", "en580c"] {
+        let text = odkit(&["convert", device, "--to", "xdd"], "");
+        assert_eq!(text.code, 0, "{}", text.err);
+        let path = file(&format!("{device}.xdd"), &text.out)
+            .display()
+            .to_string();
+        let diff = odkit(&["diff", device, &path, "--fail-on", "any"], "");
+        assert_eq!(diff.code, 0, "{}{}", diff.out, diff.err);
+        assert_eq!(odkit(&["check", &path], "").code, 0, "{device}");
+    }
+}
+
+#[test]
+fn markdown_has_the_objects() {
+    let page = odkit(&["convert", "gxmm", "--to", "md"], "");
+    assert_eq!(page.code, 0, "{}", page.err);
+    assert!(page.out.contains("6004h"), "{}", page.out);
 }
 
 #[test]

@@ -112,7 +112,7 @@ fn group(location: &str) -> Option<Group> {
 }
 
 /// The word for a group, the reverse of what [`Fields`] reads.
-pub(super) const fn location(group: Group) -> &'static str {
+pub(crate) const fn location(group: Group) -> &'static str {
     match group {
         Group::None => "RAM",
         Group::Communication => "PERSIST_COMM",

@@ -42,11 +42,15 @@ pub use describe::{About, describe};
 pub use document::{Document, Edit, EditError};
 pub use encoding::{Encoding, decode};
 #[cfg(feature = "xdd")]
+pub(crate) use fields::location as storage_name;
+#[cfg(feature = "xdd")]
 pub(crate) use ini::Placed;
 pub(crate) use ini::Text;
 #[cfg(feature = "xdd")]
 pub(crate) use parse::from_sections;
 pub use parse::parse;
+#[cfg(feature = "xdd")]
+pub(crate) use values::text as value_text;
 pub use write::write;
 
 pub(crate) use lines::lines;

@@ -169,7 +169,7 @@ fn bytes(text: &str, notes: &mut Vec<Note>) -> Vec<u8> {
 }
 
 /// The canonical text of a value of a type; see [`value`].
-pub(super) fn text(value: &Value, data_type: Option<DataType>) -> String {
+pub(crate) fn text(value: &Value, data_type: Option<DataType>) -> String {
     use alloc::format;
     match value {
         // In a signed type, hexadecimal is a bit pattern.

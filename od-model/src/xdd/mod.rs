@@ -25,6 +25,9 @@ mod info;
 mod objects;
 mod parameters;
 mod types;
+mod write;
+
+pub use write::write;
 
 /// Is this text XML, not an EDS?
 pub fn is_xml(text: &str) -> bool {

@@ -1,0 +1,99 @@
+//! XML text with its depth.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// Names and values; an empty value is none.
+pub(super) type Attributes = Vec<(&'static str, String)>;
+
+pub(super) fn vec_of<const N: usize>(pairs: [(&'static str, String); N]) -> Attributes {
+    pairs.into_iter().collect()
+}
+
+/// Text with its depth.
+pub(super) struct Xml(pub(super) String, usize);
+
+impl Xml {
+    /// Text that goes on behind `head`, one level deep.
+    pub(super) fn new(head: &str) -> Self {
+        Self(head.into(), 1)
+    }
+
+    pub(super) fn indent(&self) -> String {
+        "  ".repeat(self.1)
+    }
+
+    fn open(&mut self, name: &str, attributes: &[(&'static str, String)]) {
+        let indent = self.indent();
+        self.0.push_str(&format!("{indent}<{name}"));
+        // What is not there has no attribute.
+        for (key, value) in attributes.iter().filter(|(_, value)| !value.is_empty()) {
+            self.0.push_str(&format!(" {key}=\"{}\"", escape(value)));
+        }
+    }
+
+    pub(super) fn element(
+        &mut self,
+        name: &str,
+        attributes: &[(&'static str, String)],
+        content: impl FnOnce(&mut Self),
+    ) {
+        self.open(name, attributes);
+        self.0.push_str(">\n");
+        self.1 += 1;
+        content(self);
+        self.1 -= 1;
+        let indent = self.indent();
+        self.0.push_str(&format!("{indent}</{name}>\n"));
+    }
+
+    pub(super) fn empty(&mut self, name: &str, attributes: &[(&'static str, String)]) {
+        self.open(name, attributes);
+        self.0.push_str("/>\n");
+    }
+
+    pub(super) fn text(&mut self, name: &str, text: &str) {
+        let indent = self.indent();
+        let text = escape(text);
+        self.0
+            .push_str(&format!("{indent}<{name}>{text}</{name}>\n"));
+    }
+
+    /// One of the two profiles of a file, with the head that ISO 15745 wants.
+    pub(super) fn profile(&mut self, title: &str, class: &str, content: impl FnOnce(&mut Self)) {
+        self.element("ISO15745Profile", &[], |out| {
+            out.element("ProfileHeader", &[], |out| {
+                out.text("ProfileIdentification", title);
+                out.text("ProfileRevision", "1.1");
+                out.text("ProfileName", "");
+                out.text("ProfileSource", "");
+                out.text("ProfileClassID", class);
+                out.element("ISO15745Reference", &[], |out| {
+                    out.text("ISO15745Part", "1");
+                    out.text("ISO15745Edition", "1");
+                    out.text("ProfileTechnology", "CANopen");
+                });
+            });
+            content(out);
+        });
+    }
+}
+
+/// Characters that XML keeps for itself. Those that it has no way to write become blanks.
+pub(super) fn escape(text: &str) -> String {
+    let mut out = String::new();
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => out.push_str(&format!("&#{};", character as u32)),
+            '\u{FFFE}' | '\u{FFFF}' => out.push(' '),
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
