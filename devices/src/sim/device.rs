@@ -11,12 +11,11 @@ use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
 use od_runtime::wire::nmt::State;
 use od_runtime::{
-    Application, BusEvent, Context, Device, Event, Frame, Instant, NoApplication, Node, NodeId,
-    Profile, Reset, Signals, Store,
+    Application, BusEvent, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Reset, Store,
 };
 
 use super::eeprom::Eeprom;
-use super::{Led, leds};
 use crate::DeviceKind;
 
 /// A node with room for what EDS files have: 64 PDOs each way, and the longest value that a
@@ -55,7 +54,7 @@ impl Behaviour {
         }
     }
 
-    fn as_application(&mut self) -> &mut dyn Application {
+    pub(super) fn as_application(&mut self) -> &mut dyn Application {
         match self {
             Self::Encoder(encoder) => &mut **encoder,
             Self::Other(other) => &mut **other,
@@ -95,14 +94,11 @@ pub struct VirtualDevice {
     events: VecDeque<Event>,
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
-    has_leds: bool,
+    pub(super) has_leds: bool,
 }
 
 /// So many events are kept for whoever asks.
 const EVENTS: usize = 256;
-
-/// Bit 4 of 1001h.
-const COMMUNICATION: u64 = 1 << 4;
 
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
@@ -362,82 +358,6 @@ impl VirtualDevice {
     /// The object dictionary.
     pub fn dictionary(&self) -> Dictionary<'_> {
         self.source.dictionary()
-    }
-
-    /// The value at an address as an SDO would carry it now, without a frame on the bus;
-    /// empty where there is no such object. Also what a master may not read.
-    pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
-        let Self {
-            source,
-            values,
-            behaviour,
-            node,
-            ..
-        } = self;
-        let dictionary = source.dictionary();
-        let (Ok(entry), Ok(mut store)) = (
-            dictionary.find(address),
-            Store::new(dictionary, values, node.node_id()),
-        ) else {
-            return Vec::new();
-        };
-        if node.is_powered() && address.index >= 0x2000 {
-            let mut signals = Signals::default();
-            let mut context = Context {
-                store: &mut store,
-                now,
-                signals: &mut signals,
-            };
-            // What cannot be had now shows as it was.
-            let _ = behaviour.as_application().refresh(&mut context, address);
-        }
-        store.bytes(entry, &mut [0; 8]).to_vec()
-    }
-
-    /// The number that stands at an address, live values as they were last asked for.
-    pub fn stored(&self, index: u16, sub: u8) -> Option<u64> {
-        let dictionary = self.dictionary();
-        let entry = dictionary.entry(index, sub)?;
-        let start = entry.slot.offset as usize;
-        let bytes = self
-            .values
-            .get(start..start + usize::from(entry.slot.len))?;
-        match bytes {
-            [] => u64::try_from(entry.default.integer(self.node_id().raw())?).ok(),
-            bytes if bytes.len() <= 8 && !entry.is_variable() => Some(
-                bytes
-                    .iter()
-                    .rev()
-                    .fold(0, |value, byte| value << 8 | u64::from(*byte)),
-            ),
-            _ => None,
-        }
-    }
-
-    /// Does it have the dual LED? A device of an EDS file is taken to have one.
-    pub fn has_leds(&self) -> bool {
-        self.has_leds
-    }
-
-    /// What the two dies of the LED do: green, red (manual 000, chapter 7.3).
-    pub fn leds(&self) -> (Led, Led) {
-        let bits = |index| self.stored(index, 0).unwrap_or(0);
-        let warning = bits(0x6505) != 0;
-        // 1001h does not tell a warning from an error beside it; bit 4 never warns.
-        let broken = match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                let reports = encoder.profile().reports.iter();
-                let mut errors = reports.filter(|report| report.warning == 0);
-                errors.any(|report| encoder.is_broken(report.fault))
-            }
-            Behaviour::Other(_) => false,
-        };
-        let register = bits(0x1001);
-        let error = broken
-            || bits(0x6503) != 0
-            || register & COMMUNICATION != 0
-            || (register != 0 && !warning);
-        leds::dual(self.is_powered(), self.state(), warning, error)
     }
 
     /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.

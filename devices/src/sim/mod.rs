@@ -18,6 +18,7 @@ pub mod script;
 #[cfg(test)]
 mod tests;
 pub mod values;
+mod view;
 mod wiring;
 pub mod words;
 mod world;
