@@ -10,9 +10,9 @@ use od_devices::datasheet;
 use od_model::{Description, Tables, eds, xdd};
 use od_runtime::NodeId;
 
+use crate::Failure;
 use crate::output::{self, Output};
 use crate::source::{self, Source};
-use crate::{Failure, report};
 
 /// Convert a device description: EDS, DCF, XDD, Markdown, C header, JSON
 #[derive(clap::Args)]
@@ -95,7 +95,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Form::Xdd => xdd::write(&description),
         Form::Md => match Source::find(&args.input)? {
             Source::BuiltIn(kind) => datasheet::page(kind),
-            Source::File { .. } => {
+            Source::File(_) => {
                 let tables = Tables::new(&description);
                 datasheet::objects_page(&args.input, tables.dictionary())
             }
@@ -128,19 +128,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// What is to be converted. What of a file cannot be used is told, and left out.
 fn description(name: &str) -> Result<Description, Failure> {
-    let (path, text) = match Source::find(name)? {
+    let file = match Source::find(name)? {
         Source::BuiltIn(kind) => return Ok(eds::parse(&kind.eds()).description),
-        Source::File { path, text } => (path, text),
+        Source::File(file) => file,
     };
-    let parsed = eds::parse(&text);
-    if parsed.description.objects.is_empty() {
-        return Err(Failure::Failed(format!(
-            "{path} describes no object; is it an EDS or DCF file?"
-        )));
-    }
-    let all = parsed.diagnostics.into_iter();
-    let errors: Vec<_> = all.filter(|finding| finding.is_error()).collect();
-    let colours = output::error_colours();
-    output::note_text(&report::render(&path, &text, &errors, colours));
-    Ok(parsed.description)
+    let (description, findings) = file.parse()?;
+    let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
+    output::note_text(&file.render(&errors, output::error_colours()));
+    Ok(description)
 }

@@ -4,7 +4,7 @@ mod device;
 mod show;
 
 use od_model::diff::{Difference, Impact, compare};
-use od_model::{Dictionary, Tables, eds};
+use od_model::{Dictionary, Tables};
 use od_runtime::NodeId;
 
 use crate::source::{self, Source};
@@ -91,13 +91,8 @@ impl Loaded {
     fn find(name: &str) -> Result<Self, Failure> {
         match Source::find(name)? {
             Source::BuiltIn(kind) => Ok(Self::Compiled(kind.dictionary)),
-            Source::File { path, text } => {
-                let tables = Tables::new(&eds::parse(&text).description);
-                if tables.objects().is_empty() {
-                    return Err(Failure::Failed(format!(
-                        "{path} describes no object; is it an EDS or DCF file?"
-                    )));
-                }
+            Source::File(file) => {
+                let tables = Tables::new(&file.parse()?.0);
                 Ok(Self::File(Box::new(tables)))
             }
         }

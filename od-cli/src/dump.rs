@@ -1,7 +1,7 @@
 //! `odkit dump`: an object dictionary as a table, or a device's datasheet.
 
 use od_devices::datasheet::{self, HEAD};
-use od_model::{Description, Dictionary, Tables, eds};
+use od_model::{Description, Dictionary, Tables};
 
 use crate::Failure;
 use crate::output::Output;
@@ -30,17 +30,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (tables, description);
     let (dictionary, page) = match Source::find(&args.device)? {
         Source::BuiltIn(kind) => (kind.dictionary, datasheet::page(kind)),
-        Source::File { path, text } => {
-            description = eds::parse(&text).description;
+        Source::File(file) => {
+            description = file.parse()?.0;
             tables = Tables::new(&description);
             let dictionary = tables.dictionary();
-            if dictionary.objects().is_empty() {
-                return Err(Failure::Failed(format!(
-                    "{path} describes no object; is it an EDS or DCF file?"
-                )));
-            }
-            let title = product(&description).unwrap_or(&path);
-            (dictionary, datasheet::objects_page(title, dictionary))
+            let title = product(&description).unwrap_or(&file.path).to_owned();
+            (dictionary, datasheet::objects_page(&title, dictionary))
         }
     };
     let mut output = Output::new();

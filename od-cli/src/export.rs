@@ -2,9 +2,9 @@
 
 use od_model::eds;
 
+use crate::Failure;
 use crate::output::{self, Output};
-use crate::source::Source;
-use crate::{Failure, report};
+use crate::source::{Source, Text};
 
 /// Write the EDS of a built-in device, or a file in its canonical form
 #[derive(clap::Args)]
@@ -20,7 +20,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let text = match Source::find(&args.device)? {
         Source::BuiltIn(kind) => kind.eds(),
-        Source::File { path, text } => canonical(&path, &text)?,
+        Source::File(file) => canonical(&file)?,
     };
     if let Some(path) = &args.output {
         return std::fs::write(path, text).map_err(|error| {
@@ -37,23 +37,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// A file as the writer writes it. What could not be read keeps its text, and is told.
-fn canonical(path: &str, text: &str) -> Result<String, Failure> {
-    let parsed = eds::parse(text);
-    if parsed.description.objects.is_empty() {
-        return Err(Failure::Failed(format!(
-            "{path} describes no object; is it an EDS or DCF file?"
-        )));
-    }
-    let errors: Vec<_> = parsed
-        .diagnostics
-        .into_iter()
-        .filter(|d| d.is_error())
-        .collect();
-    output::note_text(&report::render(
-        path,
-        text,
-        &errors,
-        output::error_colours(),
-    ));
-    Ok(eds::write(&parsed.description))
+fn canonical(file: &Text) -> Result<String, Failure> {
+    let (description, findings) = file.parse()?;
+    let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
+    output::note_text(&file.render(&errors, output::error_colours()));
+    Ok(eds::write(&description))
 }

@@ -87,19 +87,22 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
         Source::BuiltIn(kind) => {
             let text = kind.eds();
             let bytes = text.clone().into_bytes();
-            (name.to_owned(), text, bytes)
+            (name.to_owned(), text, Some(bytes))
         }
-        Source::File { path, text } => {
-            let bytes = fs::read(&path)
-                .map_err(|error| Failure::Failed(format!("{path} cannot be read: {error}")))?;
-            (path, text, bytes)
+        // The macro reads one EDS or DCF. Anything else is written as one.
+        Source::File(file) if !file.is_plain() => (file.path, file.text, None),
+        Source::File(file) => {
+            let bytes = fs::read(&file.path).map_err(|error| {
+                Failure::Failed(format!("{} cannot be read: {error}", file.path))
+            })?;
+            (file.path, file.text, Some(bytes))
         }
     };
     let loaded = eds::load(&text);
     let mut description = loaded.description;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
-            "{path} describes no object; is it an EDS or DCF file?"
+            "{path} describes no object; is it an EDS, DCF or XDD file?"
         )));
     }
     let is_dcf = Path::new(&path)
@@ -109,7 +112,7 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     if !loaded.diagnostics.iter().any(Diagnostic::is_error) {
         let device = DeviceFile {
             ending,
-            bytes,
+            bytes: bytes.unwrap_or_else(|| eds::write(&description).into_bytes()),
             description,
         };
         return Ok((device, Vec::new()));

@@ -8,12 +8,16 @@ use od_devices::{DEVICES, DeviceKind};
 use od_model::eds;
 use od_runtime::NodeId;
 
-use crate::{Failure, output, report};
+use crate::{Failure, output};
+
+mod text;
+
+pub(crate) use text::Text;
 
 /// A built-in device, or the text of a file.
 pub(crate) enum Source {
     BuiltIn(&'static DeviceKind),
-    File { path: String, text: String },
+    File(Text),
 }
 
 /// So many errors of a file are shown where a device is made of it.
@@ -32,30 +36,50 @@ impl Source {
         }
         let path = folder.join(name);
         match fs::read(&path) {
-            Ok(bytes) => Ok(Self::File {
+            Ok(bytes) => Ok(Self::File(Text {
                 path: path.display().to_string(),
                 text: eds::decode(&bytes).into_owned(),
-            }),
-            Err(error) => {
-                let names: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
-                let error = read_error(&error);
-                Err(Failure::Failed(format!(
-                    "`{name}` is no built-in device ({}), and as a file {error}",
-                    names.join(", ")
-                )))
+                overlay: None,
+            })),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                match name.rsplit_once('+') {
+                    Some((base, overlay)) => Self::overlaid(base, overlay, folder),
+                    None => Err(unknown(name, &error)),
+                }
             }
+            Err(error) => Err(unknown(name, &error)),
         }
+    }
+
+    /// `base.eds+variant.eds`: a base with an overlay, which may be laid over another one.
+    fn overlaid(base: &str, overlay: &str, folder: &Path) -> Result<Self, Failure> {
+        let path = folder.join(overlay);
+        let bytes = fs::read(&path).map_err(|error| {
+            let why = read_error(&error);
+            Failure::Failed(format!("the overlay {}: {why}", path.display()))
+        })?;
+        let base = match Self::find_in(base, folder)? {
+            Self::BuiltIn(kind) => Text {
+                path: kind.name.into(),
+                text: kind.eds(),
+                overlay: None,
+            },
+            Self::File(text) => text,
+        };
+        let overlay = (path.display().to_string(), eds::decode(&bytes).into_owned());
+        Ok(Self::File(base.with_overlay(overlay)?))
     }
 
     /// A device with power off. Errors of a text are reported on standard error; what can
     /// run of it runs all the same, as masters take such files, too.
     pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Failure> {
-        let (path, text) = match self {
+        let file = match self {
             Self::BuiltIn(kind) => {
                 return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
             }
-            Self::File { path, text } => (path, text),
+            Self::File(file) => file,
         };
+        let Text { path, text, .. } = file;
         let strict = EdsOptions {
             node_id,
             lenient: false,
@@ -67,8 +91,8 @@ impl Source {
         let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
         let shown = &errors[..errors.len().min(SHOWN)];
         let colours = output::error_colours();
-        output::note_text(&report::render(path, text, shown, colours));
-        let count = report::plural(errors.len(), "error");
+        output::note_text(&file.render(shown, colours));
+        let count = crate::report::plural(errors.len(), "error");
         let lenient = EdsOptions {
             node_id,
             lenient: true,
@@ -86,6 +110,15 @@ impl Source {
             ))),
         }
     }
+}
+
+fn unknown(name: &str, error: &std::io::Error) -> Failure {
+    let names: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
+    let error = read_error(error);
+    Failure::Failed(format!(
+        "`{name}` is no built-in device ({}), and as a file {error}",
+        names.join(", ")
+    ))
 }
 
 /// What the operating system says of a file, in the middle of a sentence.

@@ -40,7 +40,7 @@ fn folder(path: &Path, found: &mut Vec<String>) {
 
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
-    ["eds", "dcf"]
+    ["eds", "dcf", "xdd", "xdc"]
         .iter()
         .any(|known| extension.eq_ignore_ascii_case(known))
 }

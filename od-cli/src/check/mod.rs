@@ -6,6 +6,7 @@ use od_model::fix::{self, Applicability};
 use od_model::{Diagnostic, Severity};
 
 use crate::output::{self, Output};
+use crate::source::Source;
 use crate::{Failure, report};
 
 mod files;
@@ -119,6 +120,10 @@ impl Args {
         };
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
+                self.check_overlaid(path, &mut checked);
+                return checked;
+            }
             Err(error) => {
                 checked.failed = Some(crate::source::read_error(&error));
                 return checked;
@@ -147,6 +152,33 @@ impl Args {
             checked.shown = report::render(path, text, &wanted, output::colours());
         }
         checked
+    }
+
+    /// A base with an overlay: findings stand in the file that they are about; nothing is
+    /// mended, since nobody knows in which of the two.
+    fn check_overlaid(&self, path: &str, checked: &mut Checked) {
+        let file = match Source::find(path) {
+            Ok(Source::File(file)) => file,
+            Ok(Source::BuiltIn(_)) => return,
+            Err(Failure::Usage(why) | Failure::Failed(why)) => {
+                checked.failed = Some(why);
+                return;
+            }
+            Err(Failure::Reported(_)) => {
+                checked.failed = Some("it cannot be read".into());
+                return;
+            }
+        };
+        checked.document = Document::new(file.text.clone().into_bytes());
+        checked.findings = self.find(&checked.document);
+        for finding in &mut checked.findings {
+            finding.fix = None;
+        }
+        if self.format == Format::Text {
+            let wanted = |finding: &&Diagnostic| self.remarks || finding.severity > Severity::Info;
+            let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
+            checked.shown = file.render(&wanted, output::colours());
+        }
     }
 
     fn summary(&self, checked: &[Checked]) -> Summary {

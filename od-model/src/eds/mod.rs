@@ -32,6 +32,7 @@ mod lists;
 mod number;
 mod object;
 mod other;
+mod overlay;
 mod parse;
 mod sections;
 mod values;
@@ -46,6 +47,7 @@ pub(crate) use fields::location as storage_name;
 #[cfg(feature = "xdd")]
 pub(crate) use ini::Placed;
 pub(crate) use ini::Text;
+pub use overlay::{Origin, Overlaid, overlay};
 #[cfg(feature = "xdd")]
 pub(crate) use parse::from_sections;
 pub use parse::parse;
