@@ -5,6 +5,7 @@ import re
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -31,29 +32,54 @@ def odkit():
 
 
 class Sim:
-    """A running `odkit sim` on a port of its own."""
+    """A running `odkit sim` on a port of its own, and the world around it on standard input."""
 
     def __init__(self, device, *args):
-        command = [odkit(), "sim", str(device), "--slcan", "127.0.0.1:0", *map(str, args)]
+        command = [odkit(), "sim", str(device), "--slcan", "127.0.0.1:0", "--link", "-"]
         self.process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            [*command, *map(str, args)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
         )
         self.errors = []
-        self.watcher = threading.Thread(target=self._watch, daemon=True)
-        self.watcher.start()
-        line = self.process.stdout.readline()
-        found = re.search(r"127\.0\.0\.1:(\d+)", line)
+        self.frames = []
+        self.news = threading.Condition()
+        pipes = [(self.process.stderr, self.errors), (self.process.stdout, self.frames)]
+        self.watchers = [
+            threading.Thread(target=self._watch, args=pipe, daemon=True) for pipe in pipes
+        ]
+        for watcher in self.watchers:
+            watcher.start()
+        with self.news:
+            self.news.wait_for(lambda: self._greeting() or not self._runs(), PATIENCE)
+        found = self._greeting()
         if found is None:
-            self.process.wait(PATIENCE)
-            self.watcher.join(PATIENCE)
-            raise AssertionError(f"odkit said {line!r} {self.errors}")
+            self.process.kill()
+            raise AssertionError(f"odkit said {self.errors}")
         self.port = int(found.group(1))
         self.networks = []
         self.sockets = []
 
-    def _watch(self):
-        for line in self.process.stderr:
-            self.errors.append(line.rstrip())
+    def _greeting(self):
+        return re.search(r"slcan on 127\.0\.0\.1:(\d+)", "\n".join(self.errors))
+
+    def _runs(self):
+        return self.process.poll() is None
+
+    def _watch(self, pipe, lines):
+        for line in pipe:
+            with self.news:
+                lines.append(line.rstrip())
+                self.news.notify_all()
+        with self.news:
+            self.news.notify_all()
+
+    def world(self, line):
+        """Something happens outside the bus: `power cycle 1s`, `fault battery-low on`."""
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
 
     def network(self):
         """A python-canopen network on the bus."""
@@ -97,9 +123,10 @@ class Sim:
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
         code = self.process.wait(PATIENCE)
-        self.watcher.join(PATIENCE)
-        self.process.stdout.close()
-        self.process.stderr.close()
+        for watcher in self.watchers:
+            watcher.join(PATIENCE)
+        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+            pipe.close()
         return code
 
 
@@ -121,6 +148,14 @@ class BenchCase(unittest.TestCase):
         while not holds():
             self.assertLess(time.monotonic(), end, "it did not come about in time")
             time.sleep(0.01)
+
+
+def exported(device, folder=Path(tempfile.mkdtemp(prefix="odkit-eds-"))):
+    """The EDS that `odkit export` writes for a device, once for all tests."""
+    path = folder / f"{device}.eds"
+    if not path.exists():
+        subprocess.run([odkit(), "export", device, "-o", path], check=True)
+    return path
 
 
 class Listener:

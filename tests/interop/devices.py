@@ -1,0 +1,48 @@
+"""The twelve devices, as far as their manuals differ for a master."""
+
+from dataclasses import dataclass
+
+from bench import exported
+
+# What no default stands for: commands, and what lives.
+COMMANDS = {0x1010, 0x1011}
+
+
+@dataclass(frozen=True)
+class Device:
+    """One device, with what its family does."""
+
+    name: str
+    family: str
+    # Abort code for a value below its limit (DECISIONS U-05).
+    too_low: int
+    # LSS: which way a master finds a node.
+    fastscan: bool
+    vendor: int
+    # Restored values are there at once, or after a reset (C-X-02).
+    restores_at_once: bool
+    # Abort code for a mapping entry that is written while its PDO has entries (U-19).
+    mapping_in_use: int
+    # A fault of this name makes an EMCY with this code.
+    fault: tuple
+
+    @property
+    def eds(self):
+        return exported(self.name)
+
+
+def bus_cover(name):
+    return Device(name, "GX", 0x06090030, False, 0xEC, True, None, ("internal", 0x7510))
+
+
+def eam(name):
+    return Device(name, "EAM", 0x06090030, True, 0x5F, False, 0x06010000, ("temperature", 0x4200))
+
+
+DEVICES = [
+    *map(bus_cover, ["gxmm", "gxam", "gcmm", "gcam", "gdmm", "gdam", "gbmm", "gbam"]),
+    eam("eam_mt"),
+    eam("eam_st"),
+    eam("eam_red"),
+    Device("en580c", "EN", 0x06090032, True, 0x5F, False, 0x08000022, ("battery-low", 0xFF00)),
+]

@@ -1,0 +1,95 @@
+"""The other links of `odkit sim`: socketcand, a pseudo-terminal, SocketCAN."""
+
+import re
+import socket
+import subprocess
+import unittest
+from pathlib import Path
+
+import canopen
+
+from bench import EDS, BenchCase, Listener
+
+
+def has_interface(name):
+    return Path("/sys/class/net", name).exists()
+
+
+class Links(BenchCase):
+    def place(self, sim, pattern):
+        """What the greeting says of a link."""
+        found = re.search(pattern, "\n".join(sim.errors))
+        self.assertIsNotNone(found, sim.errors)
+        return found.group(1)
+
+    def master(self, **link):
+        network = canopen.Network()
+        network.NOTIFIER_CYCLE = 0.05
+        network.connect(**link)
+        self.addCleanup(network.disconnect)
+        return network
+
+    def works(self, network):
+        """A master's day: reads, writes, and PDOs that come by themselves."""
+        node = network.add_node(1, str(EDS))
+        self.assertEqual(node.sdo[0x1008].raw, "GXMM")
+        for number in range(100):
+            node.sdo[0x2300][1].raw = number
+            self.assertEqual(node.sdo[0x2300][1].raw, number)
+        positions = Listener(network, 0x181)
+        node.sdo[0x1800][5].raw = 10
+        node.nmt.state = "OPERATIONAL"
+        self.assertEqual(positions.wait(5), [b"\x4d\0\0\0"] * 5)
+
+    def test_socketcand(self):
+        sim = self.sim("gxmm", "--position", "77", "--link", "socketcand:127.0.0.1:0")
+        port = int(self.place(sim, r"socketcand on 127\.0\.0\.1:(\d+)"))
+        link = {"interface": "socketcand", "channel": "can0", "host": "127.0.0.1", "port": port}
+        self.works(self.master(**link))
+
+    def test_socketcand_beside_slcan(self):
+        sim = self.sim("gxmm", "--link", "socketcand:127.0.0.1:0")
+        port = int(self.place(sim, r"socketcand on 127\.0\.0\.1:(\d+)"))
+        client = socket.create_connection(("127.0.0.1", port))
+        self.addCleanup(client.close)
+        self.assertEqual(client.recv(100), b"< hi >")
+        client.sendall(b"< open can0 >")
+        self.assertEqual(client.recv(100), b"< ok >")
+        # In the mode that it starts in, a client hears what it subscribes to.
+        client.sendall(b"< subscribe 0 0 581 >< add 0 50000 601 8 40 0 10 0 0 0 0 0 >")
+        answers = Listener(sim.network(), 0x581)
+        answers.wait(3)
+        self.assertIn(b"43 00 10 00 96 01 02 00", client.recv(100))
+
+    @unittest.skipIf(not Path("/dev/pts/ptmx").exists(), "there are no pseudo-terminals here")
+    def test_pseudo_terminal(self):
+        sim = self.sim("gxmm", "--position", "77", "--link", "slcan:pty")
+        path = self.place(sim, r"slcan on (/[^\s,]+)")
+        link = {"interface": "slcan", "channel": path, "bitrate": 500000, "sleep_after_open": 0}
+        self.works(self.master(**link))
+
+    @unittest.skipIf(
+        not has_interface("vcan0"),
+        "there is no vcan0 (sudo modprobe vcan && sudo ip link add vcan0 type vcan && sudo ip "
+        "link set vcan0 up)",
+    )
+    def test_socketcan(self):
+        sim = self.sim("gxmm", "--position", "77", "--link", "socketcan:vcan0")
+        self.works(self.master(interface="socketcan", channel="vcan0"))
+        # can-utils hears the same, and what comes over another link goes there, too.
+        dump = subprocess.Popen(
+            ["candump", "-L", "-n", "2", "vcan0,581:7FF,601:7FF"], stdout=subprocess.PIPE, text=True
+        )
+        self.addCleanup(dump.kill)
+        node = sim.node()
+        heard = []
+        # candump says nothing when it is ready.
+        while dump.poll() is None:
+            self.assertEqual(node.sdo[0x1000].raw, 0x00020196)
+        heard = [line.split()[2] for line in dump.stdout]
+        dump.stdout.close()
+        self.assertEqual(heard, ["601#4000100000000000", "581#4300100096010200"])
+
+
+if __name__ == "__main__":
+    unittest.main()
