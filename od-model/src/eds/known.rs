@@ -1,5 +1,7 @@
 //! What CiA 306 knows besides values: the sections that describe no object, and all keys.
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::number;
@@ -233,6 +235,34 @@ pub(super) fn module_part(name: &str) -> Option<ModulePart> {
     }
 }
 
+/// `2026-07-14` as `07-14-2026`; what is no such date stays.
+pub(crate) fn date(given: &str) -> String {
+    let mut parts = given.splitn(3, '-');
+    let turned = match (parts.next(), parts.next(), parts.next()) {
+        (Some(year), Some(month), Some(day)) if year.len() == 4 => {
+            day.get(..2).map(|day| format!("{month}-{day}-{year}"))
+        }
+        _ => None,
+    };
+    turned.unwrap_or_else(|| given.into())
+}
+
+/// `14:30:00+02:00` as `02:30PM`; what is no such time stays.
+pub(crate) fn time(given: &str) -> String {
+    let mut parts = given.splitn(3, ':');
+    let number = |part: Option<&str>, end: u8| {
+        let number: Option<u8> = part?.parse().ok();
+        number.filter(|number| *number < end)
+    };
+    match (number(parts.next(), 24), number(parts.next(), 60)) {
+        (Some(hour), Some(minute)) => {
+            let half = if hour < 12 { "AM" } else { "PM" };
+            format!("{:02}:{minute:02}{half}", (hour + 11) % 12 + 1)
+        }
+        _ => given.into(),
+    }
+}
+
 /// Is this the name, in any case, with a number where it has a `#`?
 fn is(name: &str, pattern: &str) -> bool {
     let Some((before, behind)) = pattern.split_once('#') else {
@@ -322,6 +352,23 @@ mod tests {
         assert_eq!(key(device, "BaudRate_"), None);
         let dummies = section("DummyUsage").unwrap().1;
         assert_eq!(key(dummies, "dummy001B"), Some(("Dummy#", Form::Flag)));
+    }
+
+    #[test]
+    fn dates_and_times_of_iso_8601_are_turned() {
+        assert_eq!(date("2026-07-14"), "07-14-2026");
+        assert_eq!(date("2026-07-14T10:00"), "07-14-2026");
+        assert_eq!(date("07-14-2026"), "07-14-2026");
+        assert_eq!(date("2026-7"), "2026-7");
+        assert_eq!(time("14:30:00+02:00"), "02:30PM");
+        assert_eq!(
+            (time("00:05").as_str(), time("12:00").as_str()),
+            ("12:05AM", "12:00PM")
+        );
+        assert_eq!(
+            (time("09:30AM").as_str(), time("25:00").as_str()),
+            ("09:30AM", "25:00")
+        );
     }
 
     #[test]

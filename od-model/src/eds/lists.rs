@@ -57,6 +57,7 @@ fn entries(
 ) {
     let mut count: Option<&Spanned<_>> = None;
     let mut found = 0;
+    let mut numbers: BTreeMap<Option<i128>, Span> = BTreeMap::new();
     for (key, value) in &placed.pairs {
         let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
         if word
@@ -78,6 +79,16 @@ fn entries(
             continue;
         };
         found += 1;
+        if let Some(first) = numbers.get(&number(key)) {
+            log.push(
+                rules::W0214
+                    .at(key.span, format!("the number {} stands twice", key.value))
+                    .with_label(*first, "it stands here")
+                    .with_help("number the entries from 1 without gaps"),
+            );
+        } else {
+            numbers.insert(number(key), key.span);
+        }
         let address = Address::new(index, 0);
         if let Some(first) = listed.get(&index) {
             log.push(

@@ -18,6 +18,7 @@ use alloc::vec::Vec;
 
 use crate::{Description, Diagnostic};
 
+mod canonical;
 mod compact;
 mod compact_pdo;
 mod describe;
@@ -26,13 +27,14 @@ mod encoding;
 mod entry;
 mod fields;
 mod ini;
-mod known;
+pub(crate) mod known;
 mod lines;
 mod lists;
 mod number;
 mod object;
 mod other;
 mod overlay;
+mod own_types;
 mod parse;
 mod sections;
 mod values;

@@ -151,6 +151,18 @@ fn member(address: Address, section: Placed<'_>, log: &mut Vec<Diagnostic>) -> E
             .number("ObjectType", &given)
             .and_then(|code| u8::try_from(code).ok())
             .and_then(ObjectCode::from_code);
+        let code = code.or_else(|| words::object_code(&mut reader, &given));
+        if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
+            reader.report(
+                rules::W0322
+                    .at(
+                        given.span,
+                        format!("a sub-index is a VAR, not `{}`", given.value),
+                    )
+                    .with_help("write `ObjectType=0x7`")
+                    .with_fix(Fix::guess().replace(given.span, "0x7")),
+            );
+        }
         // A member is a VAR; what else is said is kept.
         if code != Some(ObjectCode::Var) {
             unread.push(("ObjectType".into(), given.value.into_owned()));

@@ -10,7 +10,9 @@ use super::fields::duplicates;
 use super::ini::{self, Placed};
 use super::object::{self, Sections};
 use super::sections::{List, Place, intended, place};
-use super::{Document, Encoding, Parsed, compact, compact_pdo, lines, lists, number, other};
+use super::{
+    Document, Encoding, Parsed, compact, compact_pdo, lines, lists, number, other, own_types,
+};
 use crate::check::rules;
 use crate::fix::Fix;
 use crate::{Address, Diagnostic, Span};
@@ -153,7 +155,7 @@ impl<'a> Sorted<'a> {
         let name = &section.name;
         let exact = place(name);
         let meant = match exact {
-            Place::Other => intended(name),
+            Place::Other => intended(name, describes(section)),
             Place::Member(_, sub) if name.len() > 7 + format!("{sub:X}").len() => Some(exact),
             _ => None,
         };
@@ -192,6 +194,7 @@ impl<'a> Sorted<'a> {
 
     fn parsed(mut self) -> Parsed {
         let mut parsed = Parsed::default();
+        own_types::resolve(&mut self.objects, &mut self.log);
         for (index, mut sections) in core::mem::take(&mut self.objects) {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
@@ -217,6 +220,13 @@ impl<'a> Sorted<'a> {
         crate::check::sort(&mut parsed.diagnostics);
         parsed
     }
+}
+
+/// Does a section say what an object says, whatever its name?
+fn describes(section: &Placed<'_>) -> bool {
+    ["ParameterName", "DataType", "SubNumber"]
+        .iter()
+        .any(|key| section.get(key).is_some())
 }
 
 /// Has the object a CompactSubObj that counts something?

@@ -99,8 +99,8 @@ pub(super) fn place(name: &str) -> Place {
 }
 
 /// What a section is meant to be about whose name is not quite right: `0x1018`,
-/// `1018 sub 2`, `1018_sub2`, `1018h`, `5`.
-pub(super) fn intended(name: &str) -> Option<Place> {
+/// `1018 sub 2`, `1018_sub2`, `1018h`, `5`; `A0` only if the section describes something.
+pub(super) fn intended(name: &str, describes: bool) -> Option<Place> {
     let plain: String = name
         .chars()
         .filter(|c| !c.is_whitespace() && !matches!(c, '_' | '.' | '-'))
@@ -113,7 +113,7 @@ pub(super) fn intended(name: &str) -> Option<Place> {
         // `[add]` is somebody's own section; `[5]` is an object.
         match text.len() {
             4 => hex(text),
-            1..=3 if starts.is_ascii_digit() => hex(text),
+            1..=3 if describes || starts.is_ascii_digit() => hex(text),
             _ => None,
         }
     };
@@ -183,10 +183,11 @@ mod tests {
             ("1018sub002", Place::Member(0x1018, 2)),
             ("0x1018sub2h", Place::Member(0x1018, 2)),
         ] {
-            assert_eq!(intended(name), Some(expected), "{name}");
+            assert_eq!(intended(name, false), Some(expected), "{name}");
             let name = expected.name().unwrap();
             assert_eq!(place(&name), expected);
         }
+        assert_eq!(intended("A0sub1", true), Some(Place::Member(0xA0, 1)));
         for name in [
             "",
             "add",
@@ -199,7 +200,7 @@ mod tests {
             "1Fixed",
             "é",
         ] {
-            assert_eq!(intended(name), None, "{name}");
+            assert_eq!(intended(name, false), None, "{name}");
         }
     }
 }

@@ -179,8 +179,9 @@ pub(crate) fn text(value: &Value, data_type: Option<DataType>) -> String {
             _ => format!("0x{v:X}"),
         },
         Value::Signed(v) => v.to_string(),
+        // What every reader takes for zero.
+        Value::Real(0.0) => "0".into(),
         Value::Real(v) => format!("{v:?}"),
-        Value::NodeId(0) => "$NODEID".into(),
         Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
         Value::Text(text) => text.clone(),
         Value::Bytes(bytes) if data_type == Some(DataType::UnicodeString) => {

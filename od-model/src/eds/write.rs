@@ -5,17 +5,21 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::sections::List;
-use super::{fields, values};
+use super::{canonical, fields, values};
 use crate::{Description, EntryDescription, ObjectDescription, Spanned, Value};
 
 /// The canonical text of a description.
 ///
-/// Sections that describe no object come first, as they are; the three lists are
-/// made from the objects; CompactSubObj is written out. Reading the text again
-/// gives the same description.
+/// It is what other readers take, too: the standard's capitals and order, all dummies,
+/// no octal numbers, `$NODEID+` in front; CompactSubObj and CompactPDO are written out, and
+/// the lists, SubNumber and the number of comments are counted. Sections and keys of other
+/// tools are kept. Reading the text again gives the same objects, and writing those
+/// the same text.
+///
+/// Reals are written in decimal, as vendors do; Lely alone expects the bit pattern.
 pub fn write(description: &Description) -> String {
     let mut out = Text(String::new());
-    for section in &description.sections {
+    for section in canonical::sections(description) {
         out.section(&section.name);
         for (key, value) in &section.pairs {
             out.pair(key, value);
@@ -99,9 +103,6 @@ impl Text {
             self.pair("ParameterName", &object.name);
             let extra = entry.map_or(&[][..], |entry| &entry.extra);
             self.field("ObjectType", &code, extra);
-            if let Some(number) = &object.sub_number {
-                self.field("SubNumber", &number.to_string(), extra);
-            }
             if let Some(entry) = entry {
                 self.entry(entry);
             }
@@ -110,10 +111,8 @@ impl Text {
         let extra = &object.extra;
         self.pair("ParameterName", &object.name);
         self.field("ObjectType", &code, extra);
-        let number = object
-            .sub_number
-            .map_or(object.entries.len() as u32, |number| number.value);
-        self.field("SubNumber", &number.to_string(), extra);
+        let count = object.entries.len().to_string();
+        self.field("SubNumber", &count, extra);
         if object.flags != 0 {
             self.field("ObjFlags", &alloc::format!("0x{:X}", object.flags), extra);
         }
@@ -169,12 +168,21 @@ mod tests {
 
     #[test]
     fn the_canonical_text() {
-        let text = "[FileInfo]\nfilename : x.eds\n[2000]\nparametername=Gain\nobjecttype=8\n\
+        let text = "[Mine]\nOwn=kept\n[comments]\nLines=7\nLine1=one\nLine3=three\n\
+            [DEVICECOMMISSIONING]\nnodeid=0x05\nBaudrate=\n[FileInfo]\nfilename : x.eds\n\
+            [dummyusage]\ndummy0005=0x1\n[DeviceInfo]\nvendornumber=020\nNrOfRxPDO=010\n\
+            ProductNumber=\n[2000]\nparametername=Gain\nobjecttype=8\n\
             datatype=7\naccesstype=RW\ndefaultvalue=0x180+$nodeid\ncompactsubobj=1\n[2001]\n\
             ;StorageLocation=PERSIST_APP\nParameterName=Speed\nDataType=3\nHighLimit=0x7F\n\
             LowLimit=0xFF80\nAccessType=rww\nPDOMapping=1\nDefaultValue=red\nMine=1\n[1000]\n";
         let written = write(&eds::parse(text).description);
-        let expected = "[FileInfo]\nfilename=x.eds\n\n\
+        let expected = "[FileInfo]\nFileName=x.eds\nEDSVersion=4.0\n\n\
+            [DeviceInfo]\nVendorNumber=0x00000010\nNrOfRXPDO=8\nNrOfTXPDO=0\n\n\
+            [DummyUsage]\nDummy0001=0\nDummy0002=0\nDummy0003=0\nDummy0004=0\n\
+            Dummy0005=1\nDummy0006=0\nDummy0007=0\n\n\
+            [Comments]\nLines=2\nLine1=one\nLine2=three\n\n\
+            [DeviceComissioning]\nNodeID=5\n\n\
+            [Mine]\nOwn=kept\n\n\
             [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\n\
             [1000]\nParameterName=\nObjectType=0x7\nAccessType=ro\nPDOMapping=0\n\n\
             [OptionalObjects]\nSupportedObjects=0\n\n\
@@ -188,10 +196,9 @@ mod tests {
             DataType=0x0003\nLowLimit=-128\nHighLimit=127\nAccessType=rww\nPDOMapping=1\n\
             Mine=1\nDefaultValue=red\n";
         assert_eq!(written, expected);
-        assert_eq!(
-            eds::parse(&written).description,
-            eds::parse(text).description
-        );
+        let again = eds::parse(&written).description;
+        assert_eq!(again.objects, eds::parse(text).description.objects);
+        assert_eq!(write(&again), written);
     }
 
     #[test]

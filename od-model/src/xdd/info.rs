@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use roxmltree::Node;
 
 use super::{Made, Reader, below, children};
-use crate::eds::Placed;
+use crate::eds::{Placed, known};
 use crate::{Span, Spanned};
 
 /// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
@@ -54,35 +54,12 @@ fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Pla
     made.placed
 }
 
-/// `2026-07-14` as `07-14-2026`; what is no such date stays.
 fn date(given: Spanned<String>) -> Spanned<String> {
-    let mut parts = given.splitn(3, '-');
-    let turned = match (parts.next(), parts.next(), parts.next()) {
-        (Some(year), Some(month), Some(day)) if year.len() == 4 && day.len() >= 2 => {
-            day.get(..2).map(|day| format!("{month}-{day}-{year}"))
-        }
-        _ => None,
-    };
-    let span = given.span;
-    Spanned::new(turned.unwrap_or(given.value), span)
+    Spanned::new(known::date(&given), given.span)
 }
 
-/// `14:30:00+02:00` as `02:30PM`; what is no such time stays.
 fn time(given: Spanned<String>) -> Spanned<String> {
-    let mut parts = given.splitn(3, ':');
-    let number = |part: Option<&str>, end| {
-        let number: Option<u8> = part?.parse().ok();
-        number.filter(|number| *number < end)
-    };
-    let turned = match (number(parts.next(), 24), number(parts.next(), 60)) {
-        (Some(hour), Some(minute)) => {
-            let half = if hour < 12 { "AM" } else { "PM" };
-            Some(format!("{:02}:{minute:02}{half}", (hour + 11) % 12 + 1))
-        }
-        _ => None,
-    };
-    let span = given.span;
-    Spanned::new(turned.unwrap_or(given.value), span)
+    Spanned::new(known::time(&given), given.span)
 }
 
 fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {

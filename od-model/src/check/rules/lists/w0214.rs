@@ -1,0 +1,15 @@
+//! W0214: number of a list stands twice.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0214",
+    severity: Warning,
+    title: "number of a list stands twice",
+    why: "Readers that ask for each number miss one of the two. Both entries are read.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "1=0x2000\n1=0x2001\n",
+    after: "1=0x2000\n2=0x2001\n",
+};

@@ -1,0 +1,15 @@
+//! W0322: sub-index is no VAR.
+
+use crate::Severity::Warning;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0322",
+    severity: Warning,
+    title: "sub-index is no VAR",
+    why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Unsafe,
+    before: "[2000sub1]\nObjectType=0x9\n",
+    after: "[2000sub1]\nObjectType=0x7\n",
+};

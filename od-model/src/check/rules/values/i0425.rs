@@ -1,0 +1,15 @@
+//! I0425: type that the file defines.
+
+use crate::Severity::Info;
+use crate::check::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0425",
+    severity: Info,
+    title: "type that the file defines",
+    why: "The object of that index says in sub-index 1 which basic type it stands for. That type is taken, with its limits; most readers know no such types.",
+    source: "CanFestival, object dictionary editor",
+    mending: Mending::None,
+    before: "[A0sub1]\nDefaultValue=0x2\n[2000]\nDataType=0x00A0\n",
+    after: "[2000]\nDataType=0x0002\n",
+};

@@ -1,0 +1,20 @@
+"""odkit's reading against python-canopen's, value by value, over the corpus."""
+
+import unittest
+
+import differences
+
+
+class Differences(unittest.TestCase):
+    def test_each_difference_has_a_reason(self):
+        folder = differences.corpus()
+        if folder is None:
+            self.skipTest("no corpus: set ODKIT_CORPUS to a folder of device files")
+        counts, _, _, unknown, compared = differences.differences(folder)
+        self.assertEqual(unknown, [], "differences of no kind")
+        self.assertGreater(compared["values"], 0)
+        self.assertTrue(set(counts) <= set(differences.KINDS))
+
+
+if __name__ == "__main__":
+    unittest.main()

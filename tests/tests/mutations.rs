@@ -1,0 +1,289 @@
+//! Corrupted device files: never a panic, never a hang, never a silent wrong value.
+//!
+//! Made of the corpus (`ODKIT_CORPUS`, or `shared/corpus` beside the workspace); where
+//! there is none, of the project's own cases and devices. `ODKIT_ROUNDS` says how many
+//! variants there are; a few hundred without it, 10,000 in `cargo xtask test --long`.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use std::{env, fs};
+
+use od_model::eds::{self, Document};
+use od_model::{Tables, xdd};
+
+/// A device file of half a megabyte takes a tenth of this in a build without optimization.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+#[test]
+fn corrupted_files_are_read_to_the_end() {
+    let files = files();
+    let mut random = Xorshift(0x2545_F491_4F6C_DD1D);
+    for round in 0..rounds(150) {
+        let (name, original) = &files[random.below(files.len())];
+        let mut bytes = original.clone();
+        for _ in 0..=random.below(4) {
+            corrupt(&mut bytes, &mut random);
+        }
+        let start = Instant::now();
+        let document = Document::new(bytes);
+        let loaded = document.load();
+        let tables = Tables::new(&loaded.description);
+        let written = eds::write(&loaded.description);
+        let taken = start.elapsed();
+        assert!(taken < PATIENCE, "round {round}, {name}: {taken:?}");
+        let dictionary = tables.dictionary();
+        for entry in dictionary.entries() {
+            assert!(
+                dictionary.find(entry.address).is_ok(),
+                "round {round}, {name}"
+            );
+        }
+        let again = eds::parse(&written).description;
+        assert!(
+            eds::write(&again) == written
+                && again.objects.len() == loaded.description.objects.len(),
+            "round {round}, {name}: read again, the canonical text differs"
+        );
+    }
+}
+
+#[test]
+fn an_illegal_value_never_goes_unnamed() {
+    let files: Vec<_> = files()
+        .into_iter()
+        .map(|(name, bytes)| (name, Document::new(bytes).text().to_string()))
+        .filter(|(_, text)| !xdd::is_xml(text))
+        .collect();
+    let mut random = Xorshift(0x9E37_79B9_7F4A_7C15);
+    let (mut made, mut tried) = (0, 0);
+    let rounds = rounds(150);
+    while made < rounds {
+        tried += 1;
+        assert!(tried < rounds * 100, "hardly a value to change was found");
+        let (name, text) = &files[random.below(files.len())];
+        let lines: Vec<&str> = text.lines().collect();
+        let at = random.below(lines.len().max(1));
+        let Some(illegal) = lines.get(at).and_then(|_| illegal(&lines, at, &mut random)) else {
+            continue;
+        };
+        made += 1;
+        let mut changed = lines.clone();
+        changed[at] = &illegal;
+        let loaded = eds::load(&changed.join("\n"));
+        let line = at as u32 + 1;
+        let named = loaded.diagnostics.iter().any(|finding| {
+            finding.span.is_some_and(|span| span.line == line)
+                || finding.labels.iter().any(|label| label.span.line == line)
+        });
+        assert!(named, "{name}:{line}: `{}` became `{illegal}`", lines[at]);
+    }
+}
+
+/// The line with a value that is none of its key; `None` where it has no such key, or
+/// where nothing is said of the value because nothing reads it.
+fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
+    let (key, value) = lines[at].split_once('=')?;
+    let section = section(lines, at)?;
+    let keys = || section.clone().filter_map(|n| lines[n].split_once('='));
+    let is_object = {
+        let header = lines[section.start - 1].trim();
+        let name = header.strip_prefix('[')?.split(']').next()?;
+        let digits = name.bytes().take_while(u8::is_ascii_hexdigit).count();
+        digits == 4 && (name.len() == 4 || name[4..].to_ascii_lowercase().starts_with("sub"))
+    };
+    let data_type = || {
+        let (_, code) = keys().find(|(key, _)| key.trim().eq_ignore_ascii_case("DataType"))?;
+        let code = code.split([';', '#']).next()?.trim();
+        let code = match code.strip_prefix("0x").or_else(|| code.strip_prefix("0X")) {
+            Some(digits) => u16::from_str_radix(digits, 16).ok()?,
+            None => code.parse().ok()?,
+        };
+        Some(code)
+    };
+    let pick = |random: &mut Xorshift, from: &[&str]| from[random.below(from.len())].to_string();
+    let key = key.trim();
+    let lower = key.to_ascii_lowercase();
+    let wrong = match lower.as_str() {
+        _ if key.starts_with([';', '#']) => return None,
+        "datatype" if is_object => pick(random, &["0x99", "0x0000", "0xZZ", "-1", "U_8"]),
+        "accesstype" if is_object => pick(random, &["rx", "0", "row", "readable"]),
+        "objecttype" if is_object => pick(random, &["0x3", "99", "VARIABLE", "-7"]),
+        "pdomapping" if is_object => pick(random, &["2", "0x10", "maybe", "-1"]),
+        "subnumber" if is_object => pick(random, &["x", "0x1G", "-1", "70000000000"]),
+        "objflags" if is_object => pick(random, &["x", "0x1FFFFFFFF", "-1"]),
+        "defaultvalue" | "parametervalue" | "lowlimit" | "highlimit" if is_object => {
+            // Only where the type says what is legal, and the section has no members.
+            match data_type()? {
+                0x05 => pick(
+                    random,
+                    &["256", "0x1FF", "-1", "zz", "1 2", "0x1G", "$NODEID-1"],
+                ),
+                0x06 => pick(random, &["65536", "0x1FFFF", "-1", "zz", "1.5"]),
+                0x07 => pick(random, &["4294967296", "0x1FFFFFFFF", "-1", "zz", "0x"]),
+                0x02 => pick(random, &["128", "-129", "zz", "0x1FF", "$NODEID"]),
+                0x03 => pick(random, &["32768", "-32769", "zz", "1,5"]),
+                0x04 => pick(random, &["2147483648", "-2147483649", "zz"]),
+                0x01 => pick(random, &["2", "-1", "zz"]),
+                0x08 | 0x11 => pick(random, &["zz", "1.2.3", "nan", "1e999"]),
+                _ => return None,
+            }
+        }
+        "supportedobjects" => pick(random, &["many", "-1", "9999"]),
+        "nrofrxpdo" | "nroftxpdo" => pick(random, &["many", "-1", "600", "0x1000"]),
+        "granularity" => pick(random, &["eight", "-1", "65"]),
+        "vendornumber" | "productnumber" | "revisionnumber" => {
+            pick(random, &["zz", "-1", "0x1FFFFFFFF"])
+        }
+        "nodeid" => pick(random, &["zz", "-1", "256"]),
+        "lss_supported" | "simplebootupmaster" | "simplebootupslave" | "groupmessaging" => {
+            pick(random, &["2", "yes", "-1"])
+        }
+        _ if lower.starts_with("baudrate_") || lower.starts_with("dummy0") => {
+            pick(random, &["2", "on", "-1"])
+        }
+        _ => return None,
+    };
+    // Members of an object that is taken for something else may not be read at all.
+    let own = lines[section.start - 1].trim();
+    let is_whole = is_object && !own.to_ascii_lowercase().contains("sub");
+    let has_members = keys().any(|(key, value)| {
+        let key = key.trim();
+        (key.eq_ignore_ascii_case("SubNumber") || key.eq_ignore_ascii_case("CompactSubObj"))
+            && !matches!(value.trim(), "" | "0")
+    });
+    let of_a_value = !matches!(lower.as_str(), "objecttype" | "subnumber" | "objflags");
+    if is_whole && has_members && of_a_value && is_object {
+        return None;
+    }
+    (value.trim() != wrong).then(|| format!("{key}={wrong}"))
+}
+
+/// The lines of the section that a line is in, without its header.
+fn section(lines: &[&str], at: usize) -> Option<std::ops::Range<usize>> {
+    let is_header = |line: &&str| line.trim_start().starts_with('[');
+    let start = lines[..at].iter().rposition(is_header)? + 1;
+    let end = lines[at..].iter().position(is_header);
+    Some(start..end.map_or(lines.len(), |end| at + end))
+}
+
+/// Bytes that mean something to some reader of such files.
+const ODD: &[u8] = b"=[];#\\:$-+0x19AF\r\n <>&\"\xFF\0";
+
+fn corrupt(bytes: &mut Vec<u8>, random: &mut Xorshift) {
+    if bytes.is_empty() {
+        bytes.push(b'[');
+    }
+    let at = random.below(bytes.len());
+    let other = random.below(bytes.len());
+    match random.below(9) {
+        0 => bytes[at] ^= 1 << random.below(8),
+        1 => bytes[at] = ODD[random.below(ODD.len())],
+        2 => {
+            let range = line(bytes, at);
+            bytes.drain(range);
+        }
+        3 => {
+            let copy = bytes[line(bytes, at)].to_vec();
+            let start = line(bytes, other).start;
+            bytes.splice(start..start, copy);
+        }
+        4 => bytes.truncate(at),
+        5 => {
+            let end = (at + random.below(2000)).min(bytes.len());
+            bytes.drain(at..end);
+        }
+        6 => bytes.insert(at, ODD[random.below(ODD.len())]),
+        // Two values change places.
+        7 => {
+            let (a, b) = (value(bytes, at), value(bytes, other));
+            let (first, second) = if a.start <= b.start { (a, b) } else { (b, a) };
+            if first.end <= second.start {
+                let (one, two) = (
+                    bytes[first.clone()].to_vec(),
+                    bytes[second.clone()].to_vec(),
+                );
+                bytes.splice(second, one);
+                bytes.splice(first, two);
+            }
+        }
+        _ => {
+            let copy = bytes[line(bytes, at)].to_vec();
+            let range = line(bytes, other);
+            bytes.splice(range, copy);
+        }
+    }
+}
+
+/// The line at a byte, with its end.
+fn line(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let start = bytes[..at].iter().rposition(|b| *b == b'\n');
+    let end = bytes[at..].iter().position(|b| *b == b'\n');
+    start.map_or(0, |s| s + 1)..end.map_or(bytes.len(), |e| at + e + 1)
+}
+
+/// What stands behind the `=` of the line at a byte.
+fn value(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let line = line(bytes, at);
+    let text = &bytes[line.clone()];
+    let start = text
+        .iter()
+        .position(|b| *b == b'=')
+        .map_or(text.len(), |at| at + 1);
+    let end = text
+        .iter()
+        .rposition(|b| !b"\r\n".contains(b))
+        .map_or(start, |at| at + 1);
+    line.start + start..line.start + end.max(start)
+}
+
+struct Xorshift(u64);
+
+impl Xorshift {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % end as u64) as usize
+    }
+}
+
+fn rounds(few: usize) -> usize {
+    let asked = env::var("ODKIT_ROUNDS").ok().and_then(|n| n.parse().ok());
+    asked.unwrap_or(few)
+}
+
+/// The corpus, else the project's own files; by name.
+fn files() -> Vec<(String, Vec<u8>)> {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let beside = here.join("../../shared/corpus");
+    let corpus = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
+    let mut files = Vec::new();
+    if corpus.is_dir() {
+        collect(&corpus, &mut files);
+    } else {
+        println!(
+            "no corpus: set ODKIT_CORPUS to a folder of device files; the project's own are used"
+        );
+        collect(&here.join("cases"), &mut files);
+        collect(&here.join("../devices/eds"), &mut files);
+    }
+    files.sort();
+    assert!(!files.is_empty());
+    files
+}
+
+fn collect(folder: &Path, files: &mut Vec<(String, Vec<u8>)>) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if ["eds", "dcf", "xdd", "xdc", "xpd"]
+            .iter()
+            .any(|known| extension == *known)
+            && let Ok(bytes) = fs::read(&path)
+        {
+            files.push((path.display().to_string(), bytes));
+        }
+    }
+}
