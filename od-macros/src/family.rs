@@ -52,6 +52,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
     let standing = standing.filter(|finding| !mended(finding, &base, &input.statements));
     let mut eds: Vec<Diagnostic> = standing.cloned().chain(found).collect();
     eds.sort_by_key(|finding| finding.span.map_or(0, |span| span.start));
+    source.allows.clone().filter(&mut eds);
     told.tell(&eds, &base, report);
     if let (Some(profile), false) = (&input.profile, quiet) {
         crate::profile::check(profile, &base, report);

@@ -17,6 +17,8 @@ pub(crate) struct Source {
     pub(crate) path: Option<PathBuf>,
     /// The findings of the reader.
     pub(crate) findings: Vec<od_model::Diagnostic>,
+    /// What the file says is as it should be.
+    pub(crate) allows: od_model::check::Allows,
     /// What the file describes; empty without one.
     pub(crate) description: Description,
 }
@@ -38,11 +40,13 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
             };
         }
     };
-    let parsed = od_model::eds::parse(&od_model::eds::decode(&bytes));
+    let text = od_model::eds::decode(&bytes);
+    let parsed = od_model::eds::parse(&text);
     Source {
         shown: Some(shown),
         path: Some(path),
         findings: parsed.diagnostics,
+        allows: od_model::check::Allows::of(&text),
         description: parsed.description,
     }
 }

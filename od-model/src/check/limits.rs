@@ -10,6 +10,7 @@ use core::cmp::Ordering;
 
 use super::{place, rules, text};
 use crate::fix::Fix;
+use crate::patch::token_of;
 use crate::{DataType, Description, Diagnostic, Spanned, Value};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -59,17 +60,24 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     continue;
                 }
                 let (shown, bound) = (text::shown(value), text::shown(limit));
+                // A master that configures by a DCF gets an abort; a default is only odd. What
+                // stands in a macro call is the author's own to mend.
+                let own = |span| token_of(span).is_some();
+                let fails = key == "ParameterValue" || own(value.span) || own(limit.span);
+                let rule = match fails {
+                    true => rules::E0414,
+                    false => rules::W0452,
+                };
                 findings.push(
-                    rules::E0414
-                        .at(
-                            place(&[value.span, entry.span]),
-                            format!("{key} {shown} is {side} {bound}"),
-                        )
-                        .with_address(address)
-                        .with_label(limit.span, "the limit is here")
-                        .with_help(format!(
-                            "write a {key} within the limits, or mend the limit"
-                        )),
+                    rule.at(
+                        place(&[value.span, entry.span]),
+                        format!("{key} {shown} is {side} {bound}"),
+                    )
+                    .with_address(address)
+                    .with_label(limit.span, "the limit is here")
+                    .with_help(format!(
+                        "write a {key} within the limits, or mend the limit"
+                    )),
                 );
             }
         }

@@ -1,7 +1,7 @@
 //! The three objects that every CANopen device has, as CiA 301 has them.
 //!
 //! Guarantees 1000h, 1001h and 1018h with the types that every service relies
-//! on. Assumes nothing. Source: CiA 301, objects 1000h, 1001h and 1018h.
+//! on; their access is looked at with that of the other standard objects. Assumes nothing. Source: CiA 301, objects 1000h, 1001h and 1018h.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -125,17 +125,6 @@ fn entry(
             .with_address(address)
             .with_help(format!("write `DataType=0x{:04X}`", data_type.code()))
             .with_fix(Fix::guess().replace(given.span, format!("0x{:04X}", data_type.code()))),
-        );
-    }
-    if entry.access.writable() {
-        findings.push(
-            rule.at(
-                place(&[entry.access.span, entry.span]),
-                format!("{shown} must be read only, but is {}", *entry.access),
-            )
-            .with_address(address)
-            .with_help("write `AccessType=ro`")
-            .with_fix(Fix::guess().replace(entry.access.span, "ro")),
         );
     }
 }

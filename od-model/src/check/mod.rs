@@ -5,6 +5,7 @@
 //! generated code unsound or a master fail; what many shipped files have is a
 //! warning.
 
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -12,16 +13,24 @@ use alloc::vec::Vec;
 use crate::{Address, Description, Diagnostic, EntryDescription, Span, Spanned, Value};
 
 mod allow;
+mod cob_ids;
 mod data_types;
+mod entries;
 mod identity;
 mod limits;
 mod mandatory;
 mod members;
+mod modules;
 mod node_id;
 mod pdo_communication;
 mod pdo_counts;
 mod pdo_mapping;
+mod profile;
 pub(crate) mod rules;
+mod sections;
+mod services;
+mod shape;
+mod standard;
 mod sub_index_0;
 pub(crate) mod text;
 mod values;
@@ -36,23 +45,45 @@ pub fn check(description: &Description) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
     for check in [
         mandatory::check,
+        standard::check,
+        services::check,
         members::check,
+        shape::check,
         sub_index_0::check,
         data_types::check,
         values::check,
         node_id::check,
         limits::check,
+        entries::check,
         pdo_communication::check,
         pdo_mapping::check,
         pdo_counts::check,
+        cob_ids::check,
         identity::check,
+        sections::check,
+        modules::check,
+        profile::check,
     ] {
         check(description, &mut findings);
     }
+    once(description, &mut findings);
     sort(&mut findings);
     findings
 }
 
+/// Of members that one section stands for (CompactSubObj), the first is told about.
+fn once(description: &Description, findings: &mut Vec<Diagnostic>) {
+    let mut told = BTreeSet::new();
+    findings.retain(|finding| {
+        let (Some(address), Some(span)) = (finding.address, finding.span) else {
+            return true;
+        };
+        let own = description.entry(address).map(|entry| entry.span);
+        let object = description.objects.get(&address.index);
+        let copied = own.is_some() && own == object.map(|object| object.span) && address.sub > 0;
+        !copied || told.insert((finding.code, span, address.index))
+    });
+}
 /// File order; what stands nowhere comes last.
 pub(crate) fn sort(findings: &mut [Diagnostic]) {
     findings.sort_by_key(|finding| match finding.span {

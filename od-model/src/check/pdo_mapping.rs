@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use super::{named, place, rules, start_number};
 use crate::eds::number;
 use crate::fix::Fix;
-use crate::{Address, DataType, Description, Diagnostic, ObjectDescription, Spanned};
+use crate::{Address, DataType, Description, Diagnostic, ObjectDescription, Span, Spanned};
 
 /// What one mapping entry says, and where.
 struct Mapped {
@@ -47,9 +47,29 @@ fn mapping(
     let count = start_number(description, Address::new(index, 0)).map_or(0, |count| count.value);
     let count = match u8::try_from(count) {
         Ok(count @ ..=64) => count,
-        _ => return,
+        Ok(254 | 255) => return,
+        _ => {
+            let address = Address::new(index, 0);
+            let span = start_number(description, address).map(|count| count.span);
+            findings.push(
+                rules::W0524
+                    .at(
+                        span.unwrap_or(object.span),
+                        format!("{count} objects cannot be mapped into 64 bits"),
+                    )
+                    .with_address(address)
+                    .with_help("write a number up to 64, or 254 or 255 for a multiplexed PDO"),
+            );
+            return;
+        }
     };
+    let info = description.section("DeviceInfo");
+    let granularity = info
+        .and_then(|info| number(info.get("Granularity")?))
+        .and_then(|coarse| u32::try_from(coarse).ok())
+        .filter(|coarse| (2..=64).contains(coarse));
     let mut bits = 0u32;
+    let mut seen: Vec<(u32, Span)> = Vec::new();
     for (sub, entry) in object.entries.range(1..=count.max(1)) {
         if *sub > count {
             break;
@@ -75,8 +95,33 @@ fn mapping(
             continue;
         };
         if number == 0 {
-            // Nothing, not even a length: there is nothing to judge.
+            // Nothing, not even a length: there is nothing else to judge.
+            findings.push(
+                rules::W0525
+                    .at(
+                        place(&[value.span, entry.span]),
+                        format!("{count} objects are mapped, but this entry maps nothing"),
+                    )
+                    .with_address(address)
+                    .with_help("write what is mapped, or a lower number into sub-index 0"),
+            );
             continue;
+        }
+        match seen
+            .iter()
+            .find(|(other, _)| *other == number && number >> 21 != 0)
+        {
+            Some((_, first)) => findings.push(
+                rules::I0528
+                    .at(
+                        place(&[value.span, entry.span]),
+                        "this PDO carries the same object twice",
+                    )
+                    .with_address(address)
+                    .with_label(*first, "it is mapped here, too")
+                    .with_help("map it once, if twice is not meant"),
+            ),
+            None => seen.push((number, value.span)),
         }
         let [len, sub, low, high] = number.to_le_bytes();
         let span = place(&[value.span, entry.span]);
@@ -86,6 +131,20 @@ fn mapping(
             bits: Spanned::new(len, span),
             rpdo,
         };
+        let told = |findings: &[Diagnostic]| findings.iter().any(|d| d.code == rules::W0526.code);
+        if let Some(coarse) = granularity.filter(|coarse| !u32::from(len).is_multiple_of(*coarse))
+            && !told(findings)
+        {
+            findings.push(
+                rules::W0526
+                    .at(
+                        span,
+                        format!("{len} bits are mapped, but Granularity is {coarse}"),
+                    )
+                    .with_address(address)
+                    .with_help("map a multiple of the granularity, or mend it in [DeviceInfo]"),
+            );
+        }
         if let Some(finding) = target(description, &mapped) {
             findings.push(finding.with_address(address));
         }

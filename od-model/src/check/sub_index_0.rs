@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 
 use super::{place, rules, start_number};
 use crate::fix::Fix;
+use crate::patch::token_of;
 use crate::{Address, DataType, Description, Diagnostic, ObjectCode, ObjectDescription};
 
 pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
@@ -62,7 +63,12 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         let in_use = count.access.writable() || counts_in_use(*index);
         let (rule, message) = if number.value > u64::from(highest) {
             (
-                rules::E0310,
+                // A PDO that maps nothing where its count says it maps something cannot be made;
+                // what stands in a macro call is the author's own to mend.
+                match counts_mapped(*index) || token_of(number.span).is_some() {
+                    true => rules::E0310,
+                    false => rules::W0350,
+                },
                 format!(
                     "sub-index 0 is {}, but the highest member is {highest}",
                     number.value
@@ -102,6 +108,10 @@ fn missing(index: u16, object: &ObjectDescription) -> Fix {
              DataType=0x0005\nAccessType=ro\nDefaultValue={highest}\nPDOMapping=0\n"
         ),
     )
+}
+
+fn counts_mapped(index: u16) -> bool {
+    matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
 }
 
 /// Objects whose sub-index 0 changes with what is in them.

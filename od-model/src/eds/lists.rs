@@ -58,6 +58,7 @@ fn entries(
     let mut count: Option<&Spanned<_>> = None;
     let mut found = 0;
     let mut numbers: BTreeMap<Option<i128>, Span> = BTreeMap::new();
+    let mut ordered = true;
     for (key, value) in &placed.pairs {
         let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
         if word
@@ -80,14 +81,31 @@ fn entries(
         };
         found += 1;
         if let Some(first) = numbers.get(&number(key)) {
+            ordered = false;
             log.push(
                 rules::W0214
                     .at(key.span, format!("the number {} stands twice", key.value))
                     .with_label(*first, "it stands here")
-                    .with_help("number the entries from 1 without gaps"),
+                    .with_help("number the entries from 1 without gaps")
+                    .with_fix(renumbered(placed)),
             );
         } else {
             numbers.insert(number(key), key.span);
+        }
+        if number(key) != Some(found) && ordered {
+            ordered = false;
+            log.push(
+                rules::W0242
+                    .at(
+                        key.span,
+                        format!(
+                            "this is entry {found} of the list, and has number {}",
+                            key.value
+                        ),
+                    )
+                    .with_help("number the entries 1, 2, 3 and so on")
+                    .with_fix(renumbered(placed)),
+            );
         }
         let address = Address::new(index, 0);
         if let Some(first) = listed.get(&index) {
@@ -153,6 +171,20 @@ fn entries(
 }
 
 /// The index of a list entry; one without `0x` is decimal, unless only hexadecimal makes sense.
+/// Every entry with the number of its place.
+fn renumbered(placed: &Placed<'_>) -> Fix {
+    let entries = placed.pairs.iter();
+    let entries = entries.filter(|(key, _)| number(key).is_some());
+    (1i128..)
+        .zip(entries)
+        .fold(Fix::safe(), |fix, (place, (key, _))| {
+            match number(key) == Some(place) {
+                true => fix,
+                false => fix.replace(key.span, place.to_string()),
+            }
+        })
+}
+
 fn index(key: &str, value: &str, description: &Description) -> Option<u16> {
     number(key)?;
     let read = number(value).and_then(|n| u16::try_from(n).ok());

@@ -101,7 +101,7 @@ macro_rules! folders {
     };
 }
 
-folders! { text lists structure values pdo standard edits allow }
+folders! { text lists structure values pdo standard edits allow profile }
 
 const COUNT: usize = {
     let (mut count, mut at) = (0, 0);
@@ -112,7 +112,7 @@ const COUNT: usize = {
     count
 };
 
-const TABLE: [Rule; COUNT] = {
+static TABLE: [Rule; COUNT] = {
     let mut table = [FOLDERS[0][0]; COUNT];
     let (mut count, mut folder) = (0, 0);
     while folder < FOLDERS.len() {
@@ -128,7 +128,7 @@ const TABLE: [Rule; COUNT] = {
 };
 
 /// Every rule, by ascending number.
-pub const RULES: &[Rule] = &TABLE;
+pub static RULES: &[Rule] = &TABLE;
 
 #[cfg(test)]
 mod tests;

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "The finding that was allowed here is not found any more.",
     source: "odkit",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5.0\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "Who reads the file next has to know why a finding is no fault. Nothing is allowed without a reason.",
     source: "odkit",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ;odkit-allow=W0420\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ;odkit-allow=W0420 an old tool writes it so\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "A variant is strict: it changes and removes what its base has.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "modify 0x2000 { default = 7 }      // the EDS has no 2000h",
+    after: "modify 0x2001 { default = 7 }",
 };

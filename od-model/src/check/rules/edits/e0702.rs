@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "A variant is strict: it adds what its base lacks.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // it is there already",
+    after: "modify 0x1017 { default = 1000 }",
 };

@@ -10,6 +10,8 @@ pub(crate) const RULE: Rule = Rule {
     why: "A member stands in an object; add the object first.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x2000sub1 { name = \"Order\"; type = u8 }",
+    after: "\
+        add 0x2000 { name = \"Filter\"; code = record }\n\
+        add 0x2000sub1 { name = \"Order\"; type = u8 }",
 };

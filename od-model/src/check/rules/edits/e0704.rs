@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "Only a RECORD or an ARRAY has sub-indices.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x1017sub1 { name = \"Second\"; type = u16 }   // 1017h is a VAR",
+    after: "add 0x2000 { name = \"Second\"; type = u16 }",
 };

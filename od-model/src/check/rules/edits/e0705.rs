@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "The handle is called after the name.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x2000 { type = u16 }",
+    after: "add 0x2000 { name = \"Gain\"; type = u16 }",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "A handle has a Rust type.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x2000 { name = \"Gain\" }",
+    after: "add 0x2000 { name = \"Gain\"; type = u16 }",
 };

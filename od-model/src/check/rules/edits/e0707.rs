@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "A default or a limit is a value of the entry's type.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
+    after: "add 0x2000 { name = \"Gain\"; type = u8; default = 200 }",
 };

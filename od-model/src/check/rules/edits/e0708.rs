@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "An edit that changes the type says the values anew where they do not fit.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "modify 0x1000 { type = u8 }          // its default does not fit",
+    after: "modify 0x1000 { type = u8; default = 0 }",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "The code belongs to the object.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "modify 0x1018sub1 { code = var }",
+    after: "modify 0x1018 { code = record }",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "Type, access, default and limits belong to the members.",
     source: "odkit, object_dictionary!",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "modify 0x1018 { default = 5 }        // a RECORD has no value",
+    after: "modify 0x1018sub1 { default = 5 }",
 };

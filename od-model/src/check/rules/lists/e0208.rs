@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "The section of the object itself says its code and name. The members are kept in an object without a name.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [1018sub3]\n\
+        DataType=0x0007",
+    after: "\
+        [2000]\n\
+        ParameterName=Filter\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
 };

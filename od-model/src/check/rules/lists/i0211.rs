@@ -10,6 +10,8 @@ pub(crate) const RULE: Rule = Rule {
     why: "It is kept, and nothing reads it. Tools put their own notes into sections; a slip in the name of an object hides the object.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "[Sub1018]\nParameterName=Vendor-ID\n",
-    after: "[1018sub1]\nParameterName=Vendor-ID\n",
+    before: "\
+        [Sub1018]\n\
+        ParameterName=Vendor-ID",
+    after: "; [Sub1018] is no section of CiA 306",
 };

@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "Four hexadecimal digits, and behind `sub` as many as it takes. Other ways are read the same; many readers do not see the object.",
     source: "CiA 306-1, object sections",
     mending: Mending::Safe,
-    before: "[0x1018 sub 02]\n",
-    after: "[1018sub2]\n",
+    before: "\
+        [0x2000]\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
 };

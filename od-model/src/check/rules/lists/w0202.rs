@@ -10,6 +10,11 @@ pub(crate) const RULE: Rule = Rule {
     why: "A reader that follows the lists does not see the object. It is taken to exist.",
     source: "CiA 306-1, object lists",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=0",
+    after: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=1\n\
+        1=0x2000",
 };

@@ -10,6 +10,23 @@ pub(crate) const RULE: Rule = Rule {
     why: "A reader that follows the lists sees no objects. Every section is taken for an object.",
     source: "CiA 306-1, object lists",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [DummyUsage]\n\
+        Dummy0007=0",
+    after: "\
+        [DummyUsage]\n\
+        Dummy0007=0\n\
+        \n\
+        [MandatoryObjects]\n\
+        SupportedObjects=3\n\
+        1=0x1000\n\
+        2=0x1001\n\
+        3=0x1018\n\
+        \n\
+        [OptionalObjects]\n\
+        SupportedObjects=1\n\
+        1=0x1017\n\
+        \n\
+        [ManufacturerObjects]\n\
+        SupportedObjects=0",
 };

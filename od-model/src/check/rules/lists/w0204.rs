@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, object lists",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=3\n\
+        1=0x2000",
+    after: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=1\n\
+        1=0x2000",
 };

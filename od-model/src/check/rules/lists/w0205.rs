@@ -10,6 +10,11 @@ pub(crate) const RULE: Rule = Rule {
     why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
     source: "CiA 306-1, object lists",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        2=none",
+    after: "\
+        [ManufacturerObjects]\n\
+        1=0x2000",
 };

@@ -10,6 +10,10 @@ pub(crate) const RULE: Rule = Rule {
     why: "It looks like a slip. The section is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
     mending: Mending::Unsafe,
-    before: "[OptionalObject]\n",
-    after: "[OptionalObjects]\n",
+    before: "\
+        [DummyUsages]\n\
+        Dummy0001=0",
+    after: "\
+        [DummyUsage]\n\
+        Dummy0001=0",
 };

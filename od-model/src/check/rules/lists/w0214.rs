@@ -9,7 +9,13 @@ pub(crate) const RULE: Rule = Rule {
     title: "number of a list stands twice",
     why: "Readers that ask for each number miss one of the two. Both entries are read.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
-    before: "1=0x2000\n1=0x2001\n",
-    after: "1=0x2000\n2=0x2001\n",
+    mending: Mending::Safe,
+    before: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        1=0x2001",
+    after: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        2=0x2001",
 };

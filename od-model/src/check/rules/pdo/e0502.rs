@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "PDOMapping=0 forbids it.",
     source: "CiA 301, PDO mapping parameter",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0007\n\
+        DefaultValue=0\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0007\n\
+        DefaultValue=0\n\
+        PDOMapping=1",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "A TPDO carries what can be read (ro, rw, rwr, const), an RPDO what can be written (wo, rw, rww).",
     source: "CiA 306-1, AccessType",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2001]\n\
+        DataType=0x0007\n\
+        AccessType=ro\n\
+        DefaultValue=0",
+    after: "\
+        [2001]\n\
+        DataType=0x0007\n\
+        AccessType=rww\n\
+        DefaultValue=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "A CAN frame carries eight bytes.",
     source: "CiA 301, PDO mapping parameter",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [1A00sub0]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=3\n\
+        PDOMapping=0",
+    after: "\
+        [1A00sub0]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=2\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "Dummies fill gaps in what is received; there is nothing to send.",
     source: "CiA 301, dummy mapping",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [1A00sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x00050008\n\
+        PDOMapping=0",
+    after: "\
+        [1A00sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x20000020\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,18 @@ pub(crate) const RULE: Rule = Rule {
     why: "A mapping entry is index, sub-index and length in one UNSIGNED32.",
     source: "CiA 301, PDO mapping parameter",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [1A00sub1]\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=rw\n\
+        DefaultValue=0x2000\n\
+        PDOMapping=0",
+    after: "\
+        [1A00sub1]\n\
+        ObjectType=0x7\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x20000020\n\
+        PDOMapping=0",
 };

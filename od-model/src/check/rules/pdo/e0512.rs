@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "The PDO cannot be made.",
     source: "CiA 301, PDO mapping parameter",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [1A00sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x20000120\n\
+        PDOMapping=0",
+    after: "\
+        [1A00sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x20000020\n\
+        PDOMapping=0",
 };

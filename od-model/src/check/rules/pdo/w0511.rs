@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "0–240 and 252–255 have a meaning, for an RPDO 0–240, 254 and 255.",
     source: "CiA 301, PDO communication parameter",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [1800sub2]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=245\n\
+        PDOMapping=0",
+    after: "\
+        [1800sub2]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=255\n\
+        PDOMapping=0",
 };

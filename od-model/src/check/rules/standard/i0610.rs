@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
     source: "CiA 306-1, FileInfo",
     mending: Mending::None,
-    before: "CreationDate=2026-07-14\nCreationTime=14:30\n",
-    after: "CreationDate=07-14-2026\nCreationTime=02:30PM\n",
+    before: "\
+        [FileInfo]\n\
+        CreationTime=09:30AM\n\
+        CreationDate=21.11.2026",
+    after: "\
+        [FileInfo]\n\
+        CreationTime=09:30AM\n\
+        CreationDate=11-21-2026",
 };

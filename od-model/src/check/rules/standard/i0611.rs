@@ -10,6 +10,10 @@ pub(crate) const RULE: Rule = Rule {
     why: "The standard writes `DeviceComissioning`. Both are read; many readers know only one.",
     source: "CiA 306-1, DCF",
     mending: Mending::Safe,
-    before: "[DeviceCommissioning]\n",
-    after: "[DeviceComissioning]\n",
+    before: "\
+        [DeviceCommissioning]\n\
+        NodeID=5",
+    after: "\
+        [DeviceComissioning]\n\
+        NodeID=5",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
     source: "CiA 306-1, DeviceInfo",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [DeviceInfo]\n\
+        NrOfRxPDO=0\n\
+        NrOfTxPDO=4\n\
+        LSS_Supported=0",
+    after: "\
+        [DeviceInfo]\n\
+        NrOfRxPDO=0\n\
+        NrOfTxPDO=1\n\
+        LSS_Supported=0",
 };

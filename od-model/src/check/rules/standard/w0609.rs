@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "Flags are 0 or 1, numbers are numbers within their range. It is kept as text, and counts as missing.",
     source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
     mending: Mending::None,
-    before: "Granularity=eight\n",
-    after: "Granularity=8\n",
+    before: "\
+        [DeviceInfo]\n\
+        SimpleBootUpSlave=0\n\
+        Granularity=eight\n\
+        NrOfRxPDO=0",
+    after: "\
+        [DeviceInfo]\n\
+        SimpleBootUpSlave=0\n\
+        Granularity=8\n\
+        NrOfRxPDO=0",
 };

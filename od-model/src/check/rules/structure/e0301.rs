@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "The object code says what kind of object it is. It is guessed from what the object has.",
     source: "CiA 301, object codes",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x70\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
 };

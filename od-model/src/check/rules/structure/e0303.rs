@@ -10,6 +10,15 @@ pub(crate) const RULE: Rule = Rule {
     why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts, with what only the other says.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=rw\n\
+        DefaultValue=500\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "Unit=mm\n",
-    after: ";Unit=mm\n",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        Unit=mm\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ; Unit=mm\n\
+        PDOMapping=0",
 };

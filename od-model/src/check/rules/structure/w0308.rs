@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
     source: "CiA 306-1, object sections",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=2",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "CompactSubObj is the number of members besides sub-index 0. What cannot be a sub-index is left out.",
     source: "CiA 306-1, CompactSubObj",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        PDOMapping=0\n\
+        CompactSubObj=300",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        PDOMapping=0\n\
+        CompactSubObj=3",
 };

@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "The entry is left out.",
     source: "CiA 306-1, CompactSubObj",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000Name]\n\
+        NrOfEntries=1\n\
+        4=Last",
+    after: "\
+        [2000Name]\n\
+        NrOfEntries=1\n\
+        3=Last",
 };

@@ -10,6 +10,13 @@ pub(crate) const RULE: Rule = Rule {
     why: "Every object and every member has a name.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
 };

@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "SubNumber is the number of sub-index sections. They are counted instead.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=three",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
 };

@@ -10,6 +10,11 @@ pub(crate) const RULE: Rule = Rule {
     why: "An object with members says how many. They are counted instead.",
     source: "CiA 306-1, object sections",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x9",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
 };

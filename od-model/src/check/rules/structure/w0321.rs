@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, CompactSubObj",
     mending: Mending::Safe,
-    before: "[2000Value]\nNrOfEntries=1\n1=7\n3=9\n",
-    after: "[2000Value]\nNrOfEntries=2\n1=7\n3=9\n",
+    before: "\
+        [2000Value]\n\
+        NrOfEntries=1\n\
+        1=7",
+    after: "\
+        [2000Value]\n\
+        NrOfEntries=2\n\
+        1=7",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
     source: "CiA 306-1, object sections",
     mending: Mending::Unsafe,
-    before: "[2000sub1]\nObjectType=0x9\n",
-    after: "[2000sub1]\nObjectType=0x7\n",
+    before: "\
+        [2000sub1]\n\
+        ParameterName=Order\n\
+        ObjectType=0x9\n\
+        DataType=0x0005",
+    after: "\
+        [2000sub1]\n\
+        ParameterName=Order\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
 };

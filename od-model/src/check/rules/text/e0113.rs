@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "Nothing can be read of such a file.",
     source: "XML 1.0",
     mending: Mending::None,
-    before: "<CANopenObject index=\"1000\" name=Device type/>\n",
-    after: "<CANopenObject index=\"1000\" name=\"Device type\"/>\n",
+    before: "<CANopenObject index=\"1000\" name=Device type objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
+    after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "An index is four, a sub-index two hexadecimal digits without `0x`. The element is left out.",
     source: "CiA 311, CANopenObject",
     mending: Mending::None,
-    before: "<CANopenObject index=\"10G0\" name=\"Device type\"/>\n",
-    after: "<CANopenObject index=\"1000\" name=\"Device type\"/>\n",
+    before: "<CANopenObject index=\"10G0\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
+    after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
 };

@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "Type, access and default of the object are said of the parameter. What the object says itself is read.",
     source: "CiA 311, CANopenObject",
     mending: Mending::None,
-    before: "<CANopenObject index=\"1000\" uniqueIDRef=\"gone\"/>\n",
-    after: "<CANopenObject index=\"1000\" uniqueIDRef=\"UID_OBJ_1000\"/>\n",
+    before: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" uniqueIDRef=\"UID_PARAM_gone\"/>",
+    after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
 };

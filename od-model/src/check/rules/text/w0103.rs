@@ -10,6 +10,12 @@ pub(crate) const RULE: Rule = Rule {
     why: "Most readers stop at such a line. The header is taken to end with its line.",
     source: "CiA 306-1, file format",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
 };

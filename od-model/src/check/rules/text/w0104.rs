@@ -10,6 +10,13 @@ pub(crate) const RULE: Rule = Rule {
     why: "Most readers stop at such a line. The text is ignored.",
     source: "CiA 306-1, file format",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000] ; the gain\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ; the gain\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
 };

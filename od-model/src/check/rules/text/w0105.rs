@@ -10,6 +10,6 @@ pub(crate) const RULE: Rule = Rule {
     why: "A key belongs to a section. It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "",
+    before: "Revision=3",
     after: "",
 };

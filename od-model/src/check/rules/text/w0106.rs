@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "Readers differ in which one they take. The first counts; both are kept.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [Comments]\n\
+        Line1=A case\n\
+        \n\
+        [Comments]\n\
+        Line2=of comments",
+    after: "\
+        [Comments]\n\
+        Line1=A case\n\
+        Line2=of comments",
 };

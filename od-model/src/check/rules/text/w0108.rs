@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "Only some readers know it. It is read as `=`.",
     source: "CiA 306-1, file format",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue:5\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,10 @@ pub(crate) const RULE: Rule = Rule {
     why: "No reader can ask for such a section. It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        []\n\
+        Lines=1",
+    after: "\
+        [Comments]\n\
+        Lines=1",
 };

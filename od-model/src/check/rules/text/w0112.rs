@@ -10,6 +10,10 @@ pub(crate) const RULE: Rule = Rule {
     why: "Two encodings in one file, or a file that was cut. In UTF-8 the byte is read as Windows-1252, in UTF-16 as U+FFFD; a file that is written back keeps it.",
     source: "CiA 306-1, file format",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [FileInfo]\n\
+        Description=A case for 5 µm",
+    after: "\
+        [FileInfo]\n\
+        Description=A case for 5 um",
 };

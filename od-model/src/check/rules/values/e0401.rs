@@ -10,6 +10,13 @@ pub(crate) const RULE: Rule = Rule {
     why: "Nothing is known of a value without a type. It is left out of the dictionary.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        AccessType=rw",
+    after: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005\n\
+        AccessType=rw",
 };

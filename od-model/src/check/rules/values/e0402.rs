@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "DataType is the index of one of CiA 301's types. The value is left out of the dictionary.",
     source: "CiA 301, data types",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0099\n\
+        AccessType=rw",
+    after: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005\n\
+        AccessType=rw",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
     source: "CiA 306-1, object sections",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=any\n\
+        DefaultValue=5",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "A device refuses to be set to what its own default is.",
     source: "CiA 306-1, LowLimit and HighLimit",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ParameterValue=11\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ParameterValue=7\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "The sum with the highest node ID, 127, must fit.",
     source: "CiA 306-1, $NODEID",
     mending: Mending::None,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0xF0\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0x80\n\
+        PDOMapping=0",
 };

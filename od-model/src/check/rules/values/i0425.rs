@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "The object of that index says in sub-index 1 which basic type it stands for. That type is taken, with its limits; most readers know no such types.",
     source: "CanFestival, object dictionary editor",
     mending: Mending::None,
-    before: "[A0sub1]\nDefaultValue=0x2\n[2000]\nDataType=0x00A0\n",
-    after: "[2000]\nDataType=0x0002\n",
+    before: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x00A0\n\
+        AccessType=rw",
+    after: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005\n\
+        AccessType=rw",
 };

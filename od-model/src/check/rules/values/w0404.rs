@@ -10,6 +10,13 @@ pub(crate) const RULE: Rule = Rule {
     why: "Every value says who may write it. `ro` is taken.",
     source: "CiA 306-1, object sections",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5",
 };

@@ -10,6 +10,14 @@ pub(crate) const RULE: Rule = Rule {
     why: "0 is taken.",
     source: "CiA 306-1, object sections",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        PDOMapping=maybe",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "0 is taken.",
     source: "CiA 306-1, ObjFlags",
     mending: Mending::Unsafe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ObjFlags=none\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ObjFlags=0\n\
+        PDOMapping=0",
 };

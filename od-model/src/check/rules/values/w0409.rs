@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
     source: "CiA 306-1, numbers",
     mending: Mending::Safe,
-    before: "",
-    after: "",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=08\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=8\n\
+        PDOMapping=0",
 };

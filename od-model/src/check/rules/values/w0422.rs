@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. They are read so; many readers refuse them.",
     source: "CiA 306-1, numbers",
     mending: Mending::Safe,
-    before: "HighLimit=1Fh\n",
-    after: "HighLimit=0x1F\n",
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=1Fh\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=0x1F\n\
+        PDOMapping=0",
 };

@@ -10,6 +10,16 @@ pub(crate) const RULE: Rule = Rule {
     why: "It is read as a decimal point; many readers refuse it.",
     source: "CiA 306-1, numbers",
     mending: Mending::Safe,
-    before: "DefaultValue=1,5\n",
-    after: "DefaultValue=1.5\n",
+    before: "\
+        [2000]\n\
+        DataType=0x0008\n\
+        AccessType=rw\n\
+        DefaultValue=1,5\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0008\n\
+        AccessType=rw\n\
+        DefaultValue=1.5\n\
+        PDOMapping=0",
 };

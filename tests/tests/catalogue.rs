@@ -1,0 +1,232 @@
+//! Every rule has a pair of files: one that breaks it, and the same one mended.
+//!
+//! `cases/rules/CODE/bad.eds` gets the finding, `mended.eds` gets none at all; for rules about
+//! XDD they end in `.xdd`. The lines that
+//! `odkit explain CODE` shows are lines of the two. Rules about edits of a macro call have their
+//! cases in `ui`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use od_model::check::{Mending, RULES, Rule};
+use od_model::eds::Document;
+use od_model::fix::{Applicability, mend};
+use od_model::{Description, Diagnostic};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rules")
+}
+
+/// `bad` or `mended`, an EDS or an XDD.
+fn file(rule: &Rule, name: &str) -> Document {
+    let path = folder().join(rule.code).join(name);
+    let found = ["eds", "xdd"]
+        .iter()
+        .find_map(|kind| fs::read(path.with_extension(kind)).ok());
+    Document::new(found.unwrap_or_else(|| panic!("there is no {}", path.display())))
+}
+
+fn of_files() -> impl Iterator<Item = &'static Rule> {
+    RULES.iter().filter(|rule| !rule.code.starts_with("E07"))
+}
+
+#[track_caller]
+fn all(faults: &[String]) {
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_rule_has_a_pair() {
+    let mut faults = Vec::new();
+    for rule in of_files() {
+        let bad = file(rule, "bad").load().diagnostics;
+        if !bad.iter().any(|finding| finding.code == rule.code) {
+            let codes: Vec<_> = bad.iter().map(|finding| finding.code).collect();
+            faults.push(format!("{}: bad has only {codes:?}", rule.code));
+        }
+        for left in file(rule, "mended").load().diagnostics {
+            let (code, line) = (left.code, left.span.map_or(0, |span| span.line));
+            faults.push(format!(
+                "{}: mended:{line} has {code}: {}",
+                rule.code, left.message
+            ));
+        }
+    }
+    all(&faults);
+}
+
+#[test]
+fn no_pair_is_left_over() {
+    let known: BTreeSet<_> = of_files().map(|rule| rule.code.to_owned()).collect();
+    let found: BTreeSet<_> = fs::read_dir(folder())
+        .expect("the folder of pairs")
+        .map(|entry| entry.expect("a folder").file_name().display().to_string())
+        .collect();
+    assert_eq!(known, found);
+}
+
+/// What is explained is what is tested.
+#[test]
+fn examples_are_lines_of_the_pairs() {
+    let mut faults = Vec::new();
+    for rule in of_files() {
+        for (name, example) in [("bad", rule.before), ("mended", rule.after)] {
+            let document = file(rule, name);
+            let mut lines = document.text().lines().map(str::trim);
+            for wanted in example
+                .lines()
+                .map(str::trim)
+                .filter(|line| !line.is_empty())
+            {
+                if !lines.any(|line| line == wanted) {
+                    faults.push(format!("{}: {name} has no line {wanted:?}", rule.code));
+                    break;
+                }
+            }
+        }
+        if rule.before == rule.after {
+            faults.push(format!("{}: no example", rule.code));
+        }
+    }
+    all(&faults);
+}
+
+#[test]
+fn rules_about_edits_are_shown_by_rustc() {
+    let ui = folder().join("../../ui");
+    let mut told = String::new();
+    for entry in fs::read_dir(ui).expect("the compile-fail cases") {
+        let path = entry.expect("a file").path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "stderr")
+        {
+            told.push_str(&fs::read_to_string(path).expect("readable"));
+        }
+    }
+    for rule in RULES.iter().filter(|rule| rule.code.starts_with("E07")) {
+        assert!(told.contains(rule.code), "no case of {}", rule.code);
+        assert!(
+            !rule.before.is_empty() && rule.before != rule.after,
+            "{}",
+            rule.code
+        );
+    }
+}
+
+fn find(document: &Document) -> Vec<Diagnostic> {
+    document.load().diagnostics
+}
+
+/// A rule says what can be done about its findings, and that is what can be done.
+#[test]
+fn fixes_do_what_they_say() {
+    let mut faults = Vec::new();
+    for rule in of_files() {
+        let bad = file(rule, "bad");
+        let findings = find(&bad);
+        let own = findings.iter().filter(|finding| finding.code == rule.code);
+        let levels: BTreeSet<_> = own
+            .filter_map(|finding| finding.fix.as_ref())
+            .map(|fix| fix.applicability)
+            .collect();
+        let expected = match rule.mending {
+            Mending::None => levels.is_empty(),
+            Mending::Safe => levels == BTreeSet::from([Applicability::Safe]),
+            Mending::Unsafe => levels == BTreeSet::from([Applicability::Unsafe]),
+            Mending::Either => !levels.is_empty(),
+        };
+        if !expected {
+            faults.push(format!("{}: {:?}, but {levels:?}", rule.code, rule.mending));
+        }
+        let Some(level) = levels.last() else { continue };
+        let mended = mend(&bad, *level, find);
+        if mended
+            .findings
+            .iter()
+            .any(|finding| finding.code == rule.code)
+        {
+            faults.push(format!("{}: it stays", rule.code));
+        }
+        if mend(&mended.document, *level, find).edits > 0 {
+            faults.push(format!("{}: there is more to mend", rule.code));
+        }
+    }
+    all(&faults);
+}
+
+/// Safe fixes change no object, and no fix is of another mind the second time.
+#[test]
+fn fixes_keep_what_was_read() {
+    let mut files = Vec::new();
+    collect(&folder().join(".."), &mut files);
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
+    let corpus = std::env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
+    match corpus.is_dir() {
+        true => collect(&corpus, &mut files),
+        false => println!("no corpus: set ODKIT_CORPUS to a folder of EDS files"),
+    }
+    assert!(files.len() >= 150);
+    for path in files {
+        let name = path.display();
+        // Without optimisation the large ones take minutes, and show nothing that others do not.
+        let large = fs::metadata(&path).is_ok_and(|meta| meta.len() > 40_000);
+        if cfg!(debug_assertions) && large {
+            continue;
+        }
+        let document = Document::new(fs::read(&path).expect("readable"));
+        let safe = mend(&document, Applicability::Safe, find);
+        let (before, after) = (document.parse(), safe.document.parse());
+        same_values(&before.description, &after.description, &path);
+        let guessed = mend(&document, Applicability::Unsafe, find);
+        for (mended, level) in [
+            (&safe, Applicability::Safe),
+            (&guessed, Applicability::Unsafe),
+        ] {
+            let again = mend(&mended.document, level, find);
+            assert_eq!(
+                again.document.bytes(),
+                mended.document.bytes(),
+                "{name}: {level:?}"
+            );
+            let errors = |all: &[Diagnostic]| all.iter().filter(|d| d.is_error()).count();
+            assert!(
+                errors(&mended.findings) <= errors(&find(&document)),
+                "{name}: {level:?}"
+            );
+            assert_eq!(mended.document.encoding(), document.encoding(), "{name}");
+        }
+        if safe.edits == 0 {
+            assert_eq!(safe.document.bytes(), document.bytes(), "{name}");
+        }
+    }
+}
+
+#[track_caller]
+fn same_values(before: &Description, after: &Description, path: &Path) {
+    let before: Vec<_> = before.entries().collect();
+    let after: Vec<_> = after.entries().collect();
+    assert_eq!(before.len(), after.len(), "{}", path.display());
+    for (before, after) in before.iter().zip(&after) {
+        assert_eq!(before, after, "{}", path.display());
+    }
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    let mut entries: Vec<_> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    entries.sort();
+    for path in entries {
+        let extension = path.extension().unwrap_or_default();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if extension.eq_ignore_ascii_case("eds") || extension.eq_ignore_ascii_case("dcf") {
+            files.push(path);
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! A configured value outside its limits.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "eds/value_above_limit.eds";
+    }
+}
+
+fn main() {}
