@@ -152,6 +152,19 @@ impl Bus {
             .unwrap_or_default()
     }
 
+    /// The objects in a packed PDO by the mapping that stands, three numbers each:
+    /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
+    pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
+        packed::frame(frame)
+            .and_then(|frame| words::layout(self.bus.devices(), &frame))
+            .unwrap_or_default()
+            .into_iter()
+            .flat_map(|(at, first, bits)| {
+                [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
+            })
+            .collect()
+    }
+
     /// The object dictionary of a device, one row for each value.
     #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
     pub fn dictionary(&self, device: usize) -> Vec<JsValue> {

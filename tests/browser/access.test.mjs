@@ -55,7 +55,7 @@ test('the keyboard reaches every control, in a sensible order', async () => {
   const { page, close } = await open(browser, {});
   await booted(page);
   const names = [];
-  for (let i = 0; i < 40; i++) {
+  for (let i = 0; i < 80; i++) {
     await page.keyboard.press('Tab');
     const name = await page.evaluate(() => {
       const { activeElement: it } = document;

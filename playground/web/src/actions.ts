@@ -1,9 +1,12 @@
 // Everything a person can do, in one place.
 
 import type { Input, Source } from './sim/api';
-import { candumpLine, type Typed } from './can/text';
+import type { Typed } from './can/text';
+import type { Format } from './logs/write';
+import type { Frame } from './sim/packed';
 import { act, add, restore, select, send } from './sim/link';
 import * as state from './state';
+import { T } from './texts';
 
 export function sendFrame(frame: Typed): void {
   const data = frame.remote ? new Uint8Array(frame.dlc) : frame.data;
@@ -71,24 +74,54 @@ export function clearConsole(): void {
   state.cleared.value += 1;
 }
 
-/** Saves the capture as a log that candump, SavvyCAN and Wireshark read. */
-export function saveLog(): void {
+/** Saves the capture as other tools read it. */
+export async function saveLog(format: Format): Promise<void> {
   const { ring } = state;
-  const lines: string[] = [];
-  for (let number = ring.first; number < ring.end; number++) {
-    const frame = ring.get(number);
-    if (frame) lines.push(candumpLine(frame));
-  }
-  if (lines.length === 0) {
-    state.toast.value = { text: 'There is no frame to save yet.', tone: 'info' };
+  const frames: Frame[] = [];
+  for (let number = ring.first; number < ring.end; number++) frames.push(ring.get(number)!);
+  if (frames.length === 0) {
+    state.toast.value = { text: T.frames.noFrames, tone: 'info' };
     return;
   }
-  const url = URL.createObjectURL(new Blob([`${lines.join('\n')}\n`], { type: 'text/plain' }));
+  const { write } = await import('./logs/write');
+  download(write(format, frames), `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
+}
+
+/** Hands a file to the person. */
+export function download(content: string | Uint8Array<ArrayBuffer>, name: string): void {
+  const url = URL.createObjectURL(new Blob([content], { type: typeof content === 'string' ? 'text/plain' : 'application/octet-stream' }));
   const link = document.createElement('a');
   link.href = url;
-  link.download = `odkit-${state.device.value?.name ?? 'capture'}.log`;
+  link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
+}
+
+/** Frames of a log that was opened last. */
+let opened: Uint8Array | null = null;
+
+/** Shows a log of another tool in the console; time stands still, so that nothing mixes with it. */
+export async function openLog(name: string, bytes: Uint8Array): Promise<void> {
+  const { read } = await import('./logs/read');
+  try {
+    const log = read(bytes);
+    setRunning(false);
+    clearConsole();
+    state.ring.append(log.frames);
+    state.captured.value = state.ring.end;
+    opened = log.frames;
+    const skipped = log.firstSkipped ? ` ${T.frames.skipped(log.skipped, log.firstSkipped.line, log.firstSkipped.why)}` : '';
+    state.toast.value = { text: T.frames.opened(name, log.count) + skipped, tone: log.skipped ? 'error' : 'info', action: { text: T.frames.replay, run: replayLog } };
+  } catch (error) {
+    state.toast.value = { text: T.frames.unreadable(name, error instanceof Error ? error.message : String(error)), tone: 'error' };
+  }
+}
+
+/** Sends the frames of the opened log, in their rhythm. */
+export function replayLog(): void {
+  if (!opened) return;
+  send({ op: 'replay', frames: opened, speed: 1 });
+  setRunning(true);
 }
 
 /** Puts a device on the bus, in the place of another or in a new one; false when its file cannot be used. */

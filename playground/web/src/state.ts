@@ -31,6 +31,8 @@ export const rate = signal(0);
 
 /** A run is made again and is not there yet. */
 export const replaying = signal(false);
+/** Frames of a log that are still to be sent. */
+export const toSend = signal(0);
 
 export const powered = computed(() => status.value?.powered ?? false);
 export const nmt = computed(() => status.value?.nmt ?? 'off');
@@ -58,6 +60,9 @@ export const pausedAt = signal<number | null>(null);
 /** Counts how often the capture was cleared. */
 export const cleared = signal(0);
 
+/** Numbers of frames that somebody marked. */
+export const bookmarks = signal<ReadonlySet<number>>(new Set());
+
 /** Number of the frame that is shown in full. */
 export const chosenFrame = signal<number | null>(null);
 /** A frame that goes to the send line. */
@@ -71,7 +76,7 @@ export type Tab = 'encoder' | 'console' | 'objects';
 export const tab = signal<Tab>('encoder');
 
 /** A message that goes away by itself. */
-export const toast = signal<{ text: string; tone: 'info' | 'error' } | null>(null);
+export const toast = signal<{ text: string; tone: 'info' | 'error'; action?: { text: string; run(): void } } | null>(null);
 
 /** Which place on the bus the dialog fills; null while it is closed. */
 export const deviceDialog = signal<number | 'new' | null>(null);

@@ -17,6 +17,7 @@ use od_model::Address;
 use od_runtime::Frame;
 
 pub use emcy::code_text;
+pub use pdo::layout;
 
 use super::VirtualDevice;
 

@@ -3,6 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_model::Address;
 use od_runtime::wire::pdo::MapRepr;
 use od_runtime::{CobId, Frame};
 
@@ -14,6 +15,29 @@ const MOST: u16 = 0x1FF;
 
 /// A frame whose identifier a PDO of one of the devices has.
 pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
+    let (device, service, number, mapping) = find(devices, frame)?;
+    Some(words(device, service, number, mapping, frame))
+}
+
+/// The objects in the data of a PDO by the mapping that stands: each with its first bit and its
+/// number of bits. `None` for a frame that no PDO of these devices has.
+pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
+    let (device, _, _, mapping) = find(devices, frame)?;
+    let mut first = 0;
+    let mut parts = Vec::new();
+    for sub in 1..=device.stored(mapping, 0).unwrap_or(0).min(64) as u8 {
+        let entry = MapRepr::parse(device.stored(mapping, sub).unwrap_or(0) as u32);
+        parts.push((entry.address, first, u32::from(entry.bits)));
+        first += u32::from(entry.bits);
+    }
+    Some(parts)
+}
+
+/// The device whose PDO it is, its direction, its number from 0, and its mapping object.
+fn find<'d>(
+    devices: &'d [VirtualDevice],
+    frame: &Frame,
+) -> Option<(&'d VirtualDevice, Service, u16, u16)> {
     for device in devices {
         for (parameter, mapping, service) in [
             (0x1800, 0x1A00, Service::Tpdo),
@@ -26,7 +50,7 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
                 let cob_id = device.stored(index, 1).map(|raw| CobId::new(raw as u32));
                 if cob_id.is_some_and(|id| id.is_valid() && id.can_id() == frame.id()) {
                     let number = index - parameter;
-                    return Some(words(device, service, number, mapping + number, frame));
+                    return Some((device, service, number, mapping + number));
                 }
             }
         }

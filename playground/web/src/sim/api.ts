@@ -164,6 +164,8 @@ export type Command =
   | { op: 'plot'; addresses: Address[] }
   | { op: 'look'; eeprom: boolean }
   | { op: 'describe'; ticket: number; frames: Uint8Array }
+  | { op: 'layout'; ticket: number; frame: Uint8Array }
+  | { op: 'replay'; frames: Uint8Array; speed: number }
   | { op: 'drawn' };
 
 /** What came of an input that puts a device on the bus. */
@@ -181,6 +183,7 @@ export type Report =
   | { op: 'rewound'; to: number }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }
+  | { op: 'laid'; ticket: number; layout: Uint32Array }
   | { op: 'crashed'; message: string };
 
 /** The state of everything at one virtual moment. */
@@ -189,6 +192,8 @@ export interface Snapshot {
   running: boolean;
   /** It makes a run again and is not there yet. */
   replaying: boolean;
+  /** Frames of a log that are still to be sent. */
+  toSend: number;
   /** Virtual seconds per second, as measured. */
   rate: number;
   nodes: Status[];

@@ -3,6 +3,7 @@
 
 import { CHAIN, type Address, type Command, type Report, type Snapshot, type Value } from './api';
 import { FRAME_BYTES } from './packed';
+import { Replay } from './replay';
 import type { World } from './world';
 
 /** Longest time a slice may compute, in milliseconds. */
@@ -41,6 +42,7 @@ export class Engine {
   /** A run that is made again goes at full speed to this moment. */
   private until: number | null = null;
   private isBusy = false;
+  private replay: Replay | null = null;
 
   constructor(
     private readonly world: World,
@@ -104,6 +106,12 @@ export class Engine {
       case 'describe':
         this.report({ op: 'described', ticket: command.ticket, words: this.describe(command.frames) });
         return;
+      case 'layout':
+        this.report({ op: 'laid', ticket: command.ticket, layout: world.bus.layout(command.frame) });
+        return;
+      case 'replay':
+        this.replay = new Replay(command.frames, world.bus.now(), command.speed);
+        break;
       case 'drawn':
         this.undrawn = Math.max(0, this.undrawn - 1);
         return;
@@ -156,11 +164,20 @@ export class Engine {
     const known = world.devices.length;
     while (left > 0 && world.bus.pending() < MOST_FRAMES && performance.now() - wall < BUDGET) {
       const before = world.done;
-      const passed = world.advance(Math.min(left, SLICE), 256);
-      if (passed <= 0 && world.done === before) break;
+      const due = this.replay?.due ?? Infinity;
+      const passed = world.advance(Math.max(0, Math.min(left, SLICE, due - world.bus.now())), 256);
       left -= passed;
+      if (this.replay && world.bus.now() >= due) this.sendNext(this.replay);
+      else if (passed <= 0 && world.done === before) break;
     }
     if (world.devices.length !== known) this.tellDevices();
+  }
+
+  /** The next frame of a log; what it answers is the bench's business. */
+  private sendNext(replay: Replay): void {
+    const input = replay.next();
+    if (input) void this.world.act(input);
+    else this.replay = null;
   }
 
   private measure(wall: number): void {
@@ -214,6 +231,7 @@ export class Engine {
           now: bus.now(),
           running: this.running,
           replaying: this.until !== null,
+          toSend: this.replay?.left ?? 0,
           rate: this.running ? this.rate : 0,
           nodes,
           line: bus.line(),

@@ -15,6 +15,7 @@ let worker: Worker | null = null;
 let crashes = 0;
 let ticket = 0;
 const tickets = new Map<number, (words: string[]) => void>();
+const layouts = new Map<number, (layout: Uint32Array) => void>();
 const additions = new Map<number, (added: Added) => void>();
 /** Who wants to see the frames as they come. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
@@ -66,6 +67,15 @@ export function describe(frames: Uint8Array): Promise<string[]> {
   });
 }
 
+/** The objects in a packed PDO: `index * 256 + sub`, first bit, number of bits, again and again. */
+export function layout(frame: Uint8Array): Promise<Uint32Array> {
+  return new Promise((resolve) => {
+    ticket += 1;
+    layouts.set(ticket, resolve);
+    send({ op: 'layout', ticket, frame });
+  });
+}
+
 /** Calls `listener` with every snapshot, and the number of its first frame. */
 export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {
   listeners.add(listener);
@@ -95,6 +105,10 @@ function receive(report: Report): void {
     case 'described':
       tickets.get(report.ticket)?.(report.words);
       tickets.delete(report.ticket);
+      break;
+    case 'laid':
+      layouts.get(report.ticket)?.(report.layout);
+      layouts.delete(report.ticket);
       break;
     case 'crashed':
       crashed(report.message);
@@ -159,6 +173,7 @@ function apply(snapshot: Snapshot): void {
     state.rate.value = snapshot.rate;
     state.running.value = snapshot.running;
     state.replaying.value = snapshot.replaying;
+    state.toSend.value = snapshot.toSend;
     state.statuses.value = snapshot.nodes;
     state.line.value = snapshot.line;
     state.chain.value = snapshot.chain;
@@ -214,6 +229,7 @@ function crashed(message: string): void {
   worker = null;
   crashes += 1;
   tickets.clear();
+  layouts.clear();
   for (const resolve of additions.values()) resolve({ node: null, diagnostics: [] });
   additions.clear();
   if (crashes > MOST_CRASHES) {

@@ -7,7 +7,8 @@ import { describe } from './link';
 import { T } from '../texts';
 import { FRAME_BYTES, type Frame } from './packed';
 
-const MOST_KEPT = 4000;
+/** As many as frames are kept, while a filter looks at all of them. */
+const MOST_KEPT = 220_000;
 
 const known = new Map<number, string>();
 const asked = new Set<number>();
@@ -28,6 +29,22 @@ export function wordsOf(numbers: number[]): (string | undefined)[] {
     const frame = ring.get(number);
     return frame?.disturbed ? troubleWords(frame) : known.get(number);
   });
+}
+
+/** The words of a frame, where they are known already. */
+export const knownWords = (number: number): string | undefined => {
+  const frame = ring.get(number);
+  return frame?.disturbed ? troubleWords(frame) : known.get(number);
+};
+
+/** Learns the words of all kept frames, newest first; answers whether there was something to learn. */
+export async function learnWords(most: number): Promise<boolean> {
+  const missing: number[] = [];
+  for (let number = ring.end - 1; number >= ring.first && missing.length < most; number--) {
+    if (!known.has(number) && !asked.has(number) && !ring.get(number)?.disturbed) missing.push(number);
+  }
+  if (missing.length > 0) await ask(missing);
+  return missing.length > 0;
 }
 
 /** Forgets everything, when another device changes what the bytes mean. */

@@ -46,7 +46,7 @@ class App extends View {
     });
     effect(() => {
       const { value } = state.toast;
-      if (value) setTimeout(() => state.toast.value === value && (state.toast.value = null), 6000);
+      if (value) setTimeout(() => state.toast.value === value && (state.toast.value = null), value.action ? 20_000 : 6000);
     });
   }
 
@@ -89,6 +89,7 @@ class App extends View {
         ${state.toast.value
           ? html`<div class="toast" data-tone=${state.toast.value.tone}>
               <span>${state.toast.value.text}</span>
+              ${state.toast.value.action ? html`<button class="small" @click=${() => { state.toast.value?.action?.run(); state.toast.value = null; }}>${state.toast.value.action.text}</button>` : nothing}
               <button class="quiet" aria-label="Dismiss" @click=${() => (state.toast.value = null)}>${icons.close}</button>
             </div>`
           : nothing}

@@ -1,12 +1,20 @@
 // An EDS file from the user's disk to the bus.
 
-import { openDevice } from '../actions';
+import { openDevice, openLog } from '../actions';
 import * as state from '../state';
+
+/** What is a log of a bus, by its name. */
+const LOG = /\.(log|asc|trc|pcap|pcapng|candump|dump)$/i;
+const LONGEST_LOG = 100_000_000;
 
 /** Longest file that is worth a try: the largest known EDS files have about 2 MB. */
 const LONGEST = 8_000_000;
 
 export async function openFile(file: File, nodeId: number, place: number | 'new'): Promise<boolean> {
+  if (LOG.test(file.name) && file.size < LONGEST_LOG) {
+    await openLog(file.name, new Uint8Array(await file.arrayBuffer()));
+    return true;
+  }
   if (file.size > LONGEST) {
     state.toast.value = { text: `${file.name} is too large for an EDS file.`, tone: 'error' };
     return false;

@@ -10,6 +10,8 @@ import { pack } from '../sim/packed';
 import { icons } from './icons';
 import { View } from './view';
 import './sdo-form';
+import { addToList } from './send-list';
+import { T } from '../texts';
 
 const MOST_REMEMBERED = 50;
 
@@ -24,11 +26,39 @@ class Send extends View {
           ${NMT_COMMANDS.map(
             ({ code, text, title }) => html`<button class="small" title=${title} aria-label=${`NMT ${text}`} data-active=${isState(code)} @click=${() => nmt(code)}>${text}</button>`,
           )}
+          <span class="spacer"></span>
+          <label class="select bordered templates" title=${T.sendList.templates}><select aria-label=${T.sendList.templates} @change=${(event: Event) => {
+            const select = event.target as HTMLSelectElement;
+            if (select.value) state.draft.value = { text: select.value };
+            select.value = '';
+          }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(([text, frame]) => html`<option value=${frame}>${text}</option>`)}</select></label>
           <button class="small sync" title="Send SYNC (80h)" @click=${() => sendFrame({ id: 0x80, extended: false, remote: false, data: new Uint8Array(0), dlc: 0 })}>SYNC</button>
         </div>
       </div>
+      <od-send-list></od-send-list>
     `;
   }
+}
+
+/** Frames that are hard to keep in mind. */
+function templates(node: number): [string, string][] {
+  const id = (base: number): string => (base + node).toString(16).toUpperCase().padStart(3, '0');
+  return [
+    ['Node guarding: ask for the state', `${id(0x700)}#R1`],
+    ['Ask for PDO1', `${id(0x180)}#R`],
+    ['NMT: stop all nodes', '000#02 00'],
+    ['LSS: all to configuration', '7E5#04 01 00 00 00 00 00 00'],
+    ['LSS: all to waiting', '7E5#04 00 00 00 00 00 00 00'],
+    ['LSS: node ID 5', '7E5#11 05 00 00 00 00 00 00'],
+    ['LSS: bit rate 500 kbit/s', '7E5#13 00 02 00 00 00 00 00'],
+    ['LSS: store', '7E5#17 00 00 00 00 00 00 00'],
+    ['LSS: ask for the node ID', '7E5#5E 00 00 00 00 00 00 00'],
+    ['LSS: ask for the vendor', '7E5#5A 00 00 00 00 00 00 00'],
+    ['LSS: ask for the product', '7E5#5B 00 00 00 00 00 00 00'],
+    ['LSS: ask for the revision', '7E5#5C 00 00 00 00 00 00 00'],
+    ['LSS: ask for the serial number', '7E5#5D 00 00 00 00 00 00 00'],
+    ['LSS: fastscan, is anybody there?', '7E5#51 00 00 00 00 80 00 00'],
+  ];
 }
 
 /** Is the node where this command would bring it? */
@@ -113,6 +143,7 @@ class RawFrame extends View {
         <input id="raw-frame" class="num grow" autocomplete="off" autocapitalize="off" spellcheck="false" enterkeyhint="send"
           placeholder=${`${node}#40 04 60 00 00 00 00 00`} aria-describedby="raw-note" aria-invalid=${error !== ''}
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
+        <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
         <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} Send</button>
         <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`COB-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> asks with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
       </div>

@@ -1,0 +1,227 @@
+// The filter of the console: `node:5 sdo`, `185:7FF`, `position`, `!hb`, `(emcy or err) tx`.
+// Terms side by side all have to hold; `or` and parentheses do what they say.
+
+import type { Frame } from '../sim/packed';
+import { tagOf } from './service';
+import { hexBytes } from './text';
+
+/** Does a frame pass? Without its words, terms that need them let it pass. */
+export type Test = (frame: Frame, words: string | undefined) => boolean;
+
+export interface Filter {
+  test: Test;
+  /** It looks at the words of a frame. */
+  needsWords: boolean;
+}
+
+export type ParsedFilter = { filter: Filter | null } | { error: string; at: number };
+
+interface Token {
+  text: string;
+  at: number;
+}
+
+const SERVICES: Record<string, string[]> = {
+  nmt: ['NMT'], sync: ['SYNC'], time: ['TIME'], emcy: ['EMCY'], pdo: ['PDO'], sdo: ['SDO'], hb: ['HB'], heartbeat: ['HB'],
+  lss: ['LSS'], err: ['ERR'], error: ['ERR'], can: ['CAN'],
+};
+
+const hex = (text: string): number | null => (/^(?:0x)?[0-9a-f]{1,8}h?$/i.test(text) ? Number.parseInt(text.replace(/^0x/i, ''), 16) : null);
+
+/** The node that an identifier of the predefined connection set belongs to. */
+export function nodeOf(id: number, extended: boolean): number | null {
+  if (extended || id === 0 || id === 0x80 || id === 0x100 || id >= 0x7e4) return null;
+  return id & 0x7f || null;
+}
+
+class Failure {
+  constructor(
+    readonly error: string,
+    readonly at: number,
+  ) {}
+}
+
+export function parseFilter(text: string): ParsedFilter {
+  try {
+    const parser = new Parser(tokens(text), text.length);
+    if (parser.isEmpty) return { filter: null };
+    const test = parser.any();
+    parser.end();
+    return { filter: { test, needsWords: parser.needsWords } };
+  } catch (failure) {
+    if (failure instanceof Failure) return { error: failure.error, at: failure.at };
+    throw failure;
+  }
+}
+
+function tokens(text: string): Token[] {
+  // Wireshark's spelling may have blanks around its operators.
+  const list: Token[] = [];
+  const pattern = /\s*([()!|]|-(?=\S)|[^\s()!|"]*"[^"]*("?)|[a-z_]+\.[a-z_]+\s*(?:==|!=)\s*[^\s()|]+|[^\s()|]+)/giy;
+  while (pattern.lastIndex < text.trimEnd().length) {
+    const start = pattern.lastIndex;
+    const match = pattern.exec(text);
+    if (!match?.[1]) throw new Failure('This cannot be read', start);
+    const at = match.index + match[0].length - match[1].length;
+    if (match[1].includes('"') && match[2] === '') throw new Failure('The quotation mark is not closed', at);
+    list.push({ text: match[1], at });
+  }
+  return list;
+}
+
+class Parser {
+  needsWords = false;
+  private place = 0;
+
+  constructor(
+    private readonly list: Token[],
+    private readonly length: number,
+  ) {}
+
+  get isEmpty(): boolean {
+    return this.list.length === 0;
+  }
+
+  private peek(): string | undefined {
+    return this.list[this.place]?.text.toLowerCase();
+  }
+
+  any(): Test {
+    let test = this.all();
+    while (this.peek() === 'or' || this.peek() === '|') {
+      this.place += 1;
+      const left = test;
+      const right = this.all();
+      test = (frame, words) => left(frame, words) || right(frame, words);
+    }
+    return test;
+  }
+
+  private all(): Test {
+    const tests: Test[] = [];
+    for (let next = this.peek(); next !== undefined && next !== 'or' && next !== '|' && next !== ')'; next = this.peek()) {
+      if (next === 'and') this.place += 1;
+      tests.push(this.one());
+    }
+    if (tests.length === 0) throw new Failure('Something is missing here', this.list[this.place]?.at ?? this.length);
+    return tests.length === 1 ? tests[0]! : (frame, words) => tests.every((test) => test(frame, words));
+  }
+
+  private one(): Test {
+    const token = this.list[this.place];
+    if (!token) throw new Failure('Something is missing here', this.length);
+    this.place += 1;
+    const text = token.text.toLowerCase();
+    if (text === '!' || text === '-' || text === 'not') {
+      const before = this.needsWords;
+      this.needsWords = false;
+      const inner = this.one();
+      const open = this.needsWords;
+      this.needsWords ||= before;
+      return (frame, words) => (open && words === undefined) || !inner(frame, words);
+    }
+    if (text === '(') {
+      const inner = this.any();
+      if (this.peek() !== ')') throw new Failure('The parenthesis is not closed', token.at);
+      this.place += 1;
+      return inner;
+    }
+    if (text === ')') throw new Failure('No parenthesis is open', token.at);
+    return this.term(token);
+  }
+
+  end(): void {
+    const rest = this.list[this.place];
+    if (rest) throw new Failure('No parenthesis is open', rest.at);
+  }
+
+  private term({ text, at }: Token): Test {
+    const field = /^([a-z_]+(?:\.[a-z_]+)?)\s*(:|==|!=)\s*(.*)$/i.exec(text);
+    if (field && !/^[0-9a-f]{1,3}$/i.test(field[1]!)) return this.field(field[1]!.toLowerCase(), field[2]!, field[3]!, at + text.length - field[3]!.length, at);
+    const plain = text.toLowerCase();
+    const service = SERVICES[plain] ?? /^r?pdo[1-4]$/.test(plain);
+    if (service) return Array.isArray(service) ? (frame) => service.includes(tagOf(frame).service) : (frame) => tagOf(frame).text.toLowerCase() === plain;
+    if (plain === 'tx' || plain === 'rx') return (frame) => frame.fromPage === (plain === 'tx');
+    if (plain === 'rtr') return (frame) => frame.remote;
+    if (plain === 'abort') return (frame) => tagOf(frame).service === 'SDO' && frame.data[0] === 0x80;
+    const masked = /^(?:0x)?([0-9a-f]{1,8}):(?:0x)?([0-9a-f]{1,8})$/i.exec(plain);
+    if (masked) {
+      const mask = Number.parseInt(masked[2]!, 16);
+      const wanted = Number.parseInt(masked[1]!, 16) & mask;
+      return (frame) => (frame.id & mask) === wanted;
+    }
+    const range = /^(?:0x)?([0-9a-f]{1,8})(?:-|\.\.)(?:0x)?([0-9a-f]{1,8})$/i.exec(plain);
+    if (range) {
+      const [low, high] = [Number.parseInt(range[1]!, 16), Number.parseInt(range[2]!, 16)];
+      if (low > high) throw new Failure('The range ends before it begins', at);
+      return (frame) => frame.id >= low && frame.id <= high;
+    }
+    // Three digits are a COB-ID, four an object.
+    if (/^(?:0x)?[0-9a-f]{3}$/i.test(plain) && /\d/.test(plain)) return this.identifier(plain, at);
+    if (/^(?:0x)?[0-9a-f]{4}h?(?:[:.][0-9a-f]{1,2})?$/i.test(plain) && /\d/.test(plain)) return this.object(plain, at);
+    return this.words(text);
+  }
+
+  private field(name: string, operator: string, value: string, at: number, start: number): Test {
+    const test = this.fieldTest(name, value, at, start);
+    return operator === '!=' ? (frame, words) => !test(frame, words) : test;
+  }
+
+  private fieldTest(name: string, value: string, at: number, start: number): Test {
+    if (value === '') throw new Failure(`A value is missing after “${name}:”`, at);
+    switch (name) {
+      case 'node':
+      case 'canopen.node_id': {
+        const node = /^0x/i.test(value) ? hex(value) : /^\d+$/.test(value) ? Number(value) : null;
+        if (node === null || node < 1 || node > 127) throw new Failure('A node ID is 1 to 127', at);
+        return (frame) =>
+          nodeOf(frame.id, frame.extended) === node || (frame.id === 0 && !frame.extended && (frame.data[1] === node || frame.data[1] === 0));
+      }
+      case 'id':
+      case 'cob':
+      case 'can.id':
+      case 'canopen.cob_id':
+        return value.includes(':') || value.includes('-') ? this.term({ text: value, at }) : this.identifier(value, at);
+      case 'data': {
+        const digits = value.replace(/["\s]/g, '').toUpperCase();
+        if (!/^([0-9A-F]{2}|\.\.|XX)+$/.test(digits)) throw new Failure('Bytes are two hexadecimal digits each; .. is any byte', at);
+        const wanted = digits.match(/../g)!.map((pair) => (/[.X]/.test(pair) ? null : Number.parseInt(pair, 16)));
+        return (frame) => wanted.every((byte, i) => (byte === null ? i < frame.data.length : frame.data[i] === byte));
+      }
+      case 'object':
+      case 'index':
+        return this.object(value, at);
+      case 'len':
+      case 'dlc': {
+        if (!/^[0-8]$/.test(value)) throw new Failure('A length is 0 to 8', at);
+        return (frame) => frame.dlc === Number(value);
+      }
+      case 'text':
+        return this.words(value);
+      default:
+        throw new Failure(`“${name}” is no field; there are node, id, data, object, len and text`, start);
+    }
+  }
+
+  private identifier(text: string, at: number): Test {
+    const id = hex(text);
+    if (id === null || id > 0x1fffffff) throw new Failure('A COB-ID is a hexadecimal number up to 1FFFFFFF', at);
+    return (frame) => frame.id === id;
+  }
+
+  /** SDO frames about an object, and whatever names it. */
+  private object(text: string, at: number): Test {
+    const match = /^(?:0x)?([0-9a-f]{4})h?(?:[:.](?:0x)?([0-9a-f]{1,2})h?)?$/i.exec(text);
+    if (!match) throw new Failure('An object is four hexadecimal digits, such as 6004 or 1018:01', at);
+    const index = Number.parseInt(match[1]!, 16);
+    const sub = match[2] === undefined ? null : Number.parseInt(match[2], 16);
+    return (frame) =>
+      tagOf(frame).service === 'SDO' && frame.data.length >= 4 && (frame.data[1]! | (frame.data[2]! << 8)) === index && (sub === null || frame.data[3] === sub) && (frame.data[0]! & 0xe0) !== 0;
+  }
+
+  private words(text: string): Test {
+    this.needsWords = true;
+    const wanted = text.replaceAll('"', '').toLowerCase();
+    return (frame, words) => words === undefined || words.toLowerCase().includes(wanted) || hexBytes(frame.data).toLowerCase().includes(wanted);
+  }
+}

@@ -1,0 +1,196 @@
+// The views of the capture: its rows in order (filtered, folded), its identifiers with
+// their rhythm, and the load of the bus. All of them follow one store.
+
+import { EXTENDED, FRAME_BYTES, DISTURBED, REMOTE, type Frame } from '../sim/packed';
+import type { Filter } from './filter';
+import { Folder, type Fold } from './fold';
+import { CAPACITY, type Ring } from './ring';
+
+/** One identifier: how often, how regularly, and what it said last. */
+export interface Identifier {
+  key: number;
+  id: number;
+  extended: boolean;
+  count: number;
+  /** Number of the latest frame, and of the one before. */
+  last: number;
+  before: number;
+  /** Microseconds between the last two, and the shortest and longest so far. */
+  cycle: number;
+  least: number;
+  most: number;
+  time: number;
+}
+
+/** Bits on the wire, with the average of stuff bits. */
+const bitsOf = (flags: number, dlc: number): number => {
+  const body = (flags & EXTENDED ? 67 : 47) + (flags & REMOTE ? 0 : 8 * dlc);
+  return body * 1.1;
+};
+
+/** Virtual microseconds over which load and frames a second are taken. */
+const WINDOW = 1_000_000;
+
+export class Trace {
+  /** Numbers of the first frames of all rows; those before `head` fell out of the store. */
+  private rows: number[] = [];
+  private head = 0;
+  /** The next frame that is to be looked at. */
+  private next = 0;
+  private readonly folder = new Folder();
+  private readonly foldOf = new Map<number, Fold>();
+  /** For each kept frame, the one before with its identifier; by number modulo capacity. */
+  private readonly previous = new Int32Array(CAPACITY).fill(-1);
+  readonly identifiers = new Map<number, Identifier>();
+  private recent: { time: number; bits: number; frames: number }[] = [];
+  errors = 0;
+  filter: Filter | null = null;
+  folds = true;
+  /** Words of frames, as far as they are known; terms of the filter may need them. */
+  words: (number: number) => string | undefined = () => undefined;
+
+  constructor(private readonly ring: Ring) {}
+
+  /** Number of rows. */
+  get count(): number {
+    return this.rows.length - this.head;
+  }
+
+  /** The frame that a row begins with. */
+  numberAt(row: number): number {
+    return this.rows[this.head + row] ?? -1;
+  }
+
+  fold(number: number): Fold | undefined {
+    return this.foldOf.get(number);
+  }
+
+  /** How many rows begin with a frame before this one. */
+  rowsBefore(number: number): number {
+    let [low, high] = [this.head, this.rows.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.rows[middle]! < number) low = middle + 1;
+      else high = middle;
+    }
+    return low - this.head;
+  }
+
+  /** The row that shows a frame, or the one that would. */
+  rowOf(number: number): number {
+    return Math.max(0, this.rowsBefore(number + 1) - 1);
+  }
+
+  /** The frame before with the same identifier. */
+  before(number: number): Frame | undefined {
+    const previous = this.previous[number % CAPACITY] ?? -1;
+    return previous < 0 ? undefined : this.ring.get(previous);
+  }
+
+  /** Looks at the frames that came since the last call; answers how many rows fell out at the top. */
+  follow(): number {
+    const { ring } = this;
+    if (this.next > ring.end) this.restart();
+    if (this.next < ring.first) this.next = ring.first;
+    for (; this.next < ring.end; this.next++) this.take(this.next);
+    let lost = 0;
+    while (this.head < this.rows.length && this.rows[this.head]! < ring.first) {
+      this.foldOf.delete(this.rows[this.head]!);
+      this.head += 1;
+      lost += 1;
+    }
+    if (this.head > 50_000) {
+      this.rows = this.rows.slice(this.head);
+      this.head = 0;
+    }
+    return lost;
+  }
+
+  private take(number: number): void {
+    const bytes = this.ring.raw(number);
+    const view = new DataView(bytes.buffer, bytes.byteOffset, FRAME_BYTES);
+    const flags = bytes[12]!;
+    const id = view.getUint32(8, true);
+    const time = view.getFloat64(0, true);
+    this.previous[number % CAPACITY] = -1;
+    if (flags & DISTURBED) this.errors += 1;
+    else this.note(id, (flags & EXTENDED) !== 0, number, time);
+    this.load(time, bitsOf(flags, bytes[13]!));
+    if (!this.filter && (!this.folds || id < 0x581 || id > 0x67f)) {
+      this.rows.push(number);
+      return;
+    }
+    const frame = this.ring.get(number)!;
+    const fold = this.folds ? this.folder.take(frame, number) : null;
+    if (fold) this.foldOf.set(fold.frames[0]!, fold);
+    else if (!this.filter || this.filter.test(frame, this.filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
+  }
+
+  private note(id: number, extended: boolean, number: number, time: number): void {
+    const key = extended ? id + 0x1_0000_0000 : id;
+    const known = this.identifiers.get(key);
+    if (!known) {
+      this.identifiers.set(key, { key, id, extended, count: 1, last: number, before: -1, cycle: 0, least: Infinity, most: 0, time });
+      return;
+    }
+    this.previous[number % CAPACITY] = known.last;
+    known.cycle = time - known.time;
+    known.least = Math.min(known.least, known.cycle);
+    known.most = Math.max(known.most, known.cycle);
+    known.before = known.last;
+    known.last = number;
+    known.time = time;
+    known.count += 1;
+  }
+
+  private load(time: number, bits: number): void {
+    const slot = Math.floor(time / (WINDOW / 10));
+    const latest = this.recent.at(-1);
+    if (latest?.time === slot) {
+      latest.bits += bits;
+      latest.frames += 1;
+      return;
+    }
+    this.recent.push({ time: slot, bits, frames: 1 });
+    if (this.recent.length > 12) this.recent.shift();
+  }
+
+  /** Frames and bits in the second before `now`. */
+  lately(now: number): { frames: number; bits: number } {
+    const from = Math.floor((now - WINDOW) / (WINDOW / 10));
+    let [frames, bits] = [0, 0];
+    for (const slot of this.recent) {
+      if (slot.time <= from) continue;
+      frames += slot.frames;
+      bits += slot.bits;
+    }
+    return { frames, bits };
+  }
+
+  /** Another filter, or other folds: all rows are made again, statistics stay. */
+  refilter(): void {
+    this.rows = [];
+    this.head = 0;
+    this.foldOf.clear();
+    this.folder.clear();
+    const { ring } = this;
+    for (let number = ring.first; number < this.next && number < ring.end; number++) {
+      const frame = ring.get(number)!;
+      const fold = this.folds ? this.folder.take(frame, number) : null;
+      if (fold) this.foldOf.set(fold.frames[0]!, fold);
+      else if (!this.filter || this.filter.test(frame, this.filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
+    }
+  }
+
+  /** The capture was cleared or cut: everything is taken from what is left. */
+  restart(): void {
+    this.rows = [];
+    this.head = 0;
+    this.foldOf.clear();
+    this.folder.clear();
+    this.identifiers.clear();
+    this.recent = [];
+    this.errors = 0;
+    this.next = this.ring.first;
+  }
+}

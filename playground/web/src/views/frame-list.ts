@@ -1,0 +1,296 @@
+// The frames in their order, in plain words: as many as fit on screen are drawn.
+
+import { html, nothing } from 'lit';
+import { effect } from '@preact/signals-core';
+import * as state from '../state';
+import { gap, refiltered, reveal, revealed, toggleBookmark, trace } from '../capture';
+import { nmt } from '../actions';
+import type { Fold } from '../can/fold';
+import { tagOf } from '../can/service';
+import { hexByte, hexId } from '../can/text';
+import { address, decode, showValue } from '../can/values';
+import { transfer } from '../sim/client';
+import type { Frame } from '../sim/packed';
+import { wordsArrived, wordsOf } from '../sim/words';
+import { T } from '../texts';
+import { icons } from './icons';
+import { Rows, setText } from './rows';
+import { View } from './view';
+
+const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as const;
+
+class FrameList extends View {
+  private rows: Rows | undefined;
+  private follows = true;
+  /** Counts what changes rows that are on screen already. */
+  private stale = 0;
+  private ownScroll = -1;
+  private disposers: (() => void)[] = [];
+  static override properties = { behind: { state: true } };
+  declare behind: boolean;
+
+  constructor() {
+    super();
+    this.behind = false;
+  }
+
+  /** Rows that are shown; a paused view has those of its moment. */
+  private count(): number {
+    const paused = state.pausedAt.value;
+    return paused === null ? trace.count : trace.rowsBefore(paused);
+  }
+
+  protected override firstUpdated(): void {
+    const viewport = this.querySelector<HTMLElement>('.frames')!;
+    const rows = new Rows(viewport, {
+      count: () => this.count(),
+      make: () => {
+        const row = document.createElement('div');
+        row.className = 'frame';
+        row.setAttribute('role', 'row');
+        row.innerHTML = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'].map((name) => `<span role="cell" class="${name}"></span>`).join('');
+        row.querySelector('.tag')!.append(document.createElement('b'));
+        row.addEventListener('click', () => {
+          const number = Number(row.dataset['number']);
+          state.chosenFrame.value = state.chosenFrame.peek() === number ? null : number;
+        });
+        return row;
+      },
+      fill: (row, index) => this.fill(row, trace.numberAt(index)),
+      filled: (from, to) => this.fillWords(from, to),
+    });
+    this.rows = rows;
+    // Only a person's hand stops the console from following; a resize does not.
+    const release = (): void => {
+      requestAnimationFrame(() => {
+        const atEnd = viewport.scrollTop + viewport.clientHeight >= viewport.scrollHeight - rows.rowHeight;
+        this.follows = atEnd;
+        this.behind = !atEnd;
+      });
+    };
+    viewport.addEventListener('wheel', (event) => {
+      if (event.deltaY < 0 && viewport.scrollTop > 0) this.follows = false;
+      release();
+    }, { passive: true });
+    viewport.addEventListener('touchmove', release, { passive: true });
+    viewport.addEventListener('keydown', (event) => {
+      if (!this.moveChoice(event)) release();
+    });
+    viewport.addEventListener('pointerdown', () => { if (viewport.scrollTop > 0) this.follows = false; });
+    viewport.addEventListener('pointerup', release);
+    viewport.addEventListener('scroll', () => {
+      if (Math.abs(viewport.scrollTop - this.ownScroll) > 2) release();
+    }, { passive: true });
+    this.disposers.push(
+      effect(() => {
+        void state.captured.value;
+        void state.pausedAt.value;
+        this.settle(viewport, rows);
+      }),
+      effect(() => {
+        void state.chosenFrame.value;
+        void state.bookmarks.value;
+        void gap.value;
+        this.stale += 1;
+        rows.redraw();
+      }),
+      effect(() => {
+        const wanted = revealed.value;
+        if (!wanted) return;
+        const row = trace.rowOf(wanted.number);
+        if (row < this.count() - 1) this.follows = false;
+        this.behind = !this.follows;
+        requestAnimationFrame(() => rows.reveal(row));
+      }),
+      effect(() => {
+        void refiltered.value;
+        this.stale += 1;
+        this.settle(viewport, rows);
+      }),
+      effect(() => {
+        void wordsArrived.value;
+        rows.redraw();
+      }),
+      effect(() => {
+        void state.cleared.value;
+        this.follows = true;
+        this.behind = false;
+        this.settle(viewport, rows);
+      }),
+      effect(() => {
+        // A panel that was hidden has no height until its tab is chosen.
+        if (state.tab.value === 'console') requestAnimationFrame(() => this.settle(viewport, rows));
+      }),
+    );
+  }
+
+  /** Arrow keys go from frame to frame once one is chosen; Enter chooses the newest. */
+  private moveChoice(event: KeyboardEvent): boolean {
+    const { chosenFrame } = state;
+    const last = this.count() - 1;
+    const now = chosenFrame.value;
+    const moves: Record<string, number> = { ArrowUp: -1, ArrowDown: 1, PageUp: -20, PageDown: 20 };
+    if (event.key === 'Escape') {
+      chosenFrame.value = null;
+    } else if (event.key === 'Enter' && now === null && last >= 0) {
+      chosenFrame.value = trace.numberAt(last);
+    } else if (event.key.toLowerCase() === 'b' && now !== null) {
+      toggleBookmark(now);
+    } else if (now !== null && moves[event.key] !== undefined) {
+      const next = Math.max(0, Math.min(last, trace.rowOf(now) + moves[event.key]!));
+      if (next < last) this.follows = false;
+      reveal(trace.numberAt(next));
+    } else {
+      return false;
+    }
+    event.preventDefault();
+    return true;
+  }
+
+  private settleScheduled = 0;
+
+  /** Goes to the end, or stays with the frames that are being read while old ones fall out. */
+  private settle(viewport: HTMLElement, rows: Rows): void {
+    this.settleScheduled ||= requestAnimationFrame(() => {
+      this.settleScheduled = 0;
+      const lost = trace.follow();
+      if (this.follows) this.ownScroll = rows.draw(Number.MAX_SAFE_INTEGER);
+      else if (lost > 0) this.ownScroll = rows.draw(viewport.scrollTop - lost * rows.rowHeight);
+      else rows.draw();
+    });
+  }
+
+  private fill(row: HTMLElement, number: number): void {
+    row.toggleAttribute('data-chosen', state.chosenFrame.peek() === number);
+    const fold = trace.fold(number);
+    // A fold grows while its transfer runs; everything else stays as it was drawn.
+    const version = `${number} ${this.stale} ${fold?.frames.length ?? 0}`;
+    if (row.dataset['version'] === version) return;
+    const frame = state.ring.get(number);
+    if (!frame) return;
+    row.dataset['version'] = version;
+    row.dataset['number'] = String(number);
+    row.setAttribute('aria-rowindex', String(number + 1));
+    const tag = tagOf(frame);
+    const cells = row.children;
+    row.dataset['service'] = tag.service;
+    row.dataset['dir'] = frame.fromPage ? 'tx' : 'rx';
+    row.toggleAttribute('data-marked', state.bookmarks.peek().has(number));
+    row.toggleAttribute('data-fold', fold !== undefined);
+    setText(cells[0], (frame.time / 1e6).toFixed(frame.time < 1e10 ? 6 : 3));
+    const before = gap.peek() === 'cycle' ? trace.before(number) : state.ring.get(number - 1);
+    setText(cells[1], before ? `+${delta(frame.time - before.time)}` : '');
+    setText(cells[2], frame.fromPage ? 'Tx' : 'Rx');
+    setText(cells[3], hexId(frame.id, frame.extended));
+    setText(cells[4]?.firstElementChild, tag.text);
+    setText(cells[5], frame.disturbed ? '' : String(frame.dlc));
+    fillData(cells[6]!, frame, fold, trace.before(number));
+    row.toggleAttribute('data-abort', !frame.disturbed && ((tag.service === 'SDO' && frame.data[0] === 0x80) || fold?.state === 'aborted'));
+    setText(cells[7], '');
+  }
+
+  private fillWords(from: number, to: number): void {
+    const last = Math.min(to, this.count());
+    const numbers = Array.from({ length: Math.max(0, last - from) }, (_, i) => trace.numberAt(from + i));
+    const folds = numbers.map((number) => trace.fold(number));
+    // Of an aborted transfer the last frame tells why.
+    const words = wordsOf(numbers.map((number, i) => (folds[i]?.state === 'aborted' ? folds[i]!.frames.at(-1)! : number)));
+    const byNumber = new Map(numbers.map((number, i) => [String(number), foldWords(folds[i], words[i])]));
+    for (const row of this.querySelectorAll<HTMLElement>('.frame:not([hidden])')) {
+      const text = byNumber.get(row.dataset['number'] ?? '') ?? '';
+      const cell = row.lastElementChild as HTMLElement;
+      if (cell.textContent !== text) {
+        cell.textContent = text;
+        cell.title = text;
+      }
+    }
+  }
+
+  /** What to try on a bus where hardly anything happened yet. */
+  private hints() {
+    const node = state.nodeId.value;
+    const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
+    const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0, bytes });
+    return html`<div class="hints">
+      <p>Node ${node} is on the bus. Turn the shaft, type a frame below, or try:</p>
+      <div>
+        ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>Read the position</button>` : nothing}
+        <button class="small" @click=${() => nmt(0x01)}>Start the node</button>
+        ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>Heartbeat every second</button>` : nothing}
+      </div>
+    </div>`;
+  }
+
+  private toEnd(): void {
+    this.follows = true;
+    this.behind = false;
+    if (this.rows) this.settle(this.rows.viewport, this.rows);
+  }
+
+  protected override render() {
+    const paused = state.pausedAt.value;
+    void state.captured.value;
+    void state.cleared.value;
+    void refiltered.value;
+    const kept = state.ring.end - state.ring.first;
+    const t = T.frames;
+    return html`<div class="frame-area">
+      <div class="frame-table" role="table" aria-label=${t.title} aria-rowcount=${kept}>
+        <div class="frame-head" role="row">${COLUMNS.map((name) =>
+          name === 'delta'
+            ? html`<span role="columnheader" class="delta"><button class="head-button" title=${t.gapTitle} @click=${() => (gap.value = gap.value === 'delta' ? 'cycle' : 'delta')}>${gap.value === 'delta' ? t.columns.delta : t.cycle}</button></span>`
+            : html`<span role="columnheader" class=${name}>${t.columns[name]}</span>`,
+        )}</div>
+        <div class="frames scroll" tabindex="0" role="rowgroup" aria-label=${t.rows}></div>
+      </div>
+      ${kept > 0 && kept < 4 && paused === null && state.powered.value && !trace.filter ? this.hints() : nothing}
+      ${kept === 0 ? html`<p class="frames-empty">${t.empty}</p>` : trace.count === 0 && trace.filter ? html`<p class="frames-empty">${t.nothing}</p>` : nothing}
+      ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} ${t.toEnd}</button>` : nothing}
+    </div>`;
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    for (const dispose of this.disposers.splice(0)) dispose();
+    this.rows?.dispose();
+  }
+}
+
+/** The bytes; those that differ from the frame before with this identifier stand out. */
+function fillData(cell: Element, frame: Frame, fold: Fold | undefined, before: Frame | undefined): void {
+  if (frame.disturbed || frame.remote || fold) {
+    setText(cell, frame.disturbed ? '' : fold ? T.frames.fold(fold.frames.length, fold.bytes.length) : T.frames.remote);
+    return;
+  }
+  const isOther = (byte: number, i: number): boolean => before !== undefined && !before.remote && before.data[i] !== byte;
+  if (!frame.data.some(isOther)) {
+    setText(cell, Array.from(frame.data, hexByte).join(' '));
+    return;
+  }
+  cell.replaceChildren();
+  frame.data.forEach((byte, i) => {
+    if (i) cell.append(' ');
+    if (!isOther(byte, i)) cell.append(hexByte(byte));
+    else cell.append(Object.assign(document.createElement('mark'), { textContent: hexByte(byte) }));
+  });
+}
+
+/** A folded transfer in words: what was read or written, and its value. */
+function foldWords(fold: Fold | undefined, words: string | undefined): string {
+  if (!fold) return words ?? '';
+  const device = state.devices.peek().find((_, number) => state.statuses.peek()[number]?.nodeId === fold.node);
+  const object = device?.objects.find(({ index, sub }) => index === fold.index && sub === fold.sub);
+  const name = `${address(fold.index, fold.sub)}${object ? ` ${object.parent ? `${object.parent}.` : ''}${object.name}` : ''}`;
+  if (fold.state === 'aborted') return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}: ${words ?? ''}`;
+  const value = object ? showValue(decode(Uint8Array.from(fold.bytes), object), object) : Array.from(fold.bytes.slice(0, 32), hexByte).join(' ');
+  return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}${fold.state === 'done' ? ` = ${value}` : ' …'}`;
+}
+
+/** A time difference in as few characters as it takes. */
+export function delta(micros: number): string {
+  if (micros < 1000) return `${Math.round(micros)} µs`;
+  if (micros < 1e6) return `${(micros / 1000).toFixed(micros < 1e5 ? 2 : 1)} ms`;
+  return `${(micros / 1e6).toFixed(2)} s`;
+}
+
+customElements.define('od-frames', FrameList);

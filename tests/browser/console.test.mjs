@@ -1,0 +1,225 @@
+// The frame console: filters, views, folds, finding, marks, the send list, logs.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { after, before, test } from 'node:test';
+import { launch, open } from './harness.mjs';
+import { booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+function check(name, options, body) {
+  test(name, async () => {
+    const { page, faults, close } = await open(browser, options);
+    try {
+      await booted(page);
+      await body(page);
+      assert.deepEqual(faults, [], 'the page complained');
+    } finally {
+      await close();
+    }
+  });
+}
+
+const filter = (page, text) => page.getByRole('searchbox', { name: 'Filter frames' }).fill(text);
+const ids = async (page) => [...new Set((await rows(page)).map((one) => one.id))].sort().join(' ');
+
+async function traffic(page) {
+  await sdo(page, '1017', '100');
+  await row(page, 'a heartbeat', (one) => one.id === '701' && one.data === '7F');
+  await nmt(page, 'Start');
+  await row(page, 'a PDO', (one) => one.id === '181');
+}
+
+check('the filter shows what passes, by service, node, identifier, object and word', {}, async (page) => {
+  await traffic(page);
+  for (const [text, expected] of [
+    ['sdo', '581 601'],
+    ['node:1 !sdo !hb nmt', '000'],
+    ['180:780', '181'],
+    ['1017', '581 601'],
+    ['position', '181'],
+    ['"heartbeat time" rx', '581'],
+    ['nmt or pdo1', '000 181'],
+  ]) {
+    await filter(page, text);
+    await until(`${expected} with “${text}”`, async () => (await ids(page)) === expected);
+  }
+  await page.getByRole('button', { name: 'Clear' }).click();
+  await row(page, 'the filter after Clear', (one) => one.id === '181');
+  assert.equal(await ids(page), '181');
+  await filter(page, '');
+  await row(page, 'all frames', (one) => one.id === '701');
+});
+
+check('a filter that cannot be read says so as it is typed', {}, async (page) => {
+  const box = page.getByRole('searchbox', { name: 'Filter frames' });
+  for (const [text, error] of [['node:', /missing/], ['node:200', /1 to 127/], ['nod:5', /no field/], ['(sdo', /not closed/]]) {
+    await box.fill(text);
+    await until(`${error} under “${text}”`, async () => error.test(await page.locator('#filter-note').textContent()));
+    assert.equal(await box.getAttribute('aria-invalid'), 'true');
+  }
+  await box.fill('hb');
+  await until('no error', async () => (await page.locator('#filter-note').count()) === 0);
+});
+
+check('one row for each identifier, and back to order without loss', {}, async (page) => {
+  await traffic(page);
+  await page.getByRole('button', { name: 'By COB-ID' }).click();
+  const table = page.getByRole('region', { name: 'By COB-ID' });
+  const line = table.getByRole('row').filter({ hasText: '701' });
+  await until('a rhythm of 100 ms', async () => /100\.0 ms/.test(await line.textContent()));
+  const count = async () => Number((await line.getByRole('cell').nth(2).textContent()).replace(/\D/g, ''));
+  const first = await count();
+  await until('more heartbeats', async () => (await count()) > first + 3);
+  await page.getByRole('button', { name: 'In order' }).click();
+  await page.locator('.frames').press('Home');
+  assert.ok((await captured(page)) > 10);
+  await filter(page, `sdo`);
+  await row(page, 'what came before', (one) => one.id === '601');
+});
+
+check('changed bytes stand out', {}, async (page) => {
+  await sendRaw(page, '181#01 02 03');
+  await sendRaw(page, '181#01 FF 03');
+  const changed = page.locator('.frame', { hasText: '01 FF 03' }).locator('mark');
+  await until('the mark', async () => (await changed.allTextContents()).join() === 'FF');
+});
+
+check('the second time column shows delta or cycle', {}, async (page) => {
+  await traffic(page);
+  await page.getByRole('button', { name: 'Delta' }).click();
+  await until('the cycle', async () => (await page.locator('.frame', { hasText: '701' }).last().locator('.delta').textContent()) === '+100.0 ms');
+});
+
+const LONG = `[FileInfo]\nFileName=long.eds\n[DeviceInfo]\nProductName=Long\n[MandatoryObjects]\nSupportedObjects=3\n1=0x1000\n2=0x1001\n3=0x1018\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x191\nPDOMapping=0\n[1001]\nParameterName=Error register\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n[1018sub0]\nParameterName=Number\nObjectType=0x7\nDataType=0x0005\nAccessType=const\nDefaultValue=1\nPDOMapping=0\n[1018sub1]\nParameterName=Vendor\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[2001]\nParameterName=Label\nObjectType=0x7\nDataType=0x0009\nAccessType=rw\nDefaultValue=Pump room, second floor\nPDOMapping=0\n`;
+
+async function drop(page, name, bytes) {
+  const transfer = await page.evaluateHandle(
+    ([name, bytes]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([typeof bytes === 'string' ? bytes : Uint8Array.from(bytes)], name));
+      return transfer;
+    },
+    [name, typeof bytes === 'string' ? bytes : [...bytes]],
+  );
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+check('a transfer of many frames is one row, and opens', {}, async (page) => {
+  await drop(page, 'long.eds', LONG);
+  await until('the device', async () => /Long/.test(await page.locator('.device-button').textContent()));
+  await sdo(page, 'Label');
+  const fold = await row(page, 'the folded transfer', (one) => /Read 2001h Label = “Pump room, second floor”/.test(one.words));
+  assert.equal((await rows(page)).filter((one) => one.tag === 'SDO').length, 1);
+  assert.match(fold.data, /10 frames, 23 bytes/);
+  await page.locator('.frame', { hasText: 'Pump room' }).click();
+  await until('its frames', async () => (await page.locator('.fold div').count()) === 10);
+  await page.getByRole('button', { name: 'Fold SDO transfers' }).click();
+  await until('a row for each', async () => (await rows(page)).filter((one) => one.tag === 'SDO').length === 10);
+});
+
+check('the chosen frame links bytes, fields and objects', {}, async (page) => {
+  await nmt(page, 'Start');
+  await row(page, 'a PDO', (one) => one.id === '181');
+  await page.locator('.frame', { hasText: '181' }).first().click();
+  const detail = page.locator('.frame-detail');
+  await detail.getByRole('button', { name: 'Position value' }).click();
+  await until('the object', async () => /6004h/.test(await page.locator('od-object-detail').textContent()));
+  await detail.locator('.byte').nth(2).hover();
+  await until('all its bytes', async () => (await detail.locator('.byte[data-lit=true]').count()) === 4);
+  const before = await captured(page);
+  await detail.getByRole('button', { name: 'Send again' }).click();
+  await until('the frame again', async () => (await captured(page)) > before && (await rows(page)).some((one) => one.id === '181' && one.dir === 'Tx'));
+});
+
+check('finding goes from frame to frame, marks hold them', {}, async (page) => {
+  await traffic(page);
+  await page.locator('.frames').focus();
+  await page.keyboard.press('/');
+  const box = page.getByRole('textbox', { name: 'Find' });
+  await box.fill('nmt');
+  await box.press('Enter');
+  const detail = page.locator('.frame-detail');
+  await until('the NMT command', async () => /Start node 1/.test(await detail.textContent()));
+  await page.locator('.frames').focus();
+  await page.keyboard.press('b');
+  await until('the mark', async () => (await page.locator('.frame[data-marked]').count()) === 1);
+  await page.locator('.frames').press('Escape');
+  await box.fill('1017');
+  await box.press('Enter');
+  await until('the write', async () => /1017h/.test(await detail.textContent()));
+  await page.getByRole('button', { name: 'Next marked frame' }).click();
+  await until('the NMT command again', async () => /Start node 1/.test(await detail.textContent()));
+  await box.fill('nosuchword');
+  await box.press('Enter');
+  await page.getByText('No frame passes.').waitFor();
+});
+
+check('the send list sends by click and in a rhythm, and is kept', {}, async (page) => {
+  await page.getByText('Send list', { exact: true }).click();
+  await page.getByRole('button', { name: 'Add a row' }).click();
+  const what = page.getByRole('textbox', { name: 'What to send' });
+  await what.fill('read 6004');
+  await what.press('Tab');
+  await page.locator('.send-list').getByRole('button', { name: 'Send', exact: true }).click();
+  await row(page, 'the answer', (one) => one.id === '581' && one.data.startsWith('43 04 60 00'));
+  await page.getByRole('spinbutton', { name: 'Every so many milliseconds' }).fill('50');
+  await page.getByRole('spinbutton', { name: 'Every so many milliseconds' }).press('Tab');
+  const before = await captured(page);
+  await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
+  await until('many answers', async () => (await captured(page)) > before + 10);
+  await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
+  await page.waitForTimeout(300);
+  const still = await captured(page);
+  await page.waitForTimeout(300);
+  assert.equal(await captured(page), still);
+  await what.fill('read zz');
+  await what.press('Tab');
+  await page.getByText('An object is written as').waitFor();
+  await what.fill('write 6001 = 4096');
+  await what.press('Enter');
+  await row(page, 'the write', (one) => one.id === '601' && one.data === '23 01 60 00 00 10 00 00');
+  await page.reload();
+  await until('the row is kept', async () => (await page.getByRole('textbox', { name: 'What to send' }).inputValue()) === 'write 6001 = 4096');
+});
+
+check('frames that are hard to remember are offered', {}, async (page) => {
+  await page.getByRole('combobox', { name: 'Frames to begin with' }).selectOption({ label: 'Node guarding: ask for the state' });
+  const line = page.getByRole('textbox', { name: 'Frame', exact: true });
+  assert.equal(await line.inputValue(), '701#R1');
+  await line.press('Enter');
+  await row(page, 'the request', (one) => one.data.includes('remote'));
+});
+
+for (const format of ['asc', 'trc', 'pcapng', 'log']) {
+  check(`a log goes out and comes in as ${format}`, {}, async (page) => {
+    await sdo(page, '1000');
+    await row(page, 'the answer', (one) => one.id === '581');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('combobox', { name: 'Save the capture' }).selectOption(format)]);
+    const bytes = await readFile(await download.path());
+    assert.match(download.suggestedFilename(), new RegExp(`\\.${format}$`));
+    await page.getByRole('button', { name: 'Clear' }).click();
+    await drop(page, `back.${format}`, bytes);
+    await page.getByText('3 frames are in the console').waitFor();
+    await row(page, 'the frames', (one) => one.id === '581' && one.data === '43 00 10 00 96 01 02 00');
+    await page.getByRole('button', { name: 'Send these frames' }).click();
+    await until('an answer to the log', async () => (await captured(page)) > 5);
+  });
+}
+
+check('a log with faults says which, a file that is none says so', {}, async (page) => {
+  await drop(page, 'bad.log', '(0.1) can0 601#4000100000000000\n(0.2) can0 601#4\n');
+  await page.getByText('1 line could not be read; the first is line 2').waitFor();
+  await drop(page, 'none.trc', 'hello');
+  await page.getByText('none.trc cannot be read').waitFor();
+});
+
+check('the bus tells how busy it is', {}, async (page) => {
+  await sdo(page, '1800:05', '2');
+  await until('written', async () => /written/.test(await sdoNote(page)));
+  await nmt(page, 'Start');
+  await until('500 frames a second', async () => /\b(49\d|50\d) frames\/s/.test(await page.locator('.bus-status').textContent()));
+  assert.match(await page.locator('.bus-status').textContent(), /Bus load \d\d+ % of 50 kbit\/s/);
+});
