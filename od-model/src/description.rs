@@ -143,6 +143,28 @@ impl EntryDescription {
         }
     }
 
+    /// The name that a DCF gives this value in its application (Denotation).
+    pub fn denotation(&self) -> Option<&str> {
+        self.extra("Denotation")
+    }
+
+    /// The file from which a configuration tool reads the value of a DOMAIN (UploadFile of a DCF).
+    pub fn upload_file(&self) -> Option<&str> {
+        self.extra("UploadFile")
+    }
+
+    /// The file into which a configuration tool writes the value of a DOMAIN (DownloadFile of a DCF).
+    pub fn download_file(&self) -> Option<&str> {
+        self.extra("DownloadFile")
+    }
+
+    fn extra(&self, key: &str) -> Option<&str> {
+        let found = self.extra.iter().find(|(k, _)| k.eq_ignore_ascii_case(key));
+        found
+            .map(|(_, value)| value.as_str())
+            .filter(|value| !value.is_empty())
+    }
+
     /// The group that saves this value when it stands at `address`.
     pub fn group_at(&self, address: Address) -> Group {
         match &self.group {
@@ -266,13 +288,80 @@ impl Description {
         })
     }
 
-    /// The node ID that a DCF's `[DeviceComissioning]` gives (either spelling), if it is 1–127.
-    pub fn commissioned_node_id(&self) -> Option<u8> {
+    /// What a DCF's `[DeviceComissioning]` says of the node and its network, in either
+    /// spelling; what is empty or none of its kind is missing.
+    pub fn commissioning(&self) -> Option<Commissioning<'_>> {
         let section = self
             .section("DeviceComissioning")
             .or_else(|| self.section("DeviceCommissioning"))?;
-        let id = crate::eds::number(section.get("NodeID")?)?;
-        let id = u8::try_from(id).ok()?;
-        (1..=127).contains(&id).then_some(id)
+        let text = |key| {
+            let value = section.get(key)?;
+            (!value.is_empty()).then_some(value.value.as_str())
+        };
+        let number = |key| crate::eds::number(section.get(key)?);
+        let node_id = number("NodeID").and_then(|id| u8::try_from(id).ok());
+        Some(Commissioning {
+            node_id: node_id.filter(|id| (1..=127).contains(id)),
+            node_name: text("NodeName"),
+            bit_rate: number("Baudrate").and_then(|rate| u16::try_from(rate).ok()),
+            network: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
+            network_name: text("NetworkName"),
+            is_manager: number("CANopenManager").map(|flag| flag != 0),
+            serial_number: number("LSS_SerialNumber").and_then(|n| u32::try_from(n).ok()),
+        })
+    }
+
+    /// The node ID that a DCF's `[DeviceComissioning]` gives (either spelling), if it is 1–127.
+    pub fn commissioned_node_id(&self) -> Option<u8> {
+        self.commissioning()?.node_id
+    }
+}
+
+/// What a DCF says of one node and its network (CiA 306-1, DeviceComissioning).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Commissioning<'a> {
+    /// Node ID, 1–127; `None` for 255, which is a node without one.
+    pub node_id: Option<u8>,
+    /// NodeName.
+    pub node_name: Option<&'a str>,
+    /// Bit rate in kbit/s.
+    pub bit_rate: Option<u16>,
+    /// NetNumber.
+    pub network: Option<u32>,
+    /// NetworkName.
+    pub network_name: Option<&'a str>,
+    /// Is the node the CANopen manager?
+    pub is_manager: Option<bool>,
+    /// LSS_SerialNumber.
+    pub serial_number: Option<u32>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_configuration_says_what_node_it_is_for() {
+        let text = "[DeviceCommissioning]\nNodeId=0x11\nNodeName=Left\nBaudrate=500\nNetNumber=\n\
+            CANopenManager=1\nLSS_SerialNumber=42\n\
+            [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\nUploadFile=a.bin\nDownloadFile=\n";
+        let description = crate::eds::parse(text).description;
+        let expected = Commissioning {
+            node_id: Some(17),
+            node_name: Some("Left"),
+            bit_rate: Some(500),
+            is_manager: Some(true),
+            serial_number: Some(42),
+            ..Commissioning::default()
+        };
+        assert_eq!(description.commissioning(), Some(expected));
+        assert_eq!(description.commissioned_node_id(), Some(17));
+        let image = &description.objects[&0x2000].entries[&0];
+        assert_eq!(
+            (image.denotation(), image.upload_file()),
+            (Some("Image"), Some("a.bin"))
+        );
+        assert_eq!(image.download_file(), None);
+        assert_eq!(Description::default().commissioning(), None);
     }
 }

@@ -51,7 +51,9 @@ mod tables;
 pub mod xdd;
 
 #[cfg(feature = "eds")]
-pub use description::{Description, EntryDescription, ObjectDescription, Section, Value};
+pub use description::{
+    Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
+};
 #[cfg(feature = "eds")]
 pub use diagnostic::{Diagnostic, Label, Severity, Span, Spanned};
 #[cfg(feature = "eds")]

@@ -30,6 +30,7 @@ mod ini;
 pub(crate) mod known;
 mod lines;
 mod lists;
+mod modules;
 mod number;
 mod object;
 mod other;
@@ -49,6 +50,7 @@ pub(crate) use fields::location as storage_name;
 #[cfg(feature = "xdd")]
 pub(crate) use ini::Placed;
 pub(crate) use ini::Text;
+pub use modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use overlay::{Origin, Overlaid, overlay};
 #[cfg(feature = "xdd")]
 pub(crate) use parse::from_sections;

@@ -11,7 +11,8 @@ use super::ini::{self, Placed};
 use super::object::{self, Sections};
 use super::sections::{List, Place, intended, place};
 use super::{
-    Document, Encoding, Parsed, compact, compact_pdo, lines, lists, number, other, own_types,
+    Document, Encoding, Parsed, compact, compact_pdo, lines, lists, modules, number, other,
+    own_types,
 };
 use crate::check::rules;
 use crate::fix::Fix;
@@ -40,7 +41,7 @@ pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Diagnostic>) -> 
     sorted(sections, log).parsed()
 }
 
-fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sorted<'a> {
+pub(super) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sorted<'a> {
     let mut sorted = Sorted {
         log,
         ..Sorted::default()
@@ -95,7 +96,7 @@ fn encoded(document: &Document) -> Vec<Diagnostic> {
 
 /// The sections of a file by what they are about.
 #[derive(Default)]
-struct Sorted<'a> {
+pub(super) struct Sorted<'a> {
     objects: BTreeMap<u16, Sections<'a>>,
     lists: BTreeMap<List, Vec<Placed<'a>>>,
     others: Vec<Placed<'a>>,
@@ -192,7 +193,7 @@ impl<'a> Sorted<'a> {
         self.others.push(section);
     }
 
-    fn parsed(mut self) -> Parsed {
+    pub(super) fn parsed(mut self) -> Parsed {
         let mut parsed = Parsed::default();
         own_types::resolve(&mut self.objects, &mut self.log);
         for (index, mut sections) in core::mem::take(&mut self.objects) {
@@ -211,6 +212,7 @@ impl<'a> Sorted<'a> {
         }
         self.others.sort_by_key(|section| section.header.start);
         parsed.description.sections = self.others.into_iter().map(Placed::into_section).collect();
+        modules::check(&parsed.description.sections, &mut self.log);
         let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
         if self.has_lists {
             lists::check(&self.lists, &parsed.description, &made, &mut self.log);

@@ -66,7 +66,7 @@ pub(super) fn outside(context: &Context<'_>, name: &str) -> Result<()> {
 /// The test targets of od-tests that have no stage of their own.
 pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
     let mut names = targets(context)?;
-    names.retain(|name| !["ui", "conformance", "fuzz"].contains(&name.as_str()));
+    names.retain(|name| !["ui", "conformance", "fuzz", "mutations"].contains(&name.as_str()));
     if names.is_empty() {
         let text = "od-tests has no other tests yet";
         return Err(Error::Missing(String::from(text)));
@@ -81,7 +81,14 @@ pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
 /// Mutated input: about a second for each target, a minute with `--long`, and then in a build
 /// that is fast and still checks everything.
 pub(super) fn fuzz(context: &Context<'_>) -> Result<()> {
-    let target = ["--package", "od-tests", "--test", "fuzz"];
+    let target = [
+        "--package",
+        "od-tests",
+        "--test",
+        "fuzz",
+        "--test",
+        "mutations",
+    ];
     let profile: &[&str] = if context.long {
         &["--profile", "fuzz"]
     } else {
