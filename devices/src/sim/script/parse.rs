@@ -227,7 +227,14 @@ fn shaft(words: &mut Words<'_>) -> Result<Action, Problem> {
         .next()
         .parse::<f64>()
         .ok()
-        .filter(|value| value.abs() <= 1e6);
+        .filter(|value| value.is_finite());
+    // Far and fast enough for the ends of what an encoder counts: 2²⁹ revolutions with a gear,
+    // 2³¹ steps a second. An angle ends at 2³¹ revolutions, a speed at 2³¹ thousandths.
+    let limit = if what == "turn" { 1e9 } else { 2e6 };
+    if number.is_some_and(|value| value.abs() > limit) {
+        let help = format!("the limit is {limit}");
+        return Err(here.problem("a shaft does not turn so far or so fast", help));
+    }
     match (what, number) {
         ("turn", Some(turns)) => Ok(Action::Shaft(Shaft::Turn(turns))),
         ("rpm", Some(rpm)) => Ok(Action::Shaft(Shaft::Rpm(rpm))),
