@@ -18,6 +18,8 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bench;
+#[cfg(feature = "eds")]
+mod fixes;
 mod motion;
 mod packed;
 mod record;
@@ -33,6 +35,8 @@ use od_runtime::wire::nmt::State;
 use od_runtime::{Instant, NodeId};
 use wasm_bindgen::prelude::*;
 
+#[cfg(feature = "eds")]
+use fixes::Places;
 use record::Record;
 
 /// A CAN bus with CANopen devices on it, in virtual time.
@@ -104,7 +108,7 @@ impl Bus {
         };
         Ok(Record::new()
             .with("device", device)
-            .with("diagnostics", diagnostics(&found))
+            .with("diagnostics", diagnostics(&found, text))
             .done())
     }
 
@@ -362,11 +366,26 @@ pub fn builtin_devices() -> Vec<JsValue> {
 #[cfg(feature = "eds")]
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
 pub fn check_eds(text: &str) -> Vec<JsValue> {
+    let places = Places::of(text);
     od_model::eds::load(text)
         .diagnostics
         .iter()
-        .map(diagnostic)
+        .map(|one| diagnostic(one, &places))
         .collect()
+}
+
+/// The text with what can be mended in it: safe fixes, or likely guesses as well.
+#[cfg(feature = "eds")]
+#[wasm_bindgen(js_name = mendEds)]
+pub fn mend_eds(text: &str, guess: bool) -> String {
+    use od_model::fix::{Applicability, mend};
+    let level = match guess {
+        true => Applicability::Unsafe,
+        false => Applicability::Safe,
+    };
+    let document = od_model::eds::Document::new(text);
+    let mended = mend(&document, level, |document| document.load().diagnostics);
+    mended.document.text().into()
 }
 
 /// What a frame says, with its node where the identifier alone does not tell.
@@ -390,12 +409,13 @@ fn valid(node_id: u8) -> Result<NodeId, JsError> {
 }
 
 #[cfg(feature = "eds")]
-fn diagnostics(found: &[Diagnostic]) -> JsValue {
-    record::list(found.iter().map(diagnostic))
+fn diagnostics(found: &[Diagnostic], text: &str) -> JsValue {
+    let places = Places::of(text);
+    record::list(found.iter().map(|one| diagnostic(one, &places)))
 }
 
 #[cfg(feature = "eds")]
-fn diagnostic(one: &Diagnostic) -> JsValue {
+fn diagnostic(one: &Diagnostic, places: &Places<'_>) -> JsValue {
     let span = one.span.unwrap_or_default();
     Record::new()
         .with("code", one.code)
@@ -417,5 +437,6 @@ fn diagnostic(one: &Diagnostic) -> JsValue {
                 .map(|address| address.to_string())
                 .unwrap_or_default(),
         )
+        .with("fix", places.fix(one))
         .done()
 }

@@ -40,6 +40,22 @@ export interface Diagnostic {
   column: number;
   /** The object it is about, such as `6004h`, or empty. */
   object: string;
+  /** What mends it without asking, if anything does. */
+  fix: Fix | null;
+}
+
+/** Edits of the text that was checked; all of them together, or none. */
+export interface Fix {
+  /** It changes nothing of what the text says to us; else it is a likely guess. */
+  safe: boolean;
+  edits: TextEdit[];
+}
+
+/** `text` takes the place of what stands from `start` to before `end`, as in `String.slice`. */
+export interface TextEdit {
+  start: number;
+  end: number;
+  text: string;
 }
 
 export interface EdsResult {

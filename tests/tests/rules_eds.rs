@@ -1,0 +1,87 @@
+//! docs/RULES-EDS.md is what the catalogue says.
+//!
+//! `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds` writes it anew.
+
+use std::fmt::Write;
+
+use od_model::Severity;
+use od_model::check::RULES;
+use od_tests::scripts::{cell, compare_page};
+
+const FOLDERS: [(&str, &str); 9] = [
+    ("01", "Text and INI structure"),
+    ("02", "Lists, sections and keys"),
+    ("03", "Objects and their members"),
+    ("04", "Types, values and limits"),
+    ("05", "PDOs"),
+    ("06", "Standard objects, identity and services"),
+    ("07", "Edits of a macro call"),
+    ("08", "Findings that a file allows"),
+    ("09", "Device profiles"),
+];
+
+fn page() -> String {
+    let mut page = String::from(
+        "# Rules for EDS files\n\n\
+         What `odkit check` finds. A code never changes its meaning. An error is what makes generated\n\
+         code unsound or a master fail; what many shipped files have is a warning; a remark is worth\n\
+         knowing. `odkit explain CODE` shows an example before and after.\n\n\
+         **Fixes.** `--fix` makes the safe ones: they say to every reader what odkit read before.\n\
+         `--unsafe-fixes` makes likely guesses, too. `--diff` shows both and writes nothing. A fix\n\
+         touches no other line and keeps encoding and line ends; a second run has nothing to do.\n\n\
+         **Allowing.** `;odkit-allow=W0350 reason`, on a line of its own: before the first section and\n\
+         in [FileInfo] for the whole file, in a section for what is found there and for everything\n\
+         about its object. On the command line: `--allow W0350` or `--allow W0350:2000`.\n\n\
+         **Two's complement.** In a signed type a hexadecimal number above the highest positive value\n\
+         is a bit pattern, as wide as the type or sign extended to 32 or 64 bits: `0xFF` is -1 in an\n\
+         INTEGER8, and so is `0xFFFFFFFF`. A HighLimit that would come out below a LowLimit of 0 or\n\
+         more is taken as it is written. Decimal numbers are what they say: 255 is no INTEGER8.\n\n\
+         **Exit codes** of `odkit check`: 0 no errors, 1 errors are left, a file could not be read or\n\
+         written, or `--diff` shows something, 2 wrong usage. `--strict` counts warnings as errors.\n\n\
+         This page is generated from the catalogue in `od-model/src/check/rules`:\n\
+         `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds`.\n",
+    );
+    for (number, title) in FOLDERS {
+        let _ = write!(
+            page,
+            "\n## {number}: {title}\n\n| code | severity | what | fix | source |\n|---|---|---|---|---|\n"
+        );
+        for rule in RULES.iter().filter(|rule| &rule.code[1..3] == number) {
+            let severity = match rule.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Info => "remark",
+            };
+            let (code, fix) = (rule.code, rule.mending.name());
+            let (title, source) = (cell(rule.title), cell(rule.source));
+            let _ = writeln!(page, "| {code} | {severity} | {title} | {fix} | {source} |");
+        }
+    }
+    page
+}
+
+#[test]
+fn the_page_is_current() {
+    let result = compare_page("RULES-EDS.md", &page());
+    assert!(
+        result.is_ok(),
+        "{}",
+        result
+            .unwrap_err()
+            .replace("--test rules", "--test rules_eds")
+    );
+}
+
+#[test]
+fn every_rule_has_its_place() {
+    for rule in RULES {
+        assert!(
+            FOLDERS
+                .iter()
+                .any(|(number, _)| *number == &rule.code[1..3]),
+            "{}",
+            rule.code
+        );
+    }
+    assert!(RULES.len() >= 60);
+}
