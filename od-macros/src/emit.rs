@@ -5,7 +5,8 @@
 
 use std::fmt::Write;
 
-use od_model::{Group, Literal, Tables};
+use od_model::Tables;
+use od_model::typed::emit::table;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -162,53 +163,31 @@ fn constant(out: &mut String, index: u16, handle: &Handle) {
 fn dictionary(out: &mut String, tables: &Tables) {
     let objects = tables.objects().len();
     let entries = tables.entries().len();
+    let object_rows = tables.objects().iter().flat_map(table::object_row);
+    let entry_rows = tables.entries().iter().flat_map(table::entry_row);
+    let store_len = tables.dictionary().store_len();
     let _ = write!(
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
 pub const DICTIONARY: ::od_model::Dictionary<'static> = {{
 use ::od_model::typed::emit::table::*;
-static OBJECTS: [Object; {objects}] = ["
+static OBJECTS: [Object; {objects}] = objects("
     );
-    for o in tables.objects() {
-        let _ = writeln!(
-            out,
-            "o({:#06X},C::{:?},{},{},{},{}),",
-            o.index, o.code, o.name.start, o.name.len, o.first, o.count
-        );
-    }
-    let _ = write!(out, "];\nstatic ENTRIES: [Entry; {entries}] = [");
-    for e in tables.entries() {
-        let group = match e.group {
-            Group::None => "N",
-            Group::Communication => "C",
-            Group::Application => "A",
-            Group::Manufacturer => "M",
-        };
-        let _ = write!(
-            out,
-            "e({:#06X},{},T::{:?},A::{:?},{},G{group},{},{},",
-            e.address.index,
-            e.address.sub,
-            e.data_type,
-            e.access,
-            e.mappable,
-            e.name.start,
-            e.name.len
-        );
-        for value in [e.default, e.low, e.high] {
-            literal(out, value);
-        }
-        let _ = writeln!(out, "{},{}),", e.slot.offset, e.slot.len);
-    }
-    let blob = tables.blob().escape_ascii();
-    let text = tables.text();
-    let store_len = tables.dictionary().store_len();
+    bytes(out, object_rows);
+    let _ = write!(out, ");\nstatic ENTRIES: [Entry; {entries}] = entries(");
+    bytes(out, entry_rows);
     let _ = write!(
         out,
-        "];
+        ");
 static PLACES: [Place; {entries}] = places(&ENTRIES);
 static BUCKETS: [u16; bucket_count({entries})] = buckets(&PLACES);
-d(&BUCKETS, &PLACES, &OBJECTS, &ENTRIES, {text:?}, b\"{blob}\", {store_len})
+dictionary(&BUCKETS, &PLACES, &OBJECTS, &ENTRIES, {:?}, ",
+        tables.text()
+    );
+    bytes(out, tables.blob().iter().copied());
+    let _ = write!(
+        out,
+        ", {store_len})
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();
@@ -216,15 +195,14 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
     );
 }
 
-fn literal(out: &mut String, value: Literal) {
-    let _ = match value {
-        Literal::None => write!(out, "N,"),
-        Literal::Unsigned(v) => write!(out, "U({v}),"),
-        Literal::Signed(v) => write!(out, "S({v}),"),
-        Literal::Real(v) if v.is_finite() => write!(out, "R({v:?}),"),
-        Literal::Real(v) => write!(out, "R(f64::from_bits({})),", v.to_bits()),
-        Literal::NodeId(v) => write!(out, "D({v}),"),
-        Literal::Text(range) => write!(out, "t({},{}),", range.start, range.len),
-        Literal::Bytes(range) => write!(out, "b({},{}),", range.start, range.len),
-    };
+/// A literal of bytes. Most are 0, which `escape_ascii` would write with four letters.
+fn bytes(out: &mut String, bytes: impl Iterator<Item = u8>) {
+    out.push_str("b\"");
+    for byte in bytes {
+        match byte {
+            0 => out.push_str("\\0"),
+            other => out.extend(other.escape_ascii().map(char::from)),
+        }
+    }
+    out.push('"');
 }

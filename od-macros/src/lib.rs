@@ -159,8 +159,8 @@ mod tests {
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
             "pub const DICTIONARY: ::od_model::Dictionary<'static> =",
-            "static OBJECTS: [Object; 4] = [o(0x1000, C::Var, 0, 11, 0, 1),",
-            "e(0x1000, 0, T::Unsigned32, A::Ro, false, GN, 0, 11, U(406), N, N, 0, 4),",
+            "static OBJECTS: [Object; 4] = objects(b\"\\0\\x10\\x07",
+            "static ENTRIES: [Entry; 5] = entries(b\"\\0\\x10\\0\\x06",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
@@ -172,6 +172,45 @@ mod tests {
         assert!(variant.contains(&handed_on), "{variant}");
         assert!(!variant.contains("SPEED"));
         assert!(!made.contains("compile_error"), "{made}");
+    }
+
+    /// What an IDE keeps, and the compiler reads again for each build: it grows with the
+    /// dictionary by this much and no more.
+    #[test]
+    fn an_entry_costs_few_tokens() {
+        let made = |count: usize| {
+            let row = |i| {
+                format!(
+                    "add 0x{:04X} {{ name = \"Temperature of channel {i}\"; type = i32; \
+                     access = rw; default = {i}; low = -200000; high = 200000 }}",
+                    0x2000 + i
+                )
+            };
+            let rows: String = (0..count).map(row).collect();
+            let text = format!(
+                "mod device {{ add 0x1000 {{ name = \"Type\"; type = u32 }} \
+                 add 0x1001 {{ name = \"Error register\"; type = u8 }} \
+                 add 0x1018 {{ code = record; name = \"Identity\" }} \
+                 add 0x1018sub1 {{ name = \"Vendor-ID\"; type = u32; default = 7 }} {rows} }}"
+            );
+            let made = expand(text.parse().unwrap());
+            let text = made.to_string();
+            assert!(!text.contains("compile_error"), "{text}");
+            (tokens(made), text.len())
+        };
+        let (few, short) = made(10);
+        let (many, long) = made(510);
+        let (tokens, bytes) = ((many - few) / 500, (long - short) / 500);
+        assert!(tokens <= 40, "{tokens} tokens for each value");
+        assert!(bytes <= 700, "{bytes} bytes for each value");
+    }
+
+    fn tokens(stream: TokenStream) -> usize {
+        let count = |token| match token {
+            proc_macro2::TokenTree::Group(group) => 2 + tokens(group.stream()),
+            _ => 1,
+        };
+        stream.into_iter().map(count).sum()
     }
 
     #[test]
