@@ -1,0 +1,11 @@
+//! A sub-index 0 of another data type.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0309/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! 1000h of another data type.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0604/bad.eds";
+    }
+}
+
+fn main() {}

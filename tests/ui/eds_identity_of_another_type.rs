@@ -1,0 +1,11 @@
+//! A member of 1018h of another data type.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0606/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A dummy in a PDO that is sent.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0507/bad.eds";
+    }
+}
+
+fn main() {}

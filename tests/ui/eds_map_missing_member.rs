@@ -1,0 +1,11 @@
+//! A mapped sub-index that does not exist.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0512/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A member whose object has no section.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0208/bad.eds";
+    }
+}
+
+fn main() {}

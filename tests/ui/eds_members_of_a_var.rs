@@ -1,0 +1,11 @@
+//! A VAR with sub-indices.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0305/bad.eds";
+    }
+}
+
+fn main() {}

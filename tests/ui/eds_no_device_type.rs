@@ -1,0 +1,11 @@
+//! No 1000h.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0601/bad.eds";
+    }
+}
+
+fn main() {}

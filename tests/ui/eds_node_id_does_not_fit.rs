@@ -1,0 +1,11 @@
+//! A formula that is too large for some node IDs.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0418/bad.eds";
+    }
+}
+
+fn main() {}

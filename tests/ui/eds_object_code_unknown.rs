@@ -1,0 +1,11 @@
+//! An ObjectType that is no object code.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0301/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A configured value that is none of its type.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0413/bad.eds";
+    }
+}
+
+fn main() {}

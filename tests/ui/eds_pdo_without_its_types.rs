@@ -1,0 +1,11 @@
+//! A transmission type of another data type.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0509/bad.eds";
+    }
+}
+
+fn main() {}

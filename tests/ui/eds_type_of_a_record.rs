@@ -1,0 +1,11 @@
+//! A value with the type of a whole object.
+
+use od_macros::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../cases/rules/E0403/bad.eds";
+    }
+}
+
+fn main() {}
