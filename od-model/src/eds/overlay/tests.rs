@@ -113,7 +113,7 @@ fn findings_are_told_where_they_come_from() {
     let (origin, missing) = of("E0401").expect("2002h has no DataType");
     assert_eq!(*origin, Origin::Overlay);
     assert_eq!(missing.span.map(|span| span.line), Some(5));
-    let (origin, limit) = of("E0414").expect("3 is above 1");
+    let (origin, limit) = of("W0452").expect("3 is above 1");
     let span = limit.span.expect("it has a place");
     let file = if *origin == Origin::Base { BASE } else { text };
     let line = file.lines().nth(span.line as usize - 1).unwrap_or("");
