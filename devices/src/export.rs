@@ -39,6 +39,6 @@ impl DeviceKind {
             simple_boot_up: true,
             comments: COMMENTS,
         };
-        eds::write(&eds::describe(self.dictionary, &about))
+        eds::canonical(&eds::describe(self.dictionary, &about))
     }
 }

@@ -87,10 +87,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut description = description(&args.input)?;
     let text = match form {
-        Form::Eds => eds::write(&description),
+        Form::Eds => eds::canonical(&description),
         Form::Dcf => {
             dcf::configure(&mut description, args)?;
-            eds::write(&description)
+            eds::canonical(&description)
         }
         Form::Xdd => xdd::write(&description),
         Form::Md => match Source::find(&args.input)? {

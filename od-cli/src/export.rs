@@ -41,5 +41,5 @@ fn canonical(file: &Text) -> Result<String, Failure> {
     let (description, findings) = file.parse()?;
     let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
     output::note_text(&file.render(&errors, output::error_colours()));
-    Ok(eds::write(&description))
+    Ok(eds::canonical(&description))
 }

@@ -112,13 +112,13 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     if !loaded.diagnostics.iter().any(Diagnostic::is_error) {
         let device = DeviceFile {
             ending,
-            bytes: bytes.unwrap_or_else(|| eds::write(&description).into_bytes()),
+            bytes: bytes.unwrap_or_else(|| eds::canonical(&description).into_bytes()),
             description,
         };
         return Ok((device, Vec::new()));
     }
     let notes = mend::mend(&mut description).map_err(|left| {
-        let text = eds::write(&description);
+        let text = eds::canonical(&description);
         output::note_text(&report::render(
             &path,
             &text,
@@ -131,7 +131,7 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     })?;
     let device = DeviceFile {
         ending,
-        bytes: eds::write(&description).into_bytes(),
+        bytes: eds::canonical(&description).into_bytes(),
         description,
     };
     Ok((device, notes))

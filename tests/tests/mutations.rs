@@ -40,9 +40,8 @@ fn corrupted_files_are_read_to_the_end() {
         }
         let again = eds::parse(&written).description;
         assert!(
-            eds::write(&again) == written
-                && again.objects.len() == loaded.description.objects.len(),
-            "round {round}, {name}: read again, the canonical text differs"
+            again == loaded.description,
+            "round {round}, {name}: read again, the text differs"
         );
     }
 }
@@ -150,6 +149,13 @@ fn illegal(lines: &[&str], at: usize, random: &mut Xorshift) -> Option<String> {
         let key = key.trim();
         (key.eq_ignore_ascii_case("SubNumber") || key.eq_ignore_ascii_case("CompactSubObj"))
             && !matches!(value.trim(), "" | "0")
+    }) || keys().any(|(key, value)| {
+        // An ARRAY or a RECORD has no value of its own, with members or without.
+        let code = value.split([';', '#']).next().unwrap_or("").trim();
+        key.trim().eq_ignore_ascii_case("ObjectType")
+            && ["6", "8", "9"]
+                .iter()
+                .any(|known| code.trim_start_matches("0x0").trim_start_matches("0x") == *known)
     });
     let of_a_value = !matches!(lower.as_str(), "objecttype" | "subnumber" | "objflags");
     if is_whole && has_members && of_a_value && is_object {

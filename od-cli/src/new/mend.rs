@@ -22,7 +22,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnosti
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
-        let found = eds::load(&eds::write(description)).diagnostics;
+        let found = eds::load(&eds::canonical(description)).diagnostics;
         let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
         if errors.is_empty() {
             return Ok(notes);
@@ -40,7 +40,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnosti
             return Err(errors);
         }
     }
-    let left = eds::load(&eds::write(description)).diagnostics;
+    let left = eds::load(&eds::canonical(description)).diagnostics;
     Err(left.into_iter().filter(Diagnostic::is_error).collect())
 }
 

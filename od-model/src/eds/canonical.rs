@@ -11,16 +11,52 @@ use alloc::vec::Vec;
 
 use super::known::{self, Form, Known};
 use super::number;
-use crate::{Description, Section};
+use crate::{Description, Section, Spanned};
+
+/// The text of a description as other readers take it: [`write`](super::write()) of what
+/// [`complete`] makes of it.
+pub fn canonical(description: &Description) -> String {
+    super::write(&complete(description))
+}
+
+/// The description with all that a generated file needs, in the form that every reader takes.
+///
+/// The standard's capitals and order, no octal numbers, all dummies, [FileInfo] and
+/// [DeviceInfo], SubNumber and comments counted. Sections and keys of other tools are
+/// kept, and what the objects say is the same.
+pub fn complete(description: &Description) -> Description {
+    let made = sections(description).into_iter();
+    let mut completed = Description {
+        sections: made.map(Canonical::into_section).collect(),
+        objects: description.objects.clone(),
+    };
+    for object in completed.objects.values_mut() {
+        let count = object.entries.len() as u32;
+        object.sub_number = object.code.has_members().then(|| Spanned::from(count));
+    }
+    completed
+}
 
 /// A section as it is written: its name, and its keys with their values.
-pub(super) struct Canonical {
-    pub(super) name: String,
-    pub(super) pairs: Vec<(String, String)>,
+struct Canonical {
+    name: String,
+    pairs: Vec<(String, String)>,
+}
+
+impl Canonical {
+    fn into_section(self) -> Section {
+        let pairs = self.pairs.into_iter();
+        Section {
+            name: Spanned::from(self.name),
+            pairs: pairs
+                .map(|(key, value)| (Spanned::from(key), Spanned::from(value)))
+                .collect(),
+        }
+    }
 }
 
 /// The sections of a description, those that every file has included.
-pub(super) fn sections(description: &Description) -> Vec<Canonical> {
+fn sections(description: &Description) -> Vec<Canonical> {
     let mut made: Vec<(usize, Canonical)> = Vec::new();
     for section in &description.sections {
         let (order, name) = name(section);
@@ -45,7 +81,7 @@ pub(super) fn sections(description: &Description) -> Vec<Canonical> {
     made.sort_by_key(|(order, _)| *order);
     let mut made: Vec<Canonical> = made.into_iter().map(|(_, made)| made).collect();
     for section in &mut made {
-        complete(section, description);
+        fill(section, description);
     }
     made
 }
@@ -66,8 +102,8 @@ fn name(section: &Section) -> (usize, String) {
 fn take(made: &mut Canonical, section: &Section) {
     let known = known::section(&made.name).map(|(_, known)| known);
     for (key, value) in &section.pairs {
-        let (key, value) = match known.and_then(|known| canonical(known, key, value)) {
-            Some(Some(pair)) => pair,
+        let (key, value) = match known.and_then(|known| pair(known, key, value)) {
+            Some(Some(canonical)) => canonical,
             Some(None) => continue,
             None => (key.value.clone(), value.value.clone()),
         };
@@ -82,7 +118,7 @@ fn take(made: &mut Canonical, section: &Section) {
 }
 
 /// A key that is known, with its value; `Some(None)` where it says nothing.
-fn canonical(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)>> {
+fn pair(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)>> {
     let (name, form) = known::key(known, key)?;
     let name = match name.split_once('#') {
         // The number of the key, in capitals where it is hexadecimal.
@@ -111,7 +147,7 @@ fn numeric(value: &str, form: Form) -> String {
 }
 
 /// Puts in what every file has, and makes counts right.
-fn complete(section: &mut Canonical, description: &Description) {
+fn fill(section: &mut Canonical, description: &Description) {
     let pairs = &mut section.pairs;
     let lacks = |pairs: &[(String, String)], key: &str| !pairs.iter().any(|(k, _)| k == key);
     match section.name.as_str() {

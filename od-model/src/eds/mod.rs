@@ -42,6 +42,7 @@ mod values;
 mod words;
 mod write;
 
+pub use canonical::{canonical, complete};
 pub use describe::{About, describe};
 pub use document::{Document, Edit, EditError};
 pub use encoding::{Encoding, decode};

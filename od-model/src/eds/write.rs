@@ -5,21 +5,20 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::sections::List;
-use super::{canonical, fields, values};
+use super::{fields, values};
 use crate::{Description, EntryDescription, ObjectDescription, Spanned, Value};
 
-/// The canonical text of a description.
+/// The text of a description: what it says, no more and no less.
 ///
-/// It is what other readers take, too: the standard's capitals and order, all dummies,
-/// no octal numbers, `$NODEID+` in front; CompactSubObj and CompactPDO are written out, and
-/// the lists, SubNumber and the number of comments are counted. Sections and keys of other
-/// tools are kept. Reading the text again gives the same objects, and writing those
-/// the same text.
+/// Sections that describe no object come first, as they are; the three lists are made
+/// from the objects; CompactSubObj and CompactPDO are written out. Reading the text again
+/// gives the same description. For a file that other tools are to take, see
+/// [`canonical`](super::canonical()).
 ///
 /// Reals are written in decimal, as vendors do; Lely alone expects the bit pattern.
 pub fn write(description: &Description) -> String {
     let mut out = Text(String::new());
-    for section in canonical::sections(description) {
+    for section in &description.sections {
         out.section(&section.name);
         for (key, value) in &section.pairs {
             out.pair(key, value);
@@ -103,6 +102,9 @@ impl Text {
             self.pair("ParameterName", &object.name);
             let extra = entry.map_or(&[][..], |entry| &entry.extra);
             self.field("ObjectType", &code, extra);
+            if let Some(number) = &object.sub_number {
+                self.field("SubNumber", &number.to_string(), extra);
+            }
             if let Some(entry) = entry {
                 self.entry(entry);
             }
@@ -111,8 +113,10 @@ impl Text {
         let extra = &object.extra;
         self.pair("ParameterName", &object.name);
         self.field("ObjectType", &code, extra);
-        let count = object.entries.len().to_string();
-        self.field("SubNumber", &count, extra);
+        let number = object
+            .sub_number
+            .map_or(object.entries.len() as u32, |number| number.value);
+        self.field("SubNumber", &number.to_string(), extra);
         if object.flags != 0 {
             self.field("ObjFlags", &alloc::format!("0x{:X}", object.flags), extra);
         }
@@ -175,7 +179,7 @@ mod tests {
             datatype=7\naccesstype=RW\ndefaultvalue=0x180+$nodeid\ncompactsubobj=1\n[2001]\n\
             ;StorageLocation=PERSIST_APP\nParameterName=Speed\nDataType=3\nHighLimit=0x7F\n\
             LowLimit=0xFF80\nAccessType=rww\nPDOMapping=1\nDefaultValue=red\nMine=1\n[1000]\n";
-        let written = write(&eds::parse(text).description);
+        let written = eds::canonical(&eds::parse(text).description);
         let expected = "[FileInfo]\nFileName=x.eds\nEDSVersion=4.0\n\n\
             [DeviceInfo]\nVendorNumber=0x00000010\nNrOfRXPDO=8\nNrOfTXPDO=0\n\n\
             [DummyUsage]\nDummy0001=0\nDummy0002=0\nDummy0003=0\nDummy0004=0\n\
@@ -198,7 +202,9 @@ mod tests {
         assert_eq!(written, expected);
         let again = eds::parse(&written).description;
         assert_eq!(again.objects, eds::parse(text).description.objects);
-        assert_eq!(write(&again), written);
+        assert_eq!(eds::canonical(&again), written);
+        let plain = eds::parse(text).description;
+        assert_eq!(eds::parse(&write(&plain)).description, plain);
     }
 
     #[test]
