@@ -12,6 +12,7 @@ mod diff;
 mod dump;
 mod explain;
 mod export;
+mod lesson;
 mod live;
 mod new;
 mod output;
@@ -41,6 +42,7 @@ struct Cli {
 enum Command {
     Sim(sim::Args),
     Run(run::Args),
+    Lesson(lesson::Args),
     Check(check::Args),
     Explain(explain::Args),
     Dump(dump::Args),
@@ -87,6 +89,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command {
         Command::Sim(args) => sim::run(&args),
         Command::Run(args) => run::run(&args),
+        Command::Lesson(args) => lesson::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Dump(args) => dump::run(&args),

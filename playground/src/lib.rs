@@ -315,7 +315,11 @@ impl Bus {
                 self.bus.replace(place, device);
                 place
             }
-            None => self.bus.add(device),
+            // Identical devices have different serial numbers, or LSS could not tell them apart.
+            None => match self.bus.devices().len() {
+                0 => self.bus.add(device),
+                others => self.bus.add(device.with_serial_number(others as u32 + 1)),
+            },
         };
         self.set_power(number, true);
         number
@@ -330,7 +334,8 @@ impl Bus {
     ) {
         for channel in 1..kind.channels {
             let next = node_id.raw().checked_add(channel).and_then(NodeId::new);
-            let mut device = VirtualDevice::new(kind, next.unwrap_or(NodeId::ONE));
+            let mut device = VirtualDevice::new(kind, next.unwrap_or(NodeId::ONE))
+                .with_serial_number(u32::from(channel) + 1);
             let rate = self
                 .bus
                 .devices()

@@ -11,6 +11,7 @@ mod device;
 mod eeprom;
 pub mod faults;
 mod leds;
+pub mod lesson;
 pub mod line;
 pub mod links;
 mod saved;

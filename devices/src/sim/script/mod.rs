@@ -27,7 +27,7 @@ use od_runtime::{Frame, Instant, NodeId};
 
 pub use console::Console;
 pub use pattern::Pattern;
-pub use run::run;
+pub use run::{Bench, run, run_on};
 
 use super::VirtualDevice;
 use statement::{Action, Statement};

@@ -7,7 +7,7 @@ use od_runtime::wire::nmt::Command;
 use od_runtime::{BusEvent, Instant, NodeId};
 
 use super::parse_expect::{expect, repeated, sdo};
-use super::statement::{Action, Power, Shaft, Statement, Timing, When};
+use super::statement::{Action, LineChange, Power, Shaft, Statement, Timing, When};
 use super::words::{Words, is_decimal};
 use super::{Pattern, Problem, Script};
 use crate::sim::{candump, faults};
@@ -16,7 +16,7 @@ use crate::sim::{candump, faults};
 const WALL_CLOCK: u64 = 100_000_000_000_000;
 
 const STATEMENTS: &str = "a line is a frame (601#4004600000000000), or begins with device, use, \
-                          shaft, power, switch, fault, bus, wait, at, after, send, nmt, sync, sdo, \
+                          shaft, power, line, switch, fault, bus, wait, at, after, send, nmt, sync, sdo, \
                           ignore, skip or expect";
 
 pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
@@ -62,6 +62,7 @@ pub(super) fn statement(
         "use" => Action::Use(label(&mut words)?),
         "shaft" => shaft(&mut words)?,
         "power" => power(&mut words)?,
+        "line" => line(&mut words)?,
         "switch" => switch(&mut words)?,
         "fault" => fault(&mut words)?,
         "bus" => bus(&mut words)?,
@@ -167,7 +168,7 @@ fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
 
 fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     const HELP: &str = "write `device gxmm`, `device gxmm node 5 as left`, or a file name";
-    let head = words.split_at_word(&["node", "as", "on", "off"]);
+    let head = words.split_at_word(&["node", "as", "on", "off", "serial"]);
     let shown = head.rest();
     let name = shown.trim_matches('"').to_owned();
     if name.is_empty() {
@@ -177,6 +178,7 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
         return Err(head.problem("a name with blanks stands in quotes", HELP));
     }
     let (mut nodes, mut name_of, mut beside, mut powered) = (Vec::new(), None, None, true);
+    let mut serial = None;
     while !words.is_empty() {
         if words.take("node") {
             // One for each channel.
@@ -190,6 +192,8 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
             beside = Some(label(words)?);
         } else if words.take("off") {
             powered = false;
+        } else if words.take("serial") {
+            serial = Some(words.number(0, u32::MAX.into())? as u32);
         } else {
             return Err(words.problem(format!("`{}` is unknown", words.peek()), HELP));
         }
@@ -199,6 +203,7 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
         nodes,
         label: name_of,
         beside,
+        serial,
         powered,
     })
 }
@@ -262,6 +267,21 @@ fn power(words: &mut Words<'_>) -> Result<Action, Problem> {
         word => {
             let message = format!("power cannot be `{word}`");
             return Err(here.problem(message, "write `power on`, `power off` or `power cycle 2s`"));
+        }
+    }))
+}
+
+fn line(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let here = *words;
+    Ok(Action::Line(match words.next() {
+        "real" => LineChange::Real(true),
+        "ideal" => LineChange::Real(false),
+        "terminators" => LineChange::Terminators(words.number(0, 9)? as u8),
+        word => {
+            return Err(here.problem(
+                format!("the wire cannot be `{word}`"),
+                "write `line real`, `line ideal` or `line terminators 1`",
+            ));
         }
     }))
 }

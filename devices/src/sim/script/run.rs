@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_runtime::wire::nmt;
 use od_runtime::{Frame, Instant, NodeId};
 
-use super::statement::{Action, Power, Shaft, Statement, When};
+use super::statement::{Action, LineChange, Power, Shaft, Statement, When};
 use super::{Host, Origin, Pattern, Reason, Script, Stop, Summary};
 use crate::sim::bus::{Bus, Sent};
 use crate::sim::{VirtualDevice, values};
@@ -33,6 +33,7 @@ struct Wanted<'s> {
     nodes: &'s [NodeId],
     label: Option<&'s str>,
     beside: Option<&'s str>,
+    serial: Option<u32>,
 }
 
 /// The bench while a script runs.
@@ -50,40 +51,77 @@ pub(super) struct Runner<'h> {
     frames: u64,
 }
 
+/// A bench that scripts run on, one after the other.
+#[derive(Default)]
+pub struct Bench {
+    /// The devices and their bus.
+    pub bus: Bus,
+    labels: Vec<Option<String>>,
+    current: usize,
+}
+
 /// Runs a script from its first line to its last, or to the first that does not hold.
 ///
 /// # Errors
 /// [`Stop`] says which line, and why.
 pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary, Box<Stop>> {
+    run_on(script, host, &mut Bench::default())
+}
+
+/// As [`run`], on a bench where scripts may have run before: devices, their names and the time
+/// stay. What they sent before is not expected any more.
+///
+/// # Errors
+/// [`Stop`] says which line, and why.
+pub fn run_on(
+    script: &Script,
+    host: &mut dyn Host,
+    bench: &mut Bench,
+) -> core::result::Result<Summary, Box<Stop>> {
+    let Bench {
+        bus,
+        labels,
+        current,
+    } = core::mem::take(bench);
     let mut runner = Runner {
         host,
-        bus: Bus::new(),
-        labels: Vec::new(),
-        current: 0,
+        bus,
+        labels,
+        current,
         pending: VecDeque::new(),
         ignored: Vec::new(),
         greetings: Vec::new(),
         held: 0,
         frames: 0,
     };
-    for statement in &script.statements {
-        if let Err(reason) = runner.statement(statement) {
-            return Err(Box::new(Stop {
-                line: statement.line,
-                text: statement.text.clone(),
-                at: runner.bus.now(),
-                reason,
-            }));
-        }
-    }
-    Ok(Summary {
-        held: runner.held,
-        frames: runner.frames,
-        end: runner.bus.now(),
-    })
+    let result = runner.run(script);
+    *bench = Bench {
+        bus: runner.bus,
+        labels: runner.labels,
+        current: runner.current,
+    };
+    result
 }
 
 impl Runner<'_> {
+    fn run(&mut self, script: &Script) -> core::result::Result<Summary, Box<Stop>> {
+        for statement in &script.statements {
+            if let Err(reason) = self.statement(statement) {
+                return Err(Box::new(Stop {
+                    line: statement.line,
+                    text: statement.text.clone(),
+                    at: self.bus.now(),
+                    reason,
+                }));
+            }
+        }
+        Ok(Summary {
+            held: self.held,
+            frames: self.frames,
+            end: self.bus.now(),
+        })
+    }
+
     fn statement(&mut self, statement: &Statement) -> Result<()> {
         let now = self.bus.now();
         let names_device = matches!(statement.action, Action::Device { .. });
@@ -108,6 +146,7 @@ impl Runner<'_> {
                 nodes,
                 label,
                 beside,
+                serial,
                 powered,
             } => {
                 let wanted = Wanted {
@@ -115,6 +154,7 @@ impl Runner<'_> {
                     nodes,
                     label: label.as_deref(),
                     beside: beside.as_deref(),
+                    serial: *serial,
                 };
                 self.add(&wanted, *powered)?;
             }
@@ -133,6 +173,13 @@ impl Runner<'_> {
             }
             Action::Shaft(shaft) => self.shaft(*shaft)?,
             Action::Power(power) => self.power(*power),
+            Action::Line(change) => {
+                let line = &mut self.bus.line;
+                match *change {
+                    LineChange::Real(real) => line.is_real = real,
+                    LineChange::Terminators(count) => line.terminators = count,
+                }
+            }
             Action::SwitchNode(number) => {
                 self.with(|device, now| device.set_node_switch(*number, now))
             }
@@ -200,7 +247,10 @@ impl Runner<'_> {
             None => None,
         };
         let node = wanted.nodes.first().copied();
-        let device = self.host.device(wanted.name, node).or_else(impossible)?;
+        let mut device = self.host.device(wanted.name, node).or_else(impossible)?;
+        if let Some(serial) = wanted.serial {
+            device = device.with_serial_number(serial);
+        }
         let channels = device.channels();
         if wanted.nodes.len() > usize::from(channels) {
             return impossible(format!(

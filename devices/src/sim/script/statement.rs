@@ -53,6 +53,14 @@ pub(super) enum Power {
     Cycle(u64),
 }
 
+/// What happens to the wire.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum LineChange {
+    /// Bit rates, terminators and error counters matter, or do not.
+    Real(bool),
+    Terminators(u8),
+}
+
 /// When an expected frame has to come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Timing {
@@ -110,6 +118,8 @@ pub(super) enum Action {
         label: Option<String>,
         /// The device on whose shaft it sits.
         beside: Option<String>,
+        /// Of the first channel.
+        serial: Option<u32>,
         powered: bool,
     },
     Use(String),
@@ -120,6 +130,7 @@ pub(super) enum Action {
     },
     Shaft(Shaft),
     Power(Power),
+    Line(LineChange),
     SwitchNode(u8),
     SwitchBitrate(u8),
     Fault {
