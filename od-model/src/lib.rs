@@ -34,6 +34,8 @@ pub use value::{Literal, Range};
 #[cfg(feature = "eds")]
 pub mod check;
 #[cfg(feature = "eds")]
+mod commission;
+#[cfg(feature = "eds")]
 mod description;
 #[cfg(feature = "eds")]
 mod diagnostic;

@@ -147,3 +147,35 @@ test('the devices that there are', () => {
   const names = odkit.builtinDevices().map((one) => one.name);
   assert.ok(names.includes('gxmm') && names.includes('gxam'), String(names));
 });
+
+test('a device as it is set up becomes a DCF, and the DCF the same device', () => {
+  const bus = new odkit.Bus();
+  const device = bus.addDevice('gxmm', 5);
+  bus.deliver(device, 0x605, bytes('2301600000100000'));
+  bus.deliver(device, 0x605, bytes('2b171000f4010000'));
+  const dcf = bus.exportDcf(device, 'gxmm');
+  assert.match(dcf, /\[DeviceComissioning\][^[]*NodeID=5\n/i);
+  assert.equal(dcf.match(/ParameterValue=/g).length, 3, '6001h, 1017h, and the node ID in 2101h');
+  const other = new odkit.Bus();
+  const { device: again } = other.addEds(dcf, 5);
+  assert.equal(other.read(again, 0x6001, 0), 4096);
+  assert.equal(other.read(again, 0x1017, 0), 500);
+  assert.equal(other.exportDcf(again, undefined, dcf), dcf);
+  assert.throws(() => bus.exportDcf(device, 'nothing'));
+  assert.throws(() => bus.exportDcf(7, 'gxmm'));
+});
+
+test('what is not saved lives on in an image', () => {
+  const bus = new odkit.Bus();
+  const device = bus.addDevice('gcam', 3);
+  bus.deliver(device, 0x603, bytes('2301600000080000'));
+  const before = bus.eeprom(device);
+  const image = bus.image(device);
+  assert.deepEqual(bus.eeprom(device), before, 'the EEPROM itself stays');
+  const other = new odkit.Bus();
+  const copy = other.addDevice('gcam', 3);
+  other.setEeprom(copy, image);
+  other.setPower(copy, false);
+  other.setPower(copy, true);
+  assert.equal(other.read(copy, 0x6001, 0), 2048);
+});

@@ -108,6 +108,21 @@ impl Bus {
             .unwrap_or_default()
     }
 
+    /// The bytes that the EEPROM would hold if everything were saved as it is now.
+    pub fn image(&mut self, device: usize) -> Vec<u8> {
+        self.bus
+            .with(device, |device, _| device.image())
+            .unwrap_or_default()
+    }
+
+    /// Hands a frame to one device alone, beside the wire; what it answers goes on the bus.
+    pub fn deliver(&mut self, device: usize, id: u32, data: &[u8]) {
+        let frame = packed::make(id, data, false, false);
+        self.bus
+            .with(device, |device, now| device.handle_frame(now, &frame));
+        self.collect();
+    }
+
     /// Puts bytes into a device's EEPROM; they act at the next start.
     #[wasm_bindgen(js_name = setEeprom)]
     pub fn set_eeprom(&mut self, device: usize, bytes: &[u8]) {

@@ -19,6 +19,8 @@
 
 mod bench;
 #[cfg(feature = "eds")]
+mod configured;
+#[cfg(feature = "eds")]
 mod fixes;
 mod motion;
 mod packed;

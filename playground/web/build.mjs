@@ -1,6 +1,7 @@
 // Bundles the page into dist/. `--watch` rebuilds on change.
 import { build, context } from 'esbuild';
-import { cp, mkdir, rm, stat } from 'node:fs/promises';
+import { createHash } from 'node:crypto';
+import { cp, mkdir, readdir, readFile, rm, stat, writeFile } from 'node:fs/promises';
 
 const watch = process.argv.includes('--watch');
 const out = new URL('dist/', import.meta.url);
@@ -25,6 +26,7 @@ const options = {
   minify: !watch,
   sourcemap: watch ? 'inline' : false,
   legalComments: 'none',
+  define: { OFFLINE: String(!watch) },
   logLevel: 'warning',
   conditions: watch ? ['development'] : ['production'],
 };
@@ -32,11 +34,20 @@ const options = {
 await rm(out, { recursive: true, force: true });
 await mkdir(out, { recursive: true });
 await cp(new URL('src/index.html', import.meta.url), new URL('index.html', out));
-await cp(new URL('src/icon.svg', import.meta.url), new URL('icon.svg', out));
+for (const name of ['icon.svg', 'manifest.webmanifest']) await cp(new URL(`src/${name}`, import.meta.url), new URL(name, out));
 for (const [name, path] of Object.entries(modules)) await cp(new URL(path, import.meta.url), new URL(name, out));
 if (watch) {
   await (await context(options)).watch();
   console.log('watching');
 } else {
   await build(options);
+  await serviceWorker();
+}
+
+/** The service worker knows every file of the page by its content. */
+async function serviceWorker() {
+  const hash = async (name) => createHash('sha256').update(await readFile(new URL(name, out))).digest('base64url').slice(0, 12);
+  const files = await Promise.all((await readdir(out)).sort().map(async (name) => [name, await hash(name)]));
+  const text = await readFile(new URL('src/sw.js', import.meta.url), 'utf8');
+  await writeFile(new URL('sw.js', out), text.replace('/* FILES */', JSON.stringify(files)));
 }

@@ -7,6 +7,8 @@
 
 pub mod bus;
 pub mod candump;
+#[cfg(feature = "sim")]
+mod configured;
 mod device;
 mod eeprom;
 pub mod faults;

@@ -6,7 +6,7 @@ use std::vec;
 
 use od_model::{Address, Entry};
 use od_runtime::Store;
-use od_runtime::storage::{Storage, image};
+use od_runtime::storage::{Memory, Storage, image};
 
 use super::VirtualDevice;
 
@@ -64,6 +64,18 @@ impl VirtualDevice {
             let _ = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
         }
         Saved { values }
+    }
+
+    /// What the EEPROM would hold if everything were saved as it is now.
+    pub fn image(&mut self) -> Vec<u8> {
+        let mut memory = Memory::new(vec![0xFF; self.storage.capacity()]);
+        let node_id = self.node.node_id();
+        let dictionary = self.source.dictionary();
+        if let Ok(store) = Store::new(dictionary, &mut self.values, node_id) {
+            // What does not fit is lost, as it would be in the device.
+            let _ = image::save(&mut memory, &store, &self.profile.store, 1);
+        }
+        memory.bytes().to_vec()
     }
 
     /// Would this object have another value after a start than it has now? `None` where it is

@@ -1,54 +1,28 @@
 //! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
 
 use od_devices::sim::values;
-use od_model::{DataType, Description, Kind, Section, Spanned, Tables, Value};
+use od_model::{Description, Spanned, Tables, Value};
 
 use super::Args;
 use crate::Failure;
-
-const COMMISSIONING: &str = "DeviceComissioning";
 
 /// Node ID, bit rate and the values that were asked for. A value of the file stays where
 /// nothing is said of it.
 pub(super) fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> {
     if let Some(node_id) = args.node_id {
-        set(description, "NodeID", &node_id.raw().to_string());
+        description.commission("NodeID", &node_id.raw().to_string());
     } else if description.commissioned_node_id().is_none() {
         return Err(Failure::Usage(
             "a DCF is of one device: say its node ID, --node-id 5".into(),
         ));
     }
     if let Some(rate) = args.bit_rate {
-        set(description, "Baudrate", &rate.to_string());
+        description.commission("Baudrate", &rate.to_string());
     }
     for setting in &args.values {
         value(description, setting).map_err(Failure::Usage)?;
     }
     Ok(())
-}
-
-/// Sets a key of the commissioning section, whichever spelling the file has.
-fn set(description: &mut Description, key: &str, value: &str) {
-    let is_it = |section: &Section| {
-        let name = section.name.value.to_ascii_lowercase();
-        name == "devicecomissioning" || name == "devicecommissioning"
-    };
-    let at = match description.sections.iter().position(is_it) {
-        Some(at) => at,
-        None => {
-            description.sections.push(Section {
-                name: Spanned::from(String::from(COMMISSIONING)),
-                pairs: Vec::new(),
-            });
-            description.sections.len() - 1
-        }
-    };
-    let pairs = &mut description.sections[at].pairs;
-    let value = Spanned::from(String::from(value));
-    match pairs.iter_mut().find(|(k, _)| k.eq_ignore_ascii_case(key)) {
-        Some((_, old)) => *old = value,
-        None => pairs.push((Spanned::from(String::from(key)), value)),
-    }
 }
 
 /// `6001h=4096`: the ParameterValue of one object.
@@ -67,7 +41,7 @@ fn value(description: &mut Description, setting: &str) -> Result<(), String> {
         ));
     }
     let bytes = values::parse(data_type, text).map_err(|why| format!("{object}: {why}"))?;
-    let value = from_bytes(data_type, bytes);
+    let value = Value::from_wire(data_type, bytes);
     let node_id = description.commissioned_node_id().unwrap_or(1);
     let described = description
         .objects
@@ -88,25 +62,4 @@ fn value(description: &mut Description, setting: &str) -> Result<(), String> {
     }
     described.parameter = Some(Spanned::from(value));
     Ok(())
-}
-
-/// A value as it goes over the bus, as a description has it.
-fn from_bytes(data_type: DataType, bytes: Vec<u8>) -> Value {
-    let mut wide = [0; 8];
-    let size = bytes.len().min(8);
-    wide[..size].copy_from_slice(&bytes[..size]);
-    match data_type.kind() {
-        Kind::Text => Value::Text(String::from_utf8_lossy(&bytes).into_owned()),
-        Kind::Bytes | Kind::Record => Value::Bytes(bytes),
-        Kind::Boolean | Kind::Unsigned => Value::Unsigned(u64::from_le_bytes(wide)),
-        Kind::Signed => {
-            let unused = 64 - 8 * size.max(1) as u32;
-            Value::Signed(i64::from_le_bytes(wide) << unused >> unused)
-        }
-        Kind::Real if size == 4 => {
-            let [a, b, c, d, ..] = wide;
-            Value::Real(f64::from(f32::from_le_bytes([a, b, c, d])))
-        }
-        Kind::Real => Value::Real(f64::from_le_bytes(wide)),
-    }
 }

@@ -78,9 +78,19 @@ export const tab = signal<Tab>('encoder');
 /** A message that goes away by itself. */
 export const toast = signal<{ text: string; tone: 'info' | 'error'; action?: { text: string; run(): void } } | null>(null);
 
+/** What the page offers once, until it is taken or waved away. */
+export interface Offer {
+  key: string;
+  text: string;
+  action: string;
+  run(): void;
+}
+export const offers = signal<Offer[]>([]);
+
 /** Which place on the bus the dialog fills; null while it is closed. */
 export const deviceDialog = signal<number | 'new' | null>(null);
 export const helpDialog = signal(false);
+export const shareDialog = signal(false);
 /** A file that could not be opened, and why. */
 export const attempt = signal<{ name: string; text: string; diagnostics: Diagnostic[] } | null>(null);
 

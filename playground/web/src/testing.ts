@@ -13,4 +13,4 @@ import nodeAssert from 'node:assert/strict';
 import { test as nodeTest } from 'node:test';
 
 export const assert: Assert = nodeAssert as Assert;
-export const test = nodeTest as (name: string, body: () => void) => void;
+export const test = nodeTest as (name: string, body: () => void | Promise<void>) => void;

@@ -143,7 +143,9 @@ export type Input =
   | { op: 'plug'; station: number; on: boolean }
   | { op: 'restart'; station: number }
   | { op: 'cut'; node: number; bytes: number }
-  | { op: 'eeprom'; node: number; bytes: Uint8Array };
+  | { op: 'eeprom'; node: number; bytes: Uint8Array }
+  /** A frame for one device alone, beside the wire. */
+  | { op: 'deliver'; node: number; id: number; data: Uint8Array };
 
 /** An input and its virtual moment in microseconds. */
 export interface Entry {
@@ -154,7 +156,10 @@ export interface Entry {
 /** What the page asks of the worker. */
 export type Command =
   | { op: 'do'; input: Input; ticket?: number }
-  | { op: 'restore'; entries: Entry[]; until: number }
+  /** `quiet`: what is sent at the first moment is not shown. */
+  | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean }
+  | { op: 'still'; ticket: number }
+  | { op: 'dcf'; ticket: number; node: number }
   | { op: 'run'; running: boolean }
   | { op: 'speed'; factor: number }
   | { op: 'step'; micros: number; frames: number }
@@ -184,6 +189,8 @@ export type Report =
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }
   | { op: 'laid'; ticket: number; layout: Uint32Array }
+  | { op: 'stood'; ticket: number; entries: Entry[] | null }
+  | { op: 'exported'; ticket: number; text: string | null }
   | { op: 'crashed'; message: string };
 
 /** The state of everything at one virtual moment. */

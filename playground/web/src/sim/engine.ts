@@ -65,7 +65,7 @@ export class Engine {
       }
       case 'restore':
         this.isBusy = true;
-        await world.restore(command.entries);
+        await world.restore(command.entries, command.quiet);
         this.isBusy = false;
         this.until = command.until;
         this.tellDevices();
@@ -111,6 +111,16 @@ export class Engine {
         return;
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
+        break;
+      case 'still': {
+        const { still } = await import('./still');
+        this.report({ op: 'stood', ticket: command.ticket, entries: still(world) });
+        return;
+      }
+      case 'dcf':
+        this.isBusy = true;
+        this.report({ op: 'exported', ticket: command.ticket, text: await world.dcf(command.node) });
+        this.isBusy = false;
         break;
       case 'drawn':
         this.undrawn = Math.max(0, this.undrawn - 1);

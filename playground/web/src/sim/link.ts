@@ -16,6 +16,8 @@ let crashes = 0;
 let ticket = 0;
 const tickets = new Map<number, (words: string[]) => void>();
 const layouts = new Map<number, (layout: Uint32Array) => void>();
+const stills = new Map<number, (entries: Entry[] | null) => void>();
+const exports = new Map<number, (text: string | null) => void>();
 const additions = new Map<number, (added: Added) => void>();
 /** Who wants to see the frames as they come. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
@@ -51,11 +53,29 @@ export function add(input: Extract<Input, { op: 'add' }>): Promise<Added> {
   });
 }
 
-/** Makes a run again, from nothing. */
-export function restore(entries: Entry[], until: number): void {
+/** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
+export function restore(entries: Entry[], until: number, quiet = false): void {
   state.journal.entries = [];
   dropFrames();
-  send({ op: 'restore', entries, until });
+  send({ op: 'restore', entries, until, quiet });
+}
+
+/** What makes an empty bench stand as this one does, without its past; null where nothing does. */
+export function still(): Promise<Entry[] | null> {
+  return new Promise((resolve) => {
+    ticket += 1;
+    stills.set(ticket, resolve);
+    send({ op: 'still', ticket });
+  });
+}
+
+/** A DCF of a device as it is set up. */
+export function exportDcf(node: number): Promise<string | null> {
+  return new Promise((resolve) => {
+    ticket += 1;
+    exports.set(ticket, resolve);
+    send({ op: 'dcf', ticket, node });
+  });
 }
 
 /** The words of packed frames. */
@@ -109,6 +129,14 @@ function receive(report: Report): void {
     case 'laid':
       layouts.get(report.ticket)?.(report.layout);
       layouts.delete(report.ticket);
+      break;
+    case 'stood':
+      stills.get(report.ticket)?.(report.entries);
+      stills.delete(report.ticket);
+      break;
+    case 'exported':
+      exports.get(report.ticket)?.(report.text);
+      exports.delete(report.ticket);
       break;
     case 'crashed':
       crashed(report.message);
@@ -230,6 +258,9 @@ function crashed(message: string): void {
   crashes += 1;
   tickets.clear();
   layouts.clear();
+  for (const resolve of [...stills.values(), ...exports.values()]) resolve(null);
+  stills.clear();
+  exports.clear();
   for (const resolve of additions.values()) resolve({ node: null, diagnostics: [] });
   additions.clear();
   if (crashes > MOST_CRASHES) {
@@ -247,6 +278,6 @@ function crashed(message: string): void {
   // From the moment it stopped, so that time on the page does not run backwards.
   const at = state.now.peek();
   const entries = state.devices.peek().map(({ source, nodeId }): Entry => ({ at, input: { op: 'add', source, nodeId } }));
-  send({ op: 'restore', entries, until: at });
+  send({ op: 'restore', entries, until: at, quiet: false });
   setTimeout(() => (crashes = 0), 10_000);
 }

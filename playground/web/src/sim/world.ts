@@ -82,11 +82,20 @@ export class World {
 
   /** The bench as it was at `to`; what came after stays in the journal and comes again. */
   rewind(to: number): void {
+    this.begin();
+    this.catchUp(to);
+  }
+
+  private begin(): void {
     const fresh = this.fresh();
     this.bus.free();
     this.bus = fresh;
     this.devices = [];
     this.done = 0;
+  }
+
+  /** Goes on to `to`, and throws the frames away. */
+  private catchUp(to: number): void {
     while (this.bus.now() < to || this.journal[this.done]?.at === to) {
       const before = this.done;
       const passed = this.advance(to - this.bus.now(), PORTION);
@@ -96,11 +105,24 @@ export class World {
   }
 
   /** A bench without anything, and a run that is to be made again. */
-  async restore(entries: Entry[]): Promise<void> {
+  async restore(entries: Entry[], quiet: boolean): Promise<void> {
     if (entries.some(({ input }) => needsWhole(input)) && !this.module.whole) this.module = await this.modules.whole();
     this.journal = entries;
     this.told = 0;
-    this.rewind(0);
+    this.begin();
+    if (quiet) this.catchUp(0);
+  }
+
+  /** A DCF of a device as it is set up. */
+  async dcf(node: number): Promise<string | null> {
+    const source = this.devices[node]?.source;
+    if (!source) return null;
+    await this.enlarge();
+    try {
+      return this.bus.exportDcf(node, source.name, source.kind === 'eds' ? source.text : undefined);
+    } catch {
+      return null;
+    }
   }
 
   private async enlarge(): Promise<void> {
@@ -187,11 +209,16 @@ export class World {
       case 'eeprom':
         bus.setEeprom(input.node, input.bytes);
         break;
+      case 'deliver':
+        bus.deliver(input.node, input.id, input.data);
+        break;
     }
     return { node: null, diagnostics: [] };
   }
 
   private setSwitches({ node, id, dip }: Extract<Input, { op: 'switches' }>): void {
+    // A link may name a device that is not there.
+    if (node >= this.devices.length) return;
     const { nodeSwitch, rateSwitch } = this.bus.status(node);
     const rate = dip ? (dip.on ? rateSwitch | dip.bit : rateSwitch & ~dip.bit) : rateSwitch;
     this.bus.setSwitches(node, id ?? nodeSwitch, rate);

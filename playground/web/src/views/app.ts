@@ -14,6 +14,7 @@ import './send';
 import './objects';
 import './device-dialog';
 import './help';
+import './offer';
 
 const TABS: { tab: state.Tab; text: string; icon: unknown }[] = [
   { tab: 'encoder', text: 'Encoder', icon: icons.encoder },
@@ -85,6 +86,8 @@ class App extends View {
       </div></nav>
       <od-device-dialog></od-device-dialog>
       <od-help></od-help>
+      <od-share></od-share>
+      <od-offers></od-offers>
       <div class="toasts" role="status" aria-live="polite">
         ${state.toast.value
           ? html`<div class="toast" data-tone=${state.toast.value.tone}>

@@ -19,6 +19,10 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     state.toast.value = { text: `${file.name} is too large for an EDS file.`, tone: 'error' };
     return false;
   }
+  if (/\.json$/i.test(file.name)) {
+    const share = await import('../share/make');
+    return share.openText(await file.text(), file.name);
+  }
   return openText(file.name, decodeText(new Uint8Array(await file.arrayBuffer())), nodeId, false, place);
 }
 

@@ -10,6 +10,16 @@ import { View } from './view';
 
 const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
 
+/** The dialog comes when it is asked for. */
+const openShare = (): void => void import('./share').then(() => (state.shareDialog.value = true));
+
+/** From a frame to a tab of its own, with the bench as it stands. */
+async function openFull(event: Event): Promise<void> {
+  event.preventDefault();
+  const { hashOf, now } = await import('../share/make');
+  window.open(location.pathname + (await hashOf(await now(false))), '_blank', 'noopener');
+}
+
 class Topbar extends View {
   private isDark(): boolean {
     const chosen = document.documentElement.dataset['theme'];
@@ -79,6 +89,8 @@ class Topbar extends View {
           ${icons.chevron}
         </label>
       </div>
+      <button class="icon-button share-button" aria-label=${t.share} title=${t.share} aria-haspopup="dialog" @click=${openShare}>${icons.share}</button>
+      <a class="icon-button full-button" href=${location.pathname} target="_blank" aria-label=${T.share.full} title=${T.share.full} @click=${openFull}>${icons.open}</a>
       <button class="icon-button help-button" aria-label=${t.keys} title=${`${t.keys} (?)`} @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>
       <button class="icon-button" aria-label=${t.theme} title=${t.theme} @click=${() => this.toggleTheme()}>${this.isDark() ? icons.sun : icons.moon}</button>
     </header>`;

@@ -1,0 +1,36 @@
+//! A device as it is set up, as a file.
+
+use od_model::eds;
+use wasm_bindgen::prelude::*;
+
+use crate::Bus;
+
+#[wasm_bindgen]
+impl Bus {
+    /// A DCF (CiA 306-1) of a device: what it is, with its node ID, its bit rate and every
+    /// value that is not the factory's. `name` says which of ours it is, `text` what EDS or
+    /// DCF text it was made of; one of the two.
+    ///
+    /// # Errors
+    /// Where there is no such device.
+    #[wasm_bindgen(js_name = exportDcf)]
+    pub fn export_dcf(
+        &mut self,
+        device: usize,
+        name: Option<String>,
+        text: Option<String>,
+    ) -> Result<String, JsError> {
+        let text = match (name, text) {
+            (_, Some(text)) => text,
+            (Some(name), None) => od_devices::find(&name)
+                .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?
+                .eds(),
+            (None, None) => return Err(JsError::new("say which device it is, or its text")),
+        };
+        let mut description = eds::load(&text).description;
+        self.bus
+            .with(device, |device, _| device.configure(&mut description))
+            .ok_or_else(|| JsError::new("there is no device with this number"))?;
+        Ok(eds::write(&description))
+    }
+}

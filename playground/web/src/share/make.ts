@@ -1,0 +1,68 @@
+// The bench as it is now, and a bench made of what came in.
+
+import { effect } from '@preact/signals-core';
+import { setRunning, setSpeed } from '../actions';
+import { restore, select, still } from '../sim/link';
+import * as state from '../state';
+import { T } from '../texts';
+import { NoBench, read, write, type Bench } from './bench';
+import { pack, unpack } from './pack';
+
+/** The key of a bench in an address: `#bench=…`. */
+const KEY = 'bench=';
+
+/** With its frames the run is made again; without them only what came of it. */
+export async function now(trace: boolean): Promise<Bench> {
+  const bench = {
+    trace,
+    now: state.now.peek(),
+    speed: state.speed.peek(),
+    running: state.running.peek(),
+    node: state.selectedNode.peek(),
+    entries: [...state.journal.entries],
+  };
+  if (trace) return bench;
+  const entries = await still();
+  return entries ? { ...bench, now: 0, entries } : { ...bench, trace: true };
+}
+
+export function open(bench: Bench): void {
+  const { entries, trace, node } = bench;
+  restore(entries, trace ? bench.now : 0, !trace);
+  setSpeed(bench.speed);
+  setRunning(bench.running);
+  state.diagnostics.value = [];
+  // It can be shown when it is there.
+  const stop = effect(() => {
+    if (state.devices.value.length <= node || state.replaying.value) return;
+    queueMicrotask(() => {
+      stop();
+      select(node);
+    });
+  });
+}
+
+export const hashOf = async (bench: Bench): Promise<string> => `#${KEY}${await pack(write(bench))}`;
+
+export const holdsBench = (hash: string): boolean => hash.startsWith(`#${KEY}`);
+
+/** Opens what an address holds; false, with a message, where that is none. */
+export async function openHash(hash: string): Promise<boolean> {
+  return tried(async () => open(read(await unpack(hash.slice(KEY.length + 1)))), T.share.badLink);
+}
+
+/** Opens a text that `write` made. */
+export async function openText(text: string, name: string): Promise<boolean> {
+  return tried(() => open(read(text)), (why) => T.share.badFile(name, why));
+}
+
+async function tried(action: () => void | Promise<void>, message: (why: string) => string): Promise<boolean> {
+  try {
+    await action();
+    return true;
+  } catch (error) {
+    const why = error instanceof NoBench ? error.message : 'cut';
+    state.toast.value = { text: message(T.share.why[why] ?? ''), tone: 'error' };
+    return false;
+  }
+}

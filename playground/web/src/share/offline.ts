@@ -1,0 +1,41 @@
+// The page without a network: a service worker keeps its files, and tells of new ones.
+
+import * as state from '../state';
+import { T } from '../texts';
+
+declare const OFFLINE: boolean;
+
+export async function register(): Promise<void> {
+  // While the page is worked on, old files would only be in the way.
+  if (!OFFLINE || !('serviceWorker' in navigator)) return;
+  const { serviceWorker } = navigator;
+  let registration: ServiceWorkerRegistration;
+  try {
+    registration = await serviceWorker.register('sw.js');
+  } catch {
+    // Private windows and file: addresses have none.
+    return;
+  }
+  const watch = (worker: ServiceWorker | null): void => {
+    const tell = (): void => {
+      // The first one replaces nothing.
+      if (worker?.state === 'installed' && serviceWorker.controller) offer(worker);
+    };
+    worker?.addEventListener('statechange', tell);
+    tell();
+  };
+  watch(registration.waiting ?? registration.installing);
+  registration.addEventListener('updatefound', () => watch(registration.installing));
+  document.addEventListener('visibilitychange', () => {
+    if (document.visibilityState === 'visible') void registration.update().catch(() => undefined);
+  });
+}
+
+function offer(worker: ServiceWorker): void {
+  const run = (): void => {
+    navigator.serviceWorker.addEventListener('controllerchange', () => location.reload(), { once: true });
+    worker.postMessage('take over');
+  };
+  const others = state.offers.value.filter((one) => one.key !== 'update');
+  state.offers.value = [...others, { key: 'update', text: T.share.update, action: T.share.reload, run }];
+}

@@ -1,0 +1,22 @@
+// What the page offers once: the bench of last time, a new version of itself.
+
+import { html } from 'lit';
+import * as state from '../state';
+import { T } from '../texts';
+import { icons } from './icons';
+import { View } from './view';
+
+class Offers extends View {
+  protected override render() {
+    const drop = (offer: state.Offer): void => void (state.offers.value = state.offers.value.filter((one) => one !== offer));
+    return html`<div class="offers" role="region" aria-label=${T.share.offers} ?hidden=${state.offers.value.length === 0}>${state.offers.value.map(
+      (offer) => html`<div class="offer">
+        <span>${offer.text}</span>
+        <button class="small primary" @click=${() => { drop(offer); offer.run(); }}>${offer.action}</button>
+        <button class="quiet" aria-label=${T.share.notNow} title=${T.share.notNow} @click=${() => drop(offer)}>${icons.close}</button>
+      </div>`,
+    )}</div>`;
+  }
+}
+
+customElements.define('od-offers', Offers);
