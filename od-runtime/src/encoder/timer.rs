@@ -44,12 +44,13 @@ impl Encoder {
         }
     }
 
-    /// After a reset the two timers may say different things. What changed rules: at a
-    /// start, what storage held; else, what the reset took back.
+    /// After a reset the two timers may say different things. What changed rules: where the
+    /// reset took both back, what storage held; else, what it took back.
     pub(super) fn agree_on_timer(&mut self, cx: &mut Context<'_, '_>, starts: bool) {
         if cx.store.dictionary().find(TIMER).is_err() {
             return;
         }
+        let starts = starts || cx.store.unsigned(TIMER.index, TIMER.sub) != self.timer;
         let changed = |at: Address, was: u64| match cx.store.dictionary().find(at) {
             Ok(entry) if starts => !cx.store.is_default(entry),
             Ok(entry) => cx.store.number(entry) != was,
