@@ -167,6 +167,8 @@ pub static PROFILE: Profile = Profile {
         cut: CutSave::LastSet,
         // A user's value stays absolute (U-04).
         cob_ids: SavedCobIds::Absolute,
+        // 6200h is 1800h:05 (C-GX-26), whichever group is saved or restored.
+        twins: &[[Address::new(0x1800, 5), Address::new(0x6200, 0)]],
     },
     // Chapter 4.3.7; the table runs opposite to the codes of 2100h (C-GX-36).
     lss: Some(LssProfile {

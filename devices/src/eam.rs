@@ -108,6 +108,7 @@ pub static PROFILE: Profile = Profile {
         cut: CutSave::Factory,
         // Chapters 7.3 and 8.2 (C-EAM-02).
         cob_ids: SavedCobIds::Difference,
+        twins: &[],
     },
     // Chapter 11: index 5 is reserved by CiA 305.
     lss: Some(LssProfile {

@@ -81,6 +81,7 @@ pub static PROFILE: Profile = Profile {
         cut: CutSave::Factory,
         // Chapters 5.1.4.2 and 5.2.2.
         cob_ids: SavedCobIds::Absolute,
+        twins: &[],
     },
     // Chapter 5.1.8; 10 and 20 kbit/s are not supported (C-EN-19).
     lss: Some(LssProfile {

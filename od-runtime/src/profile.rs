@@ -107,6 +107,9 @@ pub struct StoreProfile {
     pub cut: CutSave,
     /// COB-IDs of the user after a change of the node ID.
     pub cob_ids: SavedCobIds,
+    /// Pairs of saved objects that are one value (1800h:05 and 6200h): what saves or restores
+    /// the group of one does so with both.
+    pub twins: &'static [[Address; 2]],
 }
 
 /// LSS slave (CiA 305).
@@ -268,6 +271,7 @@ impl Profile {
             duration_us: 0,
             cut: CutSave::LastSet,
             cob_ids: SavedCobIds::Absolute,
+            twins: &[],
         },
         lss: None,
         guarding_switch: None,

@@ -265,7 +265,8 @@ impl<'c> Objects<'c> {
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
         if profile.restore == crate::Restore::AtOnce {
-            self.store.reset(|entry| image::restores(entry, sub));
+            self.store
+                .reset(|entry| image::restores(profile, entry, sub));
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
         self.effect(Effect::Restored(sub));

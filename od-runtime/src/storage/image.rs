@@ -25,7 +25,7 @@
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
-use od_model::{Dictionary, Entry, Group, Literal};
+use od_model::{Address, Dictionary, Entry, Group, Literal};
 
 use super::{Storage, StorageError};
 use crate::{CutSave, Store, StoreProfile, limits};
@@ -98,9 +98,21 @@ pub(crate) const fn is_kept(entry: &Entry) -> bool {
     is_saved(entry) && !is_life_record(entry)
 }
 
+/// Does sub-index `sub` of 1010h or 1011h cover this value, or the one that it is a twin of?
+fn is_covered(profile: &StoreProfile, entry: &Entry, sub: u8) -> bool {
+    let twin = |[one, other]: &[Address; 2]| match entry.address {
+        address if address == *one => Some(*other),
+        address if address == *other => Some(*one),
+        _ => None,
+    };
+    let mut twins = profile.twins.iter().filter_map(twin);
+    entry.group.covered_by(sub)
+        || is_saved(entry) && twins.any(|twin| Group::of_index(twin.index).covered_by(sub))
+}
+
 /// Does writing to sub-index `sub` of 1011h take this value back to its default?
-pub const fn restores(entry: &Entry, sub: u8) -> bool {
-    entry.group.covered_by(sub) && !is_life_record(entry)
+pub fn restores(profile: &StoreProfile, entry: &Entry, sub: u8) -> bool {
+    is_covered(profile, entry, sub) && !is_life_record(entry)
 }
 
 /// Puts saved values over those in the store, for the entries that `which` names.
@@ -183,7 +195,7 @@ pub(crate) fn begin(
     let banks = Banks::survey(storage)?;
     let next = Next {
         plan: &|_, entry| match entry {
-            Some(entry) if entry.group.covered_by(sub) || is_life_record(entry) => {
+            Some(entry) if is_covered(profile, entry, sub) || is_life_record(entry) => {
                 let follows =
                     matches!(entry.default, Literal::NodeId(_)) && store.is_default(entry);
                 if follows { Fate::Drop } else { Fate::Store }
@@ -244,7 +256,7 @@ pub fn erase(
     let next = Next {
         plan: &|address, entry| {
             let goes = match entry {
-                Some(entry) => restores(entry, sub),
+                Some(entry) => restores(profile, entry, sub),
                 None => Group::of_index(address.index).covered_by(sub),
             };
             if goes { Fate::Drop } else { Fate::Keep }
