@@ -5,7 +5,7 @@
 //! - `counts`: instructions per operation, where there is valgrind
 //! - `table`: what earlier runs measured
 //! - `count CONTENDER DISCIPLINE N`: N operations and nothing else, for callgrind;
-//!   a discipline is a dictionary size, `pdo` or `simulation`
+//!   a discipline is a dictionary size, `pdo`, or a device such as `gxmm` or `en580c-moving`
 
 use std::env;
 use std::path::Path;

@@ -11,6 +11,7 @@ use od_runtime::{
 
 use crate::contender::{Pdo, Subject, Upload};
 use crate::objects;
+use crate::roster::Simulated;
 
 /// A node and its device, put together once, as the `main` of a firmware does it.
 #[allow(missing_debug_implementations)] // nobody looks into it
@@ -174,16 +175,24 @@ fn add(
 pub struct Seconds(Odkit);
 
 impl Seconds {
-    /// A gxmm at 60 rpm, in the state operational, whose TPDO 1 is cyclic with 1 ms and
+    /// A device at 60 rpm, in the state operational, whose TPDO 1 is cyclic with 1 ms and
     /// whose TPDO 2 is off.
-    pub fn new() -> Self {
-        let gxmm = od_devices::find("gxmm").expect("the first device there was");
-        let mut encoder = gxmm.new_encoder();
+    pub fn new(Simulated { device, is_moving }: Simulated) -> Self {
+        let device = od_devices::find(device).expect("one of the devices");
+        let mut encoder = device.new_encoder();
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
-        let mut odkit = Odkit::start(gxmm.dictionary, encoder, gxmm.profile);
+        let mut odkit = Odkit::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;
+        odkit.write(0x1800, 1, &[0x80 + node, 0x01, 0x00, 0x80]);
         odkit.write(0x1800, 2, &[254]);
         odkit.write(0x1800, 5, &[1, 0]);
+        if is_moving {
+            odkit.write(0x1A00, 0, &[0]);
+            odkit.write(0x1A00, 2, &0x6030_0110u32.to_le_bytes());
+            odkit.write(0x1A00, 3, &0x6040_0110u32.to_le_bytes());
+            odkit.write(0x1A00, 0, &[3]);
+        }
+        odkit.write(0x1800, 1, &[0x80 + node, 0x01, 0x00, 0x00]);
         odkit.write(0x1801, 1, &[0x80 + node, 0x02, 0x00, 0x80]);
         odkit.tell(0x000, &[0x01, node]);
         Self(odkit)
@@ -205,12 +214,6 @@ impl Seconds {
         }
         *now = end;
         frames
-    }
-}
-
-impl Default for Seconds {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

@@ -18,16 +18,43 @@ pub enum Discipline {
     Upload(usize),
     /// One SYNC in, one TPDO out.
     Pdo,
-    /// One second of virtual time of a gxmm with a 1 ms PDO.
-    Simulation,
+    /// One second of virtual time of a device with a 1 ms PDO.
+    Simulation(Simulated),
 }
+
+/// A device in virtual time, and what its PDO carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Simulated {
+    /// The device's name, as `odkit sim` knows it.
+    pub device: &'static str,
+    /// Speed and acceleration behind the position?
+    pub is_moving: bool,
+}
+
+impl Simulated {
+    const fn new(device: &'static str, is_moving: bool) -> Self {
+        Self { device, is_moving }
+    }
+}
+
+/// One device of each manual, and those that have a speed once more with it.
+pub const SIMULATED: [Simulated; 5] = [
+    Simulated::new("gxmm", false),
+    Simulated::new("eam_mt", false),
+    Simulated::new("eam_mt", true),
+    Simulated::new("en580c", false),
+    Simulated::new("en580c", true),
+];
 
 impl fmt::Display for Discipline {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Upload(size) => write!(f, "{size}"),
             Self::Pdo => f.write_str("pdo"),
-            Self::Simulation => f.write_str("simulation"),
+            Self::Simulation(Simulated { device, is_moving }) => {
+                let what = if *is_moving { "-moving" } else { "" };
+                write!(f, "{device}{what}")
+            }
         }
     }
 }
@@ -36,11 +63,8 @@ impl FromStr for Discipline {
     type Err = ParseIntError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            "pdo" => Ok(Self::Pdo),
-            "simulation" => Ok(Self::Simulation),
-            size => size.parse().map(Self::Upload),
-        }
+        let named = disciplines().find(|discipline| discipline.to_string() == text);
+        named.map_or_else(|| text.parse().map(Self::Upload), Ok)
     }
 }
 
@@ -60,7 +84,8 @@ pub const ODKIT: &str = "odkit";
 /// All disciplines, in the order of the table.
 pub fn disciplines() -> impl Iterator<Item = Discipline> {
     let uploads = SIZES.into_iter().map(Discipline::Upload);
-    uploads.chain([Discipline::Pdo, Discipline::Simulation])
+    let simulations = SIMULATED.into_iter().map(Discipline::Simulation);
+    uploads.chain([Discipline::Pdo]).chain(simulations)
 }
 
 /// All contenders, in the order of the table.
@@ -79,7 +104,7 @@ pub fn subject(name: &str, discipline: Discipline) -> Option<Box<dyn Subject>> {
     let mut subject = match discipline {
         Discipline::Upload(size) => upload(name, size)?,
         Discipline::Pdo => pdo(name)?,
-        Discipline::Simulation => simulation(name)?,
+        Discipline::Simulation(simulated) => simulation(name, simulated)?,
     };
     subject.verify();
     Some(subject)
@@ -120,9 +145,9 @@ fn pdo(name: &str) -> Option<Box<dyn Subject>> {
     }
 }
 
-fn simulation(name: &str) -> Option<Box<dyn Subject>> {
+fn simulation(name: &str, simulated: Simulated) -> Option<Box<dyn Subject>> {
     match name {
-        ODKIT => Some(Box::new(Seconds::new())),
+        ODKIT => Some(Box::new(Seconds::new(simulated))),
         _ => None,
     }
 }
