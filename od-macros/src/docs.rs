@@ -7,6 +7,8 @@ use od_model::{
 
 use crate::input::Statement;
 
+use crate::files::Files;
+
 /// The page on a variant: what of the base is different.
 pub(crate) fn variant(family: &str, statements: &[Statement]) -> String {
     let mut text = format!("\n\nA variant of `{family}`");
@@ -36,7 +38,7 @@ pub(crate) fn entry(
     member: bool,
     entry: &EntryDescription,
     data_type: DataType,
-    file: &str,
+    files: Option<&Files>,
 ) -> String {
     let name = escape(&entry.name);
     let mut text = match member {
@@ -72,25 +74,26 @@ pub(crate) fn entry(
         Group::Application => text.push_str(" Saved with 1010h:03."),
         Group::Manufacturer => text.push_str(" Saved with 1010h:04."),
     }
-    place(&mut text, entry.span, file);
+    place(&mut text, entry.span, files);
     text
 }
 
 /// The page on a RECORD or an ARRAY.
-pub(crate) fn object(index: u16, object: &ObjectDescription, file: &str) -> String {
+pub(crate) fn object(index: u16, object: &ObjectDescription, files: Option<&Files>) -> String {
     let members = object.entries.len();
     let mut text = format!(
         "**{index:04X}h** {}\n\n{}, {members} sub-indices.",
         escape(&object.name),
         *object.code
     );
-    place(&mut text, object.span, file);
+    place(&mut text, object.span, files);
     text
 }
 
-fn place(text: &mut String, span: Span, file: &str) {
-    if span.line != 0 && od_model::patch::token_of(span).is_none() {
-        text.push_str(&format!("\n\n`{file}:{}`", span.line));
+fn place(text: &mut String, span: Span, files: Option<&Files>) {
+    let written = span.line != 0 && od_model::patch::token_of(span).is_none();
+    if let Some(files) = files.filter(|_| written) {
+        text.push_str(&format!("\n\n`{}`", files.line(span)));
     }
 }
 
@@ -160,7 +163,7 @@ mod tests {
             true,
             &speed,
             DataType::Unsigned16,
-            "GXMMW.eds",
+            Some(&Files::one("GXMMW.eds")),
         );
         assert_eq!(
             page,

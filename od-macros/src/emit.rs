@@ -27,13 +27,8 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     let mut text = String::new();
     device(&mut text, &family.base, &[]);
     let body = lex(&text);
-    let track = source
-        .path
-        .as_ref()
-        .and_then(|path| path.to_str())
-        .map(|path| {
-            quote! { const _: &[u8] = ::core::include_bytes!(#path); }
-        });
+    let paths = source.paths.iter().filter_map(|path| path.to_str());
+    let track = paths.map(|path| quote! { const _: &[u8] = ::core::include_bytes!(#path); });
     let about = about(source, family);
     let variants = input.variants.iter().zip(&family.variants);
     let variants = variants.map(|(variant, made)| {
@@ -52,7 +47,7 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         #[doc = #about]
         #[allow(dead_code, unused_imports, unreachable_pub, clippy::all)]
         #visibility mod #name {
-            #track
+            #(#track)*
             #body
             #(#variants)*
         }
@@ -62,8 +57,8 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
 fn about(source: &Source, family: &Family) -> String {
     let objects = family.base.tables.objects().len();
     let mut text = format!("\n\n{objects} objects");
-    if let Some(shown) = &source.shown {
-        let _ = write!(text, ", from `{shown}`");
+    if let Some(files) = &source.files {
+        let _ = write!(text, ", from `{}`", files.shown());
     }
     text.push('.');
     if family.remarks > 0 {

@@ -6,6 +6,7 @@ use od_model::patch;
 use od_model::{Description, Diagnostic, Tables};
 use proc_macro2::Span;
 
+use crate::files::Files;
 use crate::handles::{self, Item, Naming};
 use crate::input::{Input, Statement};
 use crate::report::Report;
@@ -36,8 +37,8 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         Some(path) => path.span(),
         None => input.name.span(),
     };
-    let file = source.shown.as_deref();
-    let told = Findings { home, file, quiet };
+    let files = source.files.as_ref();
+    let told = Findings { home, files, quiet };
 
     let mut base = source.description.clone();
     let found = told.patch(
@@ -76,7 +77,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         })
         .collect();
     let mut family = devices(input, source, base, variants, report);
-    if source.shown.is_some() {
+    if source.files.is_some() {
         family.remarks = eds.iter().filter(|finding| !finding.is_error()).count();
     }
     family
@@ -125,11 +126,10 @@ fn devices(
     let mut all: Vec<&mut Tables> = std::iter::once(&mut tables).chain(&mut others).collect();
     layout::lay_out(&mut all);
 
-    let file = source.shown.as_deref().unwrap_or_default();
-    let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
+    let files = source.files.as_ref();
     let modules = input.variants.iter().map(|v| v.name.to_string()).collect();
     let naming = Naming {
-        file,
+        files,
         family: &[],
         modules,
         statements: &input.statements,
@@ -142,7 +142,7 @@ fn devices(
     };
     for ((variant, description), tables) in input.variants.iter().zip(variants).zip(others) {
         let naming = Naming {
-            file,
+            files,
             family: &family.base.items,
             modules: BTreeSet::new(),
             statements: &variant.statements,
@@ -156,7 +156,7 @@ fn devices(
 /// Where findings go.
 struct Findings<'a> {
     home: Span,
-    file: Option<&'a str>,
+    files: Option<&'a Files>,
     quiet: bool,
 }
 
@@ -207,13 +207,13 @@ impl Findings<'_> {
             tokens: first..report.numbers(),
             home,
             context,
-            file: self.file,
+            files: self.files,
         };
         patch.blame(&new, description, report);
         if context.is_empty() { old } else { Vec::new() }
     }
 
     fn tell(&self, findings: &[Diagnostic], description: &Description, report: &mut Report) {
-        findings::tell(findings, self.home, self.file, description, report);
+        findings::tell(findings, self.home, self.files, description, report);
     }
 }

@@ -7,6 +7,7 @@ use od_model::patch::{Action, Edit, token_of};
 use od_model::{Address, Description, Diagnostic};
 use proc_macro2::Span;
 
+use crate::files::Files;
 use crate::report::{Place, Report};
 
 /// So many faults of one EDS file are shown; the rest is counted.
@@ -17,7 +18,7 @@ const SHOWN: usize = 20;
 pub(crate) fn tell(
     findings: &[Diagnostic],
     home: Span,
-    file: Option<&str>,
+    files: Option<&Files>,
     description: &Description,
     report: &mut Report,
 ) {
@@ -28,13 +29,13 @@ pub(crate) fn tell(
             report.at(place, at_token(finding, description, None));
         } else if shown < SHOWN {
             shown += 1;
-            report.at(home, in_file(finding, description, file));
+            report.at(home, in_file(finding, description, files));
         } else {
             hidden += 1;
         }
     }
     if hidden > 0 {
-        let file = file.unwrap_or("the file");
+        let file = files.map_or_else(|| "the file".into(), Files::shown);
         let help = format!("`odkit check {file}` shows them all");
         report.at(home, format!("{file}: {hidden} more errors\nhelp: {help}"));
     }
@@ -49,7 +50,7 @@ pub(crate) struct Patch<'a> {
     pub(crate) home: Span,
     /// "variant `x`: ", or nothing for the base.
     pub(crate) context: &'a str,
-    pub(crate) file: Option<&'a str>,
+    pub(crate) files: Option<&'a Files>,
 }
 
 impl Patch<'_> {
@@ -73,7 +74,7 @@ impl Patch<'_> {
                 }
                 _ => report.token(&finding),
             };
-            let text = at_token(&finding, description, self.file);
+            let text = at_token(&finding, description, self.files);
             let place = place.unwrap_or(Place::from(self.home));
             report.at(place, format!("{}{text}", self.context));
         }
@@ -104,12 +105,11 @@ fn without(edit: &Edit, finding: &Diagnostic) -> String {
 }
 
 /// `[E0414] object 2300h:09 "Reset": message`, the help below.
-fn at_token(finding: &Diagnostic, description: &Description, file: Option<&str>) -> String {
+fn at_token(finding: &Diagnostic, description: &Description, files: Option<&Files>) -> String {
     let mut text = heading(finding, description);
     let written = finding.span.filter(|span| token_of(*span).is_none());
-    if let (Some(file), Some(span)) = (file, written) {
-        let (line, column) = (span.line, span.column);
-        text.push_str(&format!("\nnote: it stands at {file}:{line}:{column}"));
+    if let (Some(files), Some(span)) = (files, written) {
+        text.push_str(&format!("\nnote: it stands at {}", files.place(span)));
     }
     if !finding.help.is_empty() {
         text.push_str(&format!("\nhelp: {}", finding.help));
@@ -118,19 +118,19 @@ fn at_token(finding: &Diagnostic, description: &Description, file: Option<&str>)
 }
 
 /// `file:line:column: [E0412] object 2300h:09 "Reset": message`, notes and help below.
-fn in_file(finding: &Diagnostic, description: &Description, file: Option<&str>) -> String {
-    let Some(file) = file else {
+fn in_file(finding: &Diagnostic, description: &Description, files: Option<&Files>) -> String {
+    let Some(files) = files else {
         return at_token(finding, description, None);
     };
-    let mut text = file.to_string();
-    if let Some(span) = finding.span {
-        text.push_str(&format!(":{}:{}", span.line, span.column));
-    }
+    let mut text = match finding.span {
+        Some(span) => files.place(span),
+        None => files.shown(),
+    };
     text.push_str(": ");
     text.push_str(&heading(finding, description));
     for label in &finding.labels {
-        let (line, column) = (label.span.line, label.span.column);
-        text.push_str(&format!("\nnote: {file}:{line}:{column}: {}", label.text));
+        let place = files.place(label.span);
+        text.push_str(&format!("\nnote: {place}: {}", label.text));
     }
     if !finding.help.is_empty() {
         text.push_str(&format!("\nhelp: {}", finding.help));

@@ -7,6 +7,7 @@ use od_model::{Access, DataType, Description, Kind, Slot, Spanned, Tables};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
+use crate::files::Files;
 use crate::input::{At, Statement};
 use crate::report::Report;
 use crate::{docs, names};
@@ -47,8 +48,8 @@ const CONSTANTS: [&str; 2] = ["DICTIONARY", "STORE_LEN"];
 
 /// What bears on names besides the description.
 pub(crate) struct Naming<'a> {
-    /// The EDS file's name, for the docs.
-    pub(crate) file: &'a str,
+    /// The EDS file, for the docs.
+    pub(crate) files: Option<&'a Files>,
     /// The family's items: a variant calls what it keeps by the same names.
     pub(crate) family: &'a [Item],
     /// Module names that are not free: the variants'.
@@ -88,7 +89,7 @@ pub(crate) fn items(
                         !single,
                         described,
                         entry.data_type,
-                        naming.file,
+                        naming.files,
                     ),
                     data_type: entry.data_type,
                     access: entry.access,
@@ -100,7 +101,7 @@ pub(crate) fn items(
         let (doc, body) = match handles.first() {
             Some(handle) if single => (handle.doc.clone(), Body::Value(handle.clone())),
             _ => {
-                let doc = docs::object(object.index, about, naming.file);
+                let doc = docs::object(object.index, about, naming.files);
                 (doc, Body::Members(handles))
             }
         };

@@ -18,6 +18,8 @@ pub(crate) struct Input {
     pub(crate) visibility: Visibility,
     pub(crate) name: Ident,
     pub(crate) eds: Option<LitStr>,
+    /// What is laid over it.
+    pub(crate) overlay: Option<LitStr>,
     pub(crate) profile: Option<Ident>,
     /// `add`, `modify`, `remove` and `rename` outside of the variants, in their order.
     pub(crate) statements: Vec<Statement>,
@@ -93,6 +95,7 @@ impl Input {
             visibility,
             name: stream.parse()?,
             eds: None,
+            overlay: None,
             profile: None,
             statements: Vec::new(),
             variants: Vec::new(),
@@ -120,9 +123,11 @@ impl Input {
                 let path: LitStr = body.parse().map_err(|e| {
                     syn::Error::new(e.span(), "expected the path of an EDS file\nhelp: `eds = \"my_device.eds\";`, relative to this source file")
                 })?;
-                semicolon(body, path.span(), report)?;
+                let overlay = overlay(body)?;
+                let end = overlay.as_ref().unwrap_or(&path).span();
+                semicolon(body, end, report)?;
                 match self.eds {
-                    None => self.eds = Some(path),
+                    None => (self.eds, self.overlay) = (Some(path), overlay),
                     Some(_) => report.at(key.span(), "`eds` is given twice\nhelp: a family has one EDS file; say what differs in a `variant`"),
                 }
             }
@@ -163,6 +168,21 @@ impl Input {
         }
         Ok(())
     }
+}
+
+/// `+ "variant.overlay"` behind the path of an EDS.
+fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
+    if !body.peek(Token![+]) {
+        return Ok(None);
+    }
+    body.parse::<Token![+]>()?;
+    let path: LitStr = body.parse().map_err(|e| {
+        syn::Error::new(
+            e.span(),
+            "expected the path of an overlay\nhelp: `eds = \"my_device.eds\" + \"variant.overlay\";`",
+        )
+    })?;
+    Ok(Some(path))
 }
 
 const STATEMENTS: [&str; 7] = [

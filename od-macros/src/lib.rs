@@ -37,7 +37,7 @@
 //!
 //! ```text
 //! call      = { attribute } [ visibility ] "mod" name "{" { item } "}"
-//! item      = "eds" "=" "path" ";"                 relative to this source file
+//! item      = "eds" "=" "path" [ "+" "path" ] ";"  relative to this source file; an overlay
 //!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement
@@ -102,6 +102,7 @@ mod docs;
 mod emit;
 mod family;
 mod fields;
+mod files;
 mod findings;
 mod handles;
 mod input;

@@ -2,19 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use od_model::Description;
+use od_model::{Description, eds};
 use syn::LitStr;
 
+use crate::files::Files;
 use crate::input::Input;
 use crate::report::Report;
 
 /// What was read.
 #[derive(Default)]
 pub(crate) struct Source {
-    /// The path as it is written in the call, for messages.
-    pub(crate) shown: Option<String>,
-    /// The file for `include_bytes!`; `None` where none was read.
-    pub(crate) path: Option<PathBuf>,
+    /// The files as they are written in the call, for messages.
+    pub(crate) files: Option<Files>,
+    /// The files for `include_bytes!`; empty where none was read.
+    pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
     pub(crate) findings: Vec<od_model::Diagnostic>,
     /// What the file says is as it should be.
@@ -23,31 +24,64 @@ pub(crate) struct Source {
     pub(crate) description: Description,
 }
 
-/// Reads the file that the call names, if it names one.
+/// Reads the files that the call names, if it names any.
 pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
     let Some(literal) = &input.eds else {
         return Source::default();
     };
-    let shown = literal.value();
-    let path = locate(literal);
-    let bytes = match std::fs::read(&path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            report.at(literal.span(), unreadable(&shown, &path, &error));
-            return Source {
-                shown: Some(shown),
-                ..Source::default()
+    let files = Files::one(literal.value());
+    let nothing = |files| Source {
+        files: Some(files),
+        ..Source::default()
+    };
+    let Some((path, text)) = file(literal, report) else {
+        return nothing(files);
+    };
+    let mut paths = vec![path];
+    let (files, text) = match &input.overlay {
+        None => (files, text),
+        Some(literal) => {
+            let Some((path, over)) = file(literal, report) else {
+                return nothing(files);
             };
+            paths.push(path);
+            match eds::overlay(&text, &over) {
+                Ok(made) => {
+                    let text = made.text.clone();
+                    (files.with_overlay(literal.value(), made), text)
+                }
+                Err(faults) => {
+                    for (line, fault) in faults {
+                        let shown = literal.value();
+                        report.at(literal.span(), format!("{shown}:{line}: {fault}"));
+                    }
+                    return nothing(files);
+                }
+            }
         }
     };
-    let text = od_model::eds::decode(&bytes);
-    let parsed = od_model::eds::parse(&text);
+    let parsed = eds::parse(&text);
     Source {
-        shown: Some(shown),
-        path: Some(path),
+        files: Some(files),
+        paths,
         findings: parsed.diagnostics,
         allows: od_model::check::Allows::of(&text),
         description: parsed.description,
+    }
+}
+
+/// Path and text of one file; `None` after a report where it cannot be read.
+fn file(literal: &LitStr, report: &mut Report) -> Option<(PathBuf, String)> {
+    let path = locate(literal);
+    match std::fs::read(&path) {
+        Ok(bytes) => {
+            let text = eds::decode(&bytes).into_owned();
+            Some((path, text))
+        }
+        Err(error) => {
+            report.at(literal.span(), unreadable(&literal.value(), &path, &error));
+            None
+        }
     }
 }
 
@@ -101,7 +135,9 @@ fn beside(path: &Path) -> Result<Option<String>, ()> {
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .filter(|name| {
             let lower = name.to_ascii_lowercase();
-            lower.ends_with(".eds") || lower.ends_with(".dcf")
+            [".eds", ".dcf", ".overlay"]
+                .iter()
+                .any(|end| lower.ends_with(end))
         })
         .map(|name| (crate::names::distance(&wanted, &name), name))
         .filter(|(distance, _)| *distance <= 3)
