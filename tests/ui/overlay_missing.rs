@@ -4,7 +4,7 @@ use od_macros::object_dictionary;
 
 object_dictionary! {
     mod device {
-        eds = "eds/small.eds" + "eds/wrong.overlaay";
+        eds = "../eds/small.eds" + "eds/wrong.overlaay";
     }
 }
 
