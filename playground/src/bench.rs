@@ -7,7 +7,7 @@ use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
 use crate::record::{Record, list};
-use crate::{Bus, packed};
+use crate::{Bus, packed, values};
 
 #[wasm_bindgen]
 impl Bus {
@@ -151,6 +151,22 @@ impl Bus {
         self.bus
             .with(device, |device, _| look(device))
             .unwrap_or_default()
+    }
+
+    /// What the EEPROM would bring back for an object at the next start: its saved value, or
+    /// its default; `null` where it is no object that is saved.
+    #[wasm_bindgen(js_name = savedValue, unchecked_return_type = "Value")]
+    pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
+        let address = Address::new(index, sub);
+        let look = |device: &mut VirtualDevice| {
+            let mut saved = device.saved();
+            let data_type = device.dictionary().find(address).ok()?.data_type;
+            Some(values::value(data_type, &saved.bytes(device, address)?))
+        };
+        self.bus
+            .with(device, |device, _| look(device))
+            .flatten()
+            .unwrap_or(JsValue::NULL)
     }
 
     /// How the wire is: real or ideal, its terminators, the bit rate of the outside in kbit/s

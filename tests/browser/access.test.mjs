@@ -51,6 +51,26 @@ test('the sheet of keys opens by its key', async () => {
   await close();
 });
 
+test('axe finds nothing in what opens over the page', async () => {
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    const { page, close } = await open(browser, { width, height, hash: '#device=eam_mt&node=1' });
+    await page.getByRole('button', { name: 'Share and save' }).click();
+    await page.getByRole('dialog', { name: 'Share and save' }).waitFor();
+    assert.deepEqual(await faults(page), [], `sharing, ${width}`);
+    await page.keyboard.press('Escape');
+    if (width < 1024) await page.getByRole('tab', { name: 'Objects' }).click();
+    await page.getByRole('option').filter({ hasText: '6004h' }).or(page.getByRole('option').nth(3)).first().click();
+    assert.deepEqual(await faults(page), [], `an object, ${width}`);
+    await page.getByRole('button', { name: 'PDO mapping' }).click();
+    const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
+    await dialog.locator('.mapping-steps li').first().waitFor();
+    await dialog.getByRole('button', { name: /^Send/ }).click();
+    await dialog.getByText('✓').first().waitFor();
+    assert.deepEqual(await faults(page), [], `the mapping, ${width}`);
+    await close();
+  }
+});
+
 test('the keyboard reaches every control, in a sensible order', async () => {
   const { page, close } = await open(browser, {});
   await booted(page);

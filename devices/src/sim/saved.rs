@@ -1,6 +1,7 @@
 //! The EEPROM of a virtual device, seen from outside: its bytes, what it would bring back,
 //! and power that goes while it is written.
 
+use std::ops::Range;
 use std::prelude::v1::*;
 use std::vec;
 
@@ -13,6 +14,17 @@ use super::VirtualDevice;
 /// What the EEPROM would bring back at the next start.
 pub struct Saved {
     values: Vec<u8>,
+}
+
+impl Saved {
+    /// The value at an address; `None` where it is no object that is saved.
+    pub fn bytes(&mut self, device: &VirtualDevice, address: Address) -> Option<Vec<u8>> {
+        device.saved_slot(address)?;
+        let dictionary = device.dictionary();
+        let entry = dictionary.find(address).ok()?;
+        let store = Store::new(dictionary, &mut self.values, device.node_id()).ok()?;
+        Some(store.bytes(entry, &mut [0; 8]).to_vec())
+    }
 }
 
 impl VirtualDevice {
@@ -81,13 +93,18 @@ impl VirtualDevice {
     /// Would this object have another value after a start than it has now? `None` where it is
     /// no object that is saved.
     pub fn is_unsaved(&self, saved: &Saved, address: Address) -> Option<bool> {
+        let range = self.saved_slot(address)?;
+        Some(saved.values.get(range.clone()) != self.values.get(range))
+    }
+
+    /// Where the value of an object that is saved stands.
+    fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
         let entry = dictionary.find(address).ok()?;
         if entry.group == od_model::Group::None || !entry.access.writable() || entry.slot.len == 0 {
             return None;
         }
         let start = entry.slot.offset as usize;
-        let range = start..start + usize::from(entry.slot.len);
-        Some(saved.values.get(range.clone()) != self.values.get(range))
+        Some(start..start + usize::from(entry.slot.len))
     }
 }

@@ -71,6 +71,8 @@ export const draft = signal<{ text: string } | null>(null);
 /** Live values of the watched objects, by `keyOf`. */
 export const values = signal<ReadonlyMap<number, Value>>(new Map());
 export const selected = signal<ObjectRecord | null>(null);
+/** What the EEPROM holds for the selected object; null where it is none that is saved. */
+export const savedValue = signal<Value>(null);
 
 export type Tab = 'encoder' | 'console' | 'objects';
 export const tab = signal<Tab>('encoder');
@@ -91,6 +93,8 @@ export const offers = signal<Offer[]>([]);
 export const deviceDialog = signal<number | 'new' | null>(null);
 export const helpDialog = signal(false);
 export const shareDialog = signal(false);
+/** The PDO mapping that the editor opens with, 1A00h if it is 0; null while it is closed. */
+export const mappingDialog = signal<number | null>(null);
 /** A file that could not be opened, and why. */
 export const attempt = signal<{ name: string; text: string; diagnostics: Diagnostic[] } | null>(null);
 

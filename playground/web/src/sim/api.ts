@@ -165,7 +165,9 @@ export type Command =
   | { op: 'step'; micros: number; frames: number }
   | { op: 'back'; to: number }
   | { op: 'select'; node: number }
-  | { op: 'watch'; addresses: Address[] }
+  /** `chosen`: the one whose saved value is wanted, too. */
+  | { op: 'watch'; addresses: Address[]; chosen: Address | null }
+  | { op: 'read'; ticket: number; addresses: Address[] }
   | { op: 'plot'; addresses: Address[] }
   | { op: 'look'; eeprom: boolean }
   | { op: 'describe'; ticket: number; frames: Uint8Array }
@@ -189,6 +191,7 @@ export type Report =
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }
   | { op: 'laid'; ticket: number; layout: Uint32Array }
+  | { op: 'values'; ticket: number; values: Value[] }
   | { op: 'stood'; ticket: number; entries: Entry[] | null }
   | { op: 'exported'; ticket: number; text: string | null }
   | { op: 'crashed'; message: string };
@@ -215,6 +218,8 @@ export interface Snapshot {
   chain: Value[] | null;
   /** Of the selected node: values of the watched objects, when they were read again. */
   values: Value[] | null;
+  /** Of the selected node: what the EEPROM holds for the chosen object; with the values. */
+  saved: Value;
   /** Of the selected node: objects that are not saved as they are, as `index * 256 + sub`; with the values. */
   unsaved: Uint32Array | null;
   /** Of the selected node: the bytes of its EEPROM, while somebody looks. */

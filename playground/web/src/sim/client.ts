@@ -2,6 +2,7 @@
 
 import { Transfer, type Outcome, type Request } from '../can/sdo';
 import { nodeId, powered } from '../state';
+import { T } from '../texts';
 import { act } from './link';
 import type { Frame } from './packed';
 
@@ -39,7 +40,5 @@ export function tick(now: number): void {
 
 /** Why nobody answered. */
 export function silence(): string {
-  return powered.value
-    ? 'No answer: the node is stopped, or has another node ID.'
-    : 'No answer: the power is off.';
+  return powered.value ? T.sdo.stopped : T.sdo.off;
 }

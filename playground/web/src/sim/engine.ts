@@ -34,6 +34,7 @@ export class Engine {
   private selected = 0;
   private watched: Address[] = [];
   private plotted: Address[] = [];
+  private chosen: Address | null = null;
   private watchedAt = 0;
   private watchedAgain = true;
   private looksAtEeprom = false;
@@ -94,6 +95,7 @@ export class Engine {
         break;
       case 'watch':
         this.watched = command.addresses;
+        this.chosen = command.chosen;
         this.watchedAgain = true;
         break;
       case 'plot':
@@ -112,6 +114,9 @@ export class Engine {
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
         break;
+      case 'read':
+        this.report({ op: 'values', ticket: command.ticket, values: command.addresses.map(({ index, sub }) => world.bus.read(this.selected, index, sub)) });
+        return;
       case 'still': {
         const { still } = await import('./still');
         this.report({ op: 'stood', ticket: command.ticket, entries: still(world) });
@@ -222,11 +227,13 @@ export class Engine {
     const words = this.describe(frames.subarray(Math.max(0, frames.length - WITH_WORDS * FRAME_BYTES)));
     const read = ({ index, sub }: Address): Value => bus.read(selected, index, sub);
     let values: Value[] | null = null;
+    let saved: Value = null;
     let unsaved: Uint32Array | null = null;
     let eeprom: Uint8Array | null = null;
     if (this.watchedAgain || wall - this.watchedAt > WATCH_PERIOD) {
       values = this.watched.map(read);
       unsaved = bus.unsaved(selected, false);
+      if (this.chosen) saved = bus.savedValue(selected, this.chosen.index, this.chosen.sub);
       if (this.looksAtEeprom) eeprom = bus.eeprom(selected);
       this.watchedAt = wall;
       this.watchedAgain = false;
@@ -250,6 +257,7 @@ export class Engine {
           journal: this.journal(),
           chain: nodes[selected]?.shaft ? CHAIN.map(read) : null,
           values,
+          saved,
           unsaved,
           eeprom,
           plot: this.plotted.length ? this.plotted.map(read) : null,

@@ -5,7 +5,7 @@ import { batch } from '@preact/signals-core';
 import * as state from '../state';
 import { frameArrived, tick } from './client';
 import { forgetWords, noteWords } from './words';
-import type { Added, Command, DeviceInfo, Entry, Input, Report, Snapshot } from './api';
+import type { Added, Address, Command, DeviceInfo, Entry, Input, Report, Snapshot, Value } from './api';
 import { DISTURBED, FRAME_BYTES, unpack } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
@@ -16,6 +16,7 @@ let crashes = 0;
 let ticket = 0;
 const tickets = new Map<number, (words: string[]) => void>();
 const layouts = new Map<number, (layout: Uint32Array) => void>();
+const readings = new Map<number, (values: Value[]) => void>();
 const stills = new Map<number, (entries: Entry[] | null) => void>();
 const exports = new Map<number, (text: string | null) => void>();
 const additions = new Map<number, (added: Added) => void>();
@@ -58,6 +59,15 @@ export function restore(entries: Entry[], until: number, quiet = false): void {
   state.journal.entries = [];
   dropFrames();
   send({ op: 'restore', entries, until, quiet });
+}
+
+/** Values of the selected device, as they are now. */
+export function readNow(addresses: Address[]): Promise<Value[]> {
+  return new Promise((resolve) => {
+    ticket += 1;
+    readings.set(ticket, resolve);
+    send({ op: 'read', ticket, addresses });
+  });
 }
 
 /** What makes an empty bench stand as this one does, without its past; null where nothing does. */
@@ -129,6 +139,10 @@ function receive(report: Report): void {
     case 'laid':
       layouts.get(report.ticket)?.(report.layout);
       layouts.delete(report.ticket);
+      break;
+    case 'values':
+      readings.get(report.ticket)?.(report.values);
+      readings.delete(report.ticket);
       break;
     case 'stood':
       stills.get(report.ticket)?.(report.entries);
@@ -235,12 +249,14 @@ function frames(snapshot: Snapshot): void {
   state.captured.value = ring.end;
 }
 
-let watched: { index: number; sub: number }[] = [];
+let watched: Address[] = [];
+let chosen: Address | null = null;
 
 /** The objects whose values are shown. */
-export function watch(addresses: { index: number; sub: number }[]): void {
+export function watch(addresses: Address[], one: Address | null): void {
   watched = addresses;
-  send({ op: 'watch', addresses });
+  chosen = one;
+  send({ op: 'watch', addresses, chosen });
 }
 
 function watchedValues(snapshot: Snapshot): void {
@@ -249,6 +265,7 @@ function watchedValues(snapshot: Snapshot): void {
   const map = new Map(state.values.peek());
   watched.forEach(({ index, sub }, i) => map.set(state.keyOf(index, sub), fresh[i] ?? null));
   state.values.value = map;
+  state.savedValue.value = snapshot.saved;
 }
 
 /** A Rust panic ends the worker, not the page: a fresh one gets the same devices. */
@@ -258,6 +275,8 @@ function crashed(message: string): void {
   crashes += 1;
   tickets.clear();
   layouts.clear();
+  for (const resolve of readings.values()) resolve([]);
+  readings.clear();
   for (const resolve of [...stills.values(), ...exports.values()]) resolve(null);
   stills.clear();
   exports.clear();
@@ -271,7 +290,7 @@ function crashed(message: string): void {
   state.health.value = 'restarting';
   state.toast.value = { text: `The simulation stopped (${message}) and was started again.`, tone: 'error' };
   start();
-  watch(watched);
+  watch(watched, chosen);
   send({ op: 'speed', factor: state.speed.peek() });
   send({ op: 'select', node: state.selectedNode.peek() });
   state.journal.entries = [];

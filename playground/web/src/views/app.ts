@@ -87,6 +87,7 @@ class App extends View {
       <od-device-dialog></od-device-dialog>
       <od-help></od-help>
       <od-share></od-share>
+      <od-mapping></od-mapping>
       <od-offers></od-offers>
       <div class="toasts" role="status" aria-live="polite">
         ${state.toast.value

@@ -1,22 +1,33 @@
 // The object dictionary with live values. Reading them puts nothing on the bus.
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { effect } from '@preact/signals-core';
-import type { ObjectRecord } from '../sim/api';
-import { address, hexIndex, otherSpelling, range, sameValue, showValue } from '../can/values';
-import { watch } from '../sim/link';
+import { download } from '../actions';
+import { isMapping } from '../can/mapping';
+import type { ObjectRecord, Value } from '../sim/api';
+import { address, hexIndex, sameValue, showValue } from '../can/values';
+import { exportDcf, readNow, watch } from '../sim/link';
 import * as state from '../state';
+import { T } from '../texts';
 import { icons } from './icons';
 import { findObjects } from './object-search';
 import { Rows, setText } from './rows';
+import { openMapping } from './object-detail';
 import { View } from './view';
+
+/** What the list shows. */
+type Show = 'all' | 'changed' | 'unsaved';
 
 /** A row is an object, or the heading of a record. */
 type Line = { object: ObjectRecord; heading: false } | { heading: true; index: number; name: string };
 
 class Objects extends View {
-  static override properties = { query: { state: true } };
+  static override properties = { query: { state: true }, show: { state: true } };
   declare query: string;
+  declare show: Show;
+  /** Objects that differ from the factory's, when they were last all looked at. */
+  private changed: ReadonlySet<number> = new Set();
+  private timer = 0;
   private lines: Line[] = [];
   private rows: Rows | undefined;
   private watched = '';
@@ -25,10 +36,13 @@ class Objects extends View {
   constructor() {
     super();
     this.query = '';
+    this.show = 'all';
   }
 
   private rebuild(): void {
-    const found = findObjects(state.device.value?.objects ?? [], this.query);
+    const wanted = this.show === 'changed' ? this.changed : this.show === 'unsaved' ? state.unsaved.peek() : null;
+    const objects = (state.device.value?.objects ?? []).filter(({ index, sub }) => !wanted || wanted.has(state.keyOf(index, sub)));
+    const found = findObjects(objects, this.query);
     this.lines = [];
     let heading = -1;
     for (const object of found) {
@@ -52,7 +66,7 @@ class Objects extends View {
       make: () => {
         const row = document.createElement('div');
         row.setAttribute('role', 'option');
-        row.innerHTML = '<span class="index"></span><span class="name"></span><span class="access"></span><span class="value"></span>';
+        row.innerHTML = '<span class="index"></span><span class="name"></span><span class="access"></span><span class="mark"></span><span class="value"></span>';
         row.addEventListener('click', () => this.onRow(Number(row.dataset['line'])));
         return row;
       },
@@ -65,6 +79,10 @@ class Objects extends View {
         void state.device.value;
         viewport.scrollTop = 0;
         this.rebuild();
+      }),
+      effect(() => {
+        void state.unsaved.value;
+        if (this.show === 'unsaved') this.rebuild();
       }),
       effect(() => {
         void state.values.value;
@@ -82,12 +100,13 @@ class Objects extends View {
     if (!line) return;
     row.dataset['line'] = String(index);
     row.className = line.heading ? 'row object heading' : line.object.parent === null ? 'row object' : 'row object member';
-    const [where, name, access, value] = row.children;
+    const [where, name, access, mark, value] = row.children;
     if (line.heading) {
       setText(where, hexIndex(line.index));
       setText(name, line.name);
       setText(access, '');
       setText(value, '');
+      setText(mark, '');
       row.removeAttribute('data-changed');
       row.setAttribute('aria-selected', 'false');
       return;
@@ -99,8 +118,11 @@ class Objects extends View {
     setText(name, object.name);
     setText(access, object.access);
     setText(value, live === undefined ? '' : showValue(live, object));
-    row.title = `${address(object.index, object.sub, true)} ${object.name}`;
-    row.toggleAttribute('data-changed', live !== undefined && isChanged(object, live));
+    const kind = live === undefined ? '' : markOf(object, live);
+    setText(mark, kind === 'ram' || kind === 'eeprom' ? T.objects.mark[kind] : '');
+    row.title = `${address(object.index, object.sub, true)} ${object.name}${kind ? `\n${T.objects.markTitle[kind]}` : ''}`;
+    row.dataset['mark'] = kind;
+    row.toggleAttribute('data-changed', kind !== '');
     row.setAttribute('aria-selected', String(state.selected.peek() === object));
   }
 
@@ -110,10 +132,10 @@ class Objects extends View {
     const chosen = state.selected.peek();
     if (chosen && !objects.includes(chosen)) objects.push(chosen);
     const addresses = objects.map(({ index, sub }) => ({ index, sub }));
-    const text = JSON.stringify(addresses);
+    const text = JSON.stringify([addresses, chosen?.index, chosen?.sub]);
     if (text === this.watched) return;
     this.watched = text;
-    watch(addresses);
+    watch(addresses, chosen ? { index: chosen.index, sub: chosen.sub } : null);
   }
 
   private onRow(index: number): void {
@@ -134,58 +156,79 @@ class Objects extends View {
     this.rows?.reveal(next);
   }
 
+  private choose(show: Show): void {
+    this.show = show;
+    clearInterval(this.timer);
+    if (show === 'changed') {
+      void this.lookAtAll();
+      this.timer = window.setInterval(() => void this.lookAtAll(), 1000);
+    }
+    this.rebuild();
+  }
+
+  /** Which objects are not the factory's: all are read, once a second while that is asked for. */
+  private async lookAtAll(): Promise<void> {
+    const objects = (state.device.peek()?.objects ?? []).filter((object) => object.access.startsWith('rw') && object.default !== null);
+    const values = await readNow(objects.map(({ index, sub }) => ({ index, sub })));
+    const changed = objects.filter((object, i) => isChanged(object, values[i] ?? null)).map(({ index, sub }) => state.keyOf(index, sub));
+    if (changed.length === this.changed.size && changed.every((key) => this.changed.has(key))) return;
+    this.changed = new Set(changed);
+    if (this.show === 'changed') this.rebuild();
+  }
+
+  private async saveDcf(): Promise<void> {
+    const text = await exportDcf(state.selectedNode.value);
+    if (text === null) state.toast.value = { text: T.objects.noDcf, tone: 'error' };
+    else download(text, `${(state.device.value?.name ?? 'device').replace(/[^\w.-]+/g, '_')}-node${state.nodeId.value}.dcf`);
+  }
+
   protected override render() {
     const total = state.device.value?.objects.length ?? 0;
+    const hasMapping = (state.device.value?.objects ?? []).some(({ index }) => isMapping(index));
+    const t = T.objects;
+    const choice = (show: Show, text: string) => html`<label class="segment"><input type="radio" name="objects-show" .checked=${this.show === show} @change=${() => this.choose(show)}><span>${text}</span></label>`;
     return html`
       <header class="panel-head">
-        <h2>Object dictionary</h2>
+        <h2>${t.title}</h2>
         <span class="muted num count">${total}</span>
         <div class="spacer"></div>
-        <label class="search">${icons.search}<input type="search" placeholder="Index or name" aria-label="Search objects" autocomplete="off" spellcheck="false"
+        <label class="search">${icons.search}<input type="search" placeholder=${t.hint} aria-label=${t.search} autocomplete="off" spellcheck="false"
           .value=${this.query} @input=${(event: Event) => { this.query = (event.target as HTMLInputElement).value; this.rebuild(); }}></label>
       </header>
-      <div class="object-rows scroll" role="listbox" tabindex="0" aria-label="Objects with their live values"></div>
+      <div class="object-tools">
+        <div class="segments" role="radiogroup" aria-label=${t.show}>
+          ${choice('all', t.all)}${choice('changed', t.changed)}${choice('unsaved', t.unsaved)}
+        </div>
+        <div class="spacer"></div>
+        <button class="small" title=${t.mappingTitle} aria-haspopup="dialog" ?hidden=${!hasMapping} @click=${() => openMapping(0)}>${t.mapping}</button>
+        <button class="small" title=${t.dcfTitle} @click=${() => this.saveDcf()}>${t.dcf}</button>
+      </div>
+      <div class="object-rows scroll" role="listbox" tabindex="0" aria-label=${t.list}></div>
       <od-object-detail></od-object-detail>
     `;
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
+    clearInterval(this.timer);
     for (const dispose of this.disposers.splice(0)) dispose();
     this.rows?.dispose();
   }
 }
 
 /** Something that a master set: what the device itself changes is no mark. */
-function isChanged(object: ObjectRecord, live: unknown): boolean {
-  return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live as never, object.default);
+function isChanged(object: ObjectRecord, live: Value): boolean {
+  return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live, object.default);
 }
 
-/** The chosen object: everything that its EDS says. */
-class ObjectDetail extends View {
-  protected override render() {
-    const object = state.selected.value;
-    if (!object) return nothing;
-    const live = state.values.value.get(state.keyOf(object.index, object.sub)) ?? null;
-    const limits = range(object);
-    const other = otherSpelling(live, object);
-    return html`<div class="detail">
-      <div class="detail-head">
-        <strong><span class="num">${address(object.index, object.sub, object.parent !== null)}</span> ${object.name}</strong>
-        <div class="spacer"></div>
-        <button class="small tabs-only" @click=${() => (state.tab.value = 'console')}>${icons.console} Read or write</button>
-        <button class="icon-button" aria-label="Close the details" @click=${() => (state.selected.value = null)}>${icons.close}</button>
-      </div>
-      <dl>
-        <div class="whole"><dt>Value</dt><dd class="num" aria-label="Value of the chosen object">${showValue(live, object)}${other ? html` <span class="muted">${other}</span>` : nothing}</dd></div>
-        <div><dt>Type</dt><dd>${object.type}</dd></div>
-        <div><dt>Access</dt><dd>${object.access}${object.mappable ? ', PDO' : ''}</dd></div>
-        <div><dt>Default</dt><dd class="num">${showValue(object.default, object)}</dd></div>
-        <div><dt>Range</dt><dd class="num">${limits ? `${showValue(limits.low, object)} … ${showValue(limits.high, object)}` : '–'}</dd></div>
-      </dl>
-    </div>`;
-  }
+/** Where a value that differs stands: only in RAM, saved as well, or where nothing is saved. */
+function markOf(object: ObjectRecord, live: Value): '' | 'ram' | 'eeprom' | 'set' {
+  if (state.unsaved.peek().has(state.keyOf(object.index, object.sub))) return 'ram';
+  if (!isChanged(object, live)) return '';
+  return isSaved(object) ? 'eeprom' : 'set';
 }
 
-customElements.define('od-object-detail', ObjectDetail);
+/** Is it among what 1010h saves? Commands and logs are not. */
+const isSaved = ({ index }: ObjectRecord): boolean => index >= 0x1000 && ![0x1003, 0x1010, 0x1011].includes(index);
+
 customElements.define('od-objects', Objects);

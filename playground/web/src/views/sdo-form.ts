@@ -3,24 +3,21 @@
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import type { ObjectRecord } from '../sim/api';
-import { address, decode, encode, otherSpelling, showValue } from '../can/values';
-import type { Outcome } from '../can/sdo';
-import { silence, transfer } from '../sim/client';
-import { describe } from '../sim/link';
-import { pack } from '../sim/packed';
+import { address, encode, showValue } from '../can/values';
+import { transfer } from '../sim/client';
+import { inWords, type Said } from '../sim/words-of-sdo';
 import * as state from '../state';
+import { T } from '../texts';
 import { findObjects, parseAddress } from './object-search';
 import { View } from './view';
 
 const MOST_OFFERED = 30;
 
-type Result = { tone: '' | 'error' | 'good'; text: string };
-
 class SdoForm extends View {
   static override properties = { text: { state: true }, typed: { state: true }, result: { state: true }, offered: { state: true }, active: { state: true }, isBusy: { state: true } };
   declare text: string;
   declare typed: string;
-  declare result: Result | null;
+  declare result: Said | null;
   declare offered: ObjectRecord[];
   declare active: number;
   declare isBusy: boolean;
@@ -98,7 +95,7 @@ class SdoForm extends View {
     const object = this.target();
     this.offered = [];
     if (!object) {
-      this.result = { tone: 'error', text: 'Type an index, such as 6004 or 1018:01, or choose a name' };
+      this.result = { tone: 'error', text: T.sdo.what };
       return;
     }
     await this.run(object, null);
@@ -120,32 +117,10 @@ class SdoForm extends View {
 
   private async run(object: ObjectRecord, bytes: Uint8Array | null): Promise<void> {
     this.isBusy = true;
-    this.result = state.running.value ? null : { tone: '', text: 'Time stands still: the answer comes when it runs.' };
+    this.result = state.running.value ? null : { tone: '', text: T.sdo.standing };
     const outcome = await transfer({ index: object.index, sub: object.sub, bytes });
     this.isBusy = false;
-    this.result = await this.inWords(object, outcome);
-  }
-
-  private async inWords(object: ObjectRecord, outcome: Outcome): Promise<Result> {
-    const where = address(object.index, object.sub);
-    switch (outcome.kind) {
-      case 'read': {
-        const value = decode(outcome.bytes, object);
-        const other = otherSpelling(value, object);
-        return { tone: 'good', text: `${where} = ${showValue(value, object)}${other ? ` (${other})` : ''}` };
-      }
-      case 'written':
-        return { tone: 'good', text: `${where} written` };
-      case 'silent':
-        return { tone: 'error', text: silence() };
-      case 'aborted': {
-        const data = new Uint8Array(8);
-        data.set([0x80, object.index & 255, object.index >> 8, object.sub]);
-        new DataView(data.buffer).setUint32(4, outcome.code, true);
-        const [words] = await describe(pack({ time: 0, id: 0x580 + state.nodeId.value, extended: false, remote: false, fromPage: false, data }));
-        return { tone: 'error', text: words || `Aborted: ${outcome.code.toString(16).toUpperCase().padStart(8, '0')}h` };
-      }
-    }
+    this.result = await inWords(object, outcome);
   }
 
   protected override render() {
@@ -156,15 +131,15 @@ class SdoForm extends View {
     const tone = this.result?.tone ?? (isWrong ? 'error' : '');
     const isOpen = this.offered.length > 0;
     return html`<form class="dock-row" novalidate @submit=${(event: Event) => { event.preventDefault(); void (this.typed.trim() ? this.write() : this.read()); }}>
-      <label class="dock-label" for="sdo-object">SDO</label>
+      <label class="dock-label" for="sdo-object">${T.sdo.label}</label>
       <div class="field-group">
         <div class="combo grow">
-          <input id="sdo-object" role="combobox" autocomplete="off" spellcheck="false" aria-label="Object" aria-expanded=${isOpen} aria-controls="sdo-options"
-            aria-autocomplete="list" aria-activedescendant=${this.active >= 0 ? `sdo-option-${this.active}` : nothing} placeholder="Object: index or name"
+          <input id="sdo-object" role="combobox" autocomplete="off" spellcheck="false" aria-label=${T.sdo.object} aria-expanded=${isOpen} aria-controls="sdo-options"
+            aria-autocomplete="list" aria-activedescendant=${this.active >= 0 ? `sdo-option-${this.active}` : nothing} placeholder=${T.sdo.objectHint}
             .value=${this.text} @input=${(event: Event) => this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}
             @focus=${(event: Event) => (event.target as HTMLInputElement).select()} @blur=${() => setTimeout(() => (this.offered = []), 150)}>
           ${isOpen
-            ? html`<ul id="sdo-options" class="options scroll" role="listbox" aria-label="Objects">
+            ? html`<ul id="sdo-options" class="options scroll" role="listbox" aria-label=${T.sdo.objects}>
                 ${this.offered.map(
                   (one, i) => html`<li id=${`sdo-option-${i}`} role="option" aria-selected=${i === this.active}
                     @pointerdown=${(event: Event) => { event.preventDefault(); this.choose(one); }}>
@@ -174,10 +149,10 @@ class SdoForm extends View {
               </ul>`
             : nothing}
         </div>
-        <button type="button" ?disabled=${this.isBusy} @click=${() => this.read()}>Read</button>
-        <input class="num value" aria-label="Value" autocomplete="off" spellcheck="false" placeholder="Value" aria-invalid=${isWrong} aria-describedby="sdo-note"
+        <button type="button" ?disabled=${this.isBusy} @click=${() => this.read()}>${T.sdo.read}</button>
+        <input class="num value" aria-label=${T.sdo.value} autocomplete="off" spellcheck="false" placeholder=${T.sdo.value} aria-invalid=${isWrong} aria-describedby="sdo-note"
           .value=${this.typed} @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; this.result = null; }}>
-        <button type="button" ?disabled=${this.isBusy || isWrong} @click=${() => this.write()}>Write</button>
+        <button type="button" ?disabled=${this.isBusy || isWrong} @click=${() => this.write()}>${T.sdo.write}</button>
         <p id="sdo-note" class="note" data-tone=${tone} role="status">${note || html`Decimal, <code>0x1F</code> or <code>1Fh</code>; quotes for text, such as <code>"save"</code>`}</p>
       </div>
     </form>`;
@@ -187,7 +162,7 @@ class SdoForm extends View {
 const labelOf = (object: ObjectRecord): string => `${address(object.index, object.sub, object.parent !== null)} ${object.name}`;
 
 function hint(object: ObjectRecord): string {
-  if (object.type === '?') return 'Not in the dictionary of this device';
+  if (object.type === '?') return T.sdo.unknown;
   const limits = object.low !== null || object.high !== null ? `, ${showValue(object.low, object)} … ${showValue(object.high, object)}` : '';
   return `${object.type}, ${object.access}${limits}`;
 }

@@ -1,0 +1,178 @@
+// The object dictionary at work: marks, writing, the frames of an object, the mapping of PDOs, a DCF.
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { launch, open } from './harness.mjs';
+import { booted, captured, nmt, row, rows, sdo, sdoNote, until } from './bench.mjs';
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+function check(name, options, body) {
+  if (typeof options === 'function') [options, body] = [{}, options];
+  test(name, async () => {
+    const { page, faults, close } = await open(browser, options);
+    try {
+      if (options.width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
+      await booted(page);
+      await body(page);
+      assert.deepEqual(faults, [], 'the page complained');
+    } finally {
+      await close();
+    }
+  });
+}
+
+const note = (page, pattern) => until(`${pattern} under the SDO line`, async () => pattern.test(await sdoNote(page)));
+const search = (page, text) => page.getByRole('searchbox', { name: 'Search objects' }).fill(text);
+const object = (page, text) => page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: text });
+const detail = (page) => page.locator('od-object-detail');
+const typed = (page) => page.getByRole('textbox', { name: 'New value' });
+
+check('an object is written where it is shown; its range is checked, an abort explained', async (page) => {
+  await search(page, '6001');
+  await object(page, '6001h').click();
+  assert.match(await detail(page).textContent(), /1 … 8.?192/);
+  await typed(page).fill('9000');
+  await until('a word about the range', async () => /outside/.test(await detail(page).textContent()));
+  await typed(page).press('Enter');
+  await until('the abort', async () => /0609003[01]/.test(await page.locator('#detail-note').textContent()));
+  await typed(page).fill('1000h');
+  await typed(page).press('Enter');
+  await until('it is written', async () => /6001h written/.test(await page.locator('#detail-note').textContent()));
+  await until('the value', async () => /4.?096/.test(await object(page, '6001h').locator('.value').textContent()));
+  await row(page, 'the download', (one) => one.id === '601' && one.data === '23 01 60 00 00 10 00 00');
+});
+
+check('what is changed and what is saved is marked, and can be listed', async (page) => {
+  await search(page, '6001');
+  const mark = object(page, '6001h').locator('.mark');
+  await until('no mark', async () => (await mark.textContent()) === '');
+  await sdo(page, '6001', '1000');
+  await until('changed and not saved', async () => (await mark.textContent()) === 'RAM');
+  await object(page, '6001h').click();
+  await until('both values', async () => /Saved\s*8.?192/.test(await detail(page).textContent()));
+  await sdo(page, '1010:01', '"save"');
+  await note(page, /1010h:01 written/);
+  await until('changed and saved', async () => (await mark.textContent()) === 'EE');
+  await sdo(page, '6001', '8192');
+  // The default again, but something else is saved.
+  await until('not saved', async () => (await mark.textContent()) === 'RAM');
+  await search(page, '');
+  await page.getByRole('radio', { name: 'Not saved' }).check();
+  await until('only that', async () => (await page.getByRole('option').filter({ visible: true }).count()) === 1);
+  assert.match(await page.getByRole('option').filter({ visible: true }).textContent(), /6001h/);
+  await sdo(page, '1017', '250');
+  await until('two of them', async () => (await page.getByRole('option').filter({ visible: true }).count()) === 2);
+  await page.getByRole('radio', { name: 'All' }).check();
+});
+
+check('from an object to its frames', async (page) => {
+  await nmt(page, 'Start');
+  await sdo(page, '6001');
+  await sdo(page, '6004');
+  await note(page, /6004h =/);
+  await search(page, '6004');
+  await object(page, '6004h').click();
+  await page.getByRole('button', { name: 'Its frames' }).click();
+  // SDO transfers about it, and the PDOs that carry it.
+  await until('only its frames', async () => {
+    const list = await rows(page);
+    return list.length > 0 && list.every((one) => /04 60 00|^[^ ]/.test(one.data) && ['601', '581', '181', '281'].includes(one.id));
+  });
+  const filter = await page.getByRole('searchbox', { name: 'Filter frames' }).inputValue();
+  assert.match(filter, /6004/);
+  assert.match(filter, /181/);
+  assert.ok(!(await rows(page)).some((one) => / 01 60 00/.test(one.data)), 'none of 6001h');
+});
+
+check('the mapping editor shows the frames, sends them, and the PDO changes', { hash: '#device=eam_mt&node=1' }, async (page) => {
+  await page.getByRole('button', { name: 'PDO mapping' }).click();
+  const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
+  const steps = dialog.locator('.mapping-steps li');
+  await until('three steps', async () => (await steps.count()) === 3);
+  assert.deepEqual(await dialog.locator('.mapping-steps code span').allTextContents(), ['2F 00 1A 00 00 00 00 00', '23 00 1A 01 20 00 04 60', '2F 00 1A 00 01 00 00 00']);
+  const before = await captured(page);
+  await dialog.getByRole('combobox', { name: 'Add an object' }).selectOption({ label: (await dialog.getByRole('combobox', { name: 'Add an object' }).locator('option').filter({ hasText: /^6030h/ }).first().textContent()).trim() });
+  await until('four steps', async () => (await steps.count()) === 4);
+  await until('words', async () => /1A00h:02/.test(await steps.nth(2).textContent()));
+  await dialog.getByRole('button', { name: /^Move up/ }).nth(1).click();
+  assert.equal(await captured(page), before, 'nothing is sent before it is said');
+  await dialog.getByRole('button', { name: 'Send 4 frames' }).click();
+  await until('all taken', async () => (await steps.filter({ hasText: '✓' }).count()) === 4);
+  await page.keyboard.press('Escape');
+  await nmt(page, 'Start');
+  const pdo = await row(page, 'a PDO1 of six bytes', (one) => one.id === '181' && one.data.split(' ').length === 8);
+  assert.match(pdo.words, /position/i);
+});
+
+check('a mapping that does not fit is refused in words, at its step', { hash: '#device=eam_mt&node=1' }, async (page) => {
+  await page.getByRole('button', { name: 'PDO mapping' }).click();
+  const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
+  const add = dialog.getByRole('combobox', { name: 'Add an object' });
+  await until('the entries', async () => (await dialog.locator('.mapping-entries li').count()) === 1);
+  for (let i = 0; i < 2; i++) {
+    const option = add.locator('option').filter({ hasText: /^6004h/ });
+    await add.selectOption({ value: await option.getAttribute('value') });
+  }
+  assert.match(await dialog.textContent(), /96 of 64 bits/);
+  await dialog.getByRole('button', { name: /^Send/ }).click();
+  await until('an abort', async () => /0604004[12]/.test(await dialog.locator('.mapping-steps').textContent()));
+  assert.equal(await dialog.locator('.mapping-steps li[data-tone=error]').count(), 1);
+  // With the PDO off meanwhile there are two more frames.
+  await dialog.getByRole('checkbox', { name: /Switch the PDO off/ }).check();
+  const codes = await dialog.locator('.mapping-steps code span').allTextContents();
+  assert.match(codes[0], /^23 00 18 01 81 01 00 [C8]0$/);
+  assert.match(codes.at(-1), /^23 00 18 01 81 01 00 [04]0$/);
+});
+
+check('a fixed mapping says so, and the device refuses it', async (page) => {
+  await page.getByRole('button', { name: 'PDO mapping' }).click();
+  const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
+  await until('a word about it', () => dialog.getByText('mapping of this device is fixed').isVisible());
+  await dialog.getByRole('button', { name: /^Send/ }).click();
+  await until('the abort', async () => /06010002/.test(await dialog.locator('.mapping-steps').textContent()));
+});
+
+check('the state as a DCF, of ours and of a dropped EDS', async (page) => {
+  await sdo(page, '6001', '2048');
+  await note(page, /6001h written/);
+  const save = async () => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save as DCF' }).click()]);
+    return { name: download.suggestedFilename(), text: await readFile(await download.path(), 'latin1') };
+  };
+  const first = await save();
+  assert.equal(first.name, 'gxmm-node1.dcf');
+  assert.match(first.text, /NodeID=1\n/);
+  assert.match(first.text, /\[6001\][^[]*ParameterValue=0x800\n/);
+  // The DCF on the page again, with another value: what the file says otherwise stays.
+  const path = join(tmpdir(), `odkit-${process.pid}.dcf`);
+  await writeFile(path, `; a comment\n${first.text.replace('[6001]', '[Vendor]\nKey=kept\n\n[6001]')}`);
+  await page.locator('.device-button').click();
+  await page.getByLabel('EDS or DCF file').setInputFiles(path);
+  await until('the device of the file', async () => /node 1/.test(await page.locator('.topbar').textContent()) && !(await page.getByRole('dialog').isVisible()));
+  await search(page, '6001');
+  await until('its value', async () => /2.?048/.test(await object(page, '6001h').locator('.value').textContent()));
+  await sdo(page, '1017', '500');
+  await note(page, /1017h written/);
+  const second = await save();
+  assert.match(second.text, /\[6001\][^[]*ParameterValue=0x800\n/);
+  assert.match(second.text, /\[1017\][^[]*ParameterValue=500\n/);
+  assert.match(second.text, /\[Vendor\]\nKey=kept/);
+});
+
+check('on a phone, too', { width: 390, height: 844 }, async (page) => {
+  await page.getByRole('tab', { name: 'Objects' }).click();
+  await search(page, '6001');
+  await object(page, '6001h').click();
+  await typed(page).fill('4096');
+  await typed(page).press('Enter');
+  await until('it is written', async () => /6001h written/.test(await page.locator('#detail-note').textContent()));
+  await page.getByRole('button', { name: 'PDO mapping' }).click();
+  const box = await page.getByRole('dialog', { name: 'PDO mapping' }).boundingBox();
+  assert.ok(box.x >= 0 && box.x + box.width <= 390);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
+});
