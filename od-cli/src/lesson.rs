@@ -1,119 +1,172 @@
-//! `odkit lesson`: the page's lessons without the page.
+//! `odkit lesson`: lessons without a page: list, read, take and check them.
+
+mod check;
+mod list;
+mod play;
+mod show;
 
 use std::fs;
-use std::path::Path;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
-use od_devices::sim::lesson::{Lesson, Stuck, solve};
-use od_devices::sim::script::Bare;
+use od_devices::sim::VirtualDevice;
+use od_devices::sim::lesson::{Lesson, Problem};
+use od_devices::sim::script::{Host, Origin};
+use od_runtime::{Frame, Instant, NodeId};
 
-use crate::Failure;
-use crate::output::{self, Output};
+use crate::output::{Output, note};
+use crate::source::{self, Source};
+use crate::{Failure, report};
 
-/// The lessons that come with odkit, in their order.
-const LESSONS: &[(&str, &str)] = &[
-    ("boot-up", include_str!("../../lessons/01-boot-up.md")),
-    ("nmt", include_str!("../../lessons/02-nmt.md")),
-    ("sdo", include_str!("../../lessons/03-sdo.md")),
-    ("aborts", include_str!("../../lessons/04-aborts.md")),
-    ("guarding", include_str!("../../lessons/05-guarding.md")),
-    ("pdo-sync", include_str!("../../lessons/06-pdo-sync.md")),
-    ("mapping", include_str!("../../lessons/07-mapping.md")),
-    ("scaling", include_str!("../../lessons/08-scaling.md")),
-    ("store", include_str!("../../lessons/09-store.md")),
-    ("lss", include_str!("../../lessons/10-lss.md")),
-    ("emcy", include_str!("../../lessons/11-emcy.md")),
-    ("gear", include_str!("../../lessons/12-gear.md")),
-    (
-        "find-silent-node",
-        include_str!("../../lessons/13-find-silent-node.md"),
-    ),
-    (
-        "find-terminator",
-        include_str!("../../lessons/14-find-terminator.md"),
-    ),
-    (
-        "find-two-nodes",
-        include_str!("../../lessons/15-find-two-nodes.md"),
-    ),
-];
+/// Where the lessons stand that come with odkit, seen from its folder.
+const FOLDER: &str = "playground/lessons";
 
-/// Solve a lesson without the page, or list those that there are
+/// List, read, take and check lessons
 ///
-/// Every step is done by its own solution, and none may be done before. Exit code 0: all
-/// went well; 1: a step is stuck, and it is shown what is missing; 2: a lesson cannot be read.
+/// A lesson is a Markdown file; LESSONS.md says how to write one. Exit code 0: all is as it
+/// should be; 1: a checkpoint is not reached, or a lesson has mistakes; 2: wrong usage, or a
+/// file that cannot be read.
 #[derive(clap::Args)]
+#[command(subcommand_required = true, arg_required_else_help = true)]
 pub(crate) struct Args {
-    /// Lessons: Markdown files, or names of those that come with odkit; none lists these
-    lessons: Vec<String>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(clap::Subcommand)]
+enum Command {
+    /// List lessons: file, level, minutes, steps, title
+    List(list::Args),
+    /// Show a lesson as text, without what would give it away
+    Show(show::Args),
+    /// Take a lesson: lines of a script come from standard input, in virtual time
+    Run(play::Args),
+    /// Check lessons: nothing holds at the start, the solution reaches every checkpoint, and
+    /// each of its lines is needed
+    Check(check::Args),
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut output = Output::new();
-    if args.lessons.is_empty() {
-        for (name, text) in LESSONS {
-            let lesson = parse(name, text)?;
-            output.line(&format!("{name:<20} {}", lesson.title))?;
-        }
-        return Ok(());
-    }
-    let mut failed = false;
-    for wanted in &args.lessons {
-        let (name, text) = find(wanted)?;
-        let lesson = parse(&name, &text)?;
-        match solve(&lesson, &mut Bare) {
-            Ok(()) => {
-                let steps = lesson.steps.len();
-                output.line(&format!("{name}: {steps} steps solved"))?;
-            }
-            Err(stuck) => {
-                failed = true;
-                output::error(&describe(&name, &lesson, &stuck));
-            }
-        }
-    }
-    if failed {
-        return Err(Failure::Reported(1));
-    }
-    Ok(())
-}
-
-fn find(wanted: &str) -> Result<(String, String), Failure> {
-    if let Some((name, text)) = LESSONS.iter().find(|(name, _)| *name == wanted) {
-        return Ok(((*name).into(), (*text).into()));
-    }
-    match fs::read(Path::new(wanted)) {
-        Ok(bytes) => Ok((wanted.into(), String::from_utf8_lossy(&bytes).into_owned())),
-        Err(error) => Err(Failure::Usage(format!(
-            "{wanted}: {error}; `odkit lesson` lists the lessons that come with odkit"
-        ))),
+    match &args.command {
+        Command::List(args) => list::run(args),
+        Command::Show(args) => show::run(args),
+        Command::Run(args) => play::run(args),
+        Command::Check(args) => check::run(args),
     }
 }
 
-fn parse(name: &str, text: &str) -> Result<Lesson, Failure> {
-    Lesson::parse(text).map_err(|problems| {
-        let all: Vec<_> = problems
-            .iter()
-            .map(|problem| format!("{name}:{problem}"))
+/// A file with its lesson, or what is wrong with it.
+struct File {
+    path: String,
+    lesson: Result<Lesson, Vec<Problem>>,
+}
+
+impl File {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let shown = path.display().to_string();
+        let failed = |why: &str| Failure::Usage(format!("{shown}: {why}"));
+        let bytes = fs::read(path).map_err(|error| failed(&source::read_error(&error)))?;
+        let text = String::from_utf8(bytes).map_err(|_| failed("a lesson is UTF-8 text"))?;
+        Ok(Self {
+            path: shown,
+            lesson: Lesson::parse(&text),
+        })
+    }
+
+    /// The lesson; its mistakes are shown where it has some.
+    fn usable(self) -> Result<Lesson, Failure> {
+        self.lesson.map_err(|problems| {
+            show_problems(&self.path, &problems);
+            let count = report::plural(problems.len(), "mistake");
+            Failure::Usage(format!("{}: {count}; see LESSONS.md", self.path))
+        })
+    }
+}
+
+fn show_problems(path: &str, problems: &[Problem]) {
+    for problem in problems {
+        note!("{path}:{problem}");
+    }
+}
+
+/// The lessons of files and folders, in order; of a folder those that end in `.md`.
+fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
+    let mut all = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            all.push(File::read(path)?);
+            continue;
+        }
+        let entries = fs::read_dir(path).map_err(|error| {
+            let why = source::read_error(&error);
+            Failure::Usage(format!("{}: {why}", path.display()))
+        })?;
+        let mut found: Vec<_> = entries
+            .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+            .filter(|path| path.extension().is_some_and(|kind| kind == "md"))
             .collect();
-        Failure::Usage(all.join("\n"))
-    })
-}
-
-fn describe(name: &str, lesson: &Lesson, stuck: &Stuck) -> String {
-    let step = match stuck.step {
-        Some(number) => {
-            let title = lesson.steps.get(number).map_or("", |step| &step.title);
-            format!("step {} “{title}”", number + 1)
+        found.sort();
+        if found.is_empty() {
+            let shown = path.display();
+            return Err(Failure::Usage(format!("{shown}: no lesson (*.md) is here")));
         }
-        None => String::from("its start"),
-    };
-    let mut text = format!("{name}: {step}: {}", stuck.why);
-    for line in &stuck.lines {
-        let mark = if line.done { "done   " } else { "missing" };
-        text.push_str(&format!("\n  {mark}  {}", line.text));
-        if !line.missing.is_empty() {
-            text.push_str(&format!(" ({})", line.missing));
+        for path in found {
+            all.push(File::read(&path)?);
         }
     }
-    text
+    Ok(all)
+}
+
+/// Makes devices, with EDS files beside the lesson, and shows frames.
+struct Terminal {
+    folder: PathBuf,
+    /// Where frames go; none while nobody is to see them.
+    output: Option<Output>,
+    /// Frames of whoever takes the lesson, too.
+    echo: bool,
+}
+
+impl Terminal {
+    fn beside(path: &Path) -> Self {
+        Self {
+            folder: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+            output: None,
+            echo: false,
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        // Who takes a lesson without reading what comes gets his exit code all the same.
+        if let Some(output) = &mut self.output {
+            let _ = output.line(line);
+        }
+    }
+}
+
+impl Host for Terminal {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let source = Source::find_in(name.unwrap_or("gxmm"), &self.folder);
+        source
+            .and_then(|source| source.device(node_id))
+            .map_err(|failure| match failure {
+                Failure::Usage(message) | Failure::Failed(message) => message,
+                Failure::Reported(_) => String::from("the device cannot be made"),
+            })
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        if self.echo || origin != Origin::Script {
+            let line = od_devices::sim::candump::format_line(at, "can0", frame);
+            self.line(&line);
+        }
+    }
+}
+
+/// Is it a file that is missing? Then whoever asks may have meant something else.
+fn is_missing(path: &Path) -> bool {
+    fs::metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound)
 }

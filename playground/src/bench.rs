@@ -224,10 +224,25 @@ fn powered_rate(device: &VirtualDevice) -> Option<u16> {
     device.bit_rate().filter(|_| device.is_powered())
 }
 
+#[cfg(not(feature = "lessons"))]
+impl Bus {
+    /// Nobody takes a lesson here.
+    pub(crate) fn saw(&mut self, _: Instant, _: Option<usize>, _: &od_runtime::Frame) {}
+
+    pub(crate) fn lost(&mut self, _: Instant) {}
+
+    pub(crate) fn look(&mut self) {}
+
+    pub(crate) fn reached(&self) -> usize {
+        0
+    }
+}
+
 impl Bus {
     /// Lets time pass to `to`, with all that happens by itself, or less if the batch is full.
     pub(crate) fn pass(&mut self, to: Instant, full: usize) {
-        while self.batch.len() < full {
+        let reached = self.reached();
+        while self.batch.len() < full && self.reached() == reached {
             let due = self.clockwork.due().filter(|due| *due <= to);
             let target = due.unwrap_or(to).max(self.bus.now());
             let sent = self.bus.advance_until_sent(target);
@@ -237,7 +252,9 @@ impl Bus {
             }
             match self.clockwork.take(self.bus.now()) {
                 Some(tick) => {
-                    tick.happen(&mut self.bus, &mut self.batch);
+                    if let Some(frame) = tick.happen(&mut self.bus, &mut self.batch) {
+                        self.saw(self.bus.now(), None, &frame);
+                    }
                     self.collect();
                 }
                 None if due.is_none() => return,
@@ -249,6 +266,7 @@ impl Bus {
     /// Takes what was disturbed on the wire into the batch.
     pub(crate) fn collect_trouble(&mut self) {
         while let Some(one) = self.bus.line.poll() {
+            self.lost(one.at);
             let kind = match one.trouble {
                 Trouble::NoAcknowledge => 1,
                 Trouble::OtherBitRate => 2,

@@ -22,6 +22,8 @@ mod bench;
 mod configured;
 #[cfg(feature = "eds")]
 mod fixes;
+#[cfg(feature = "lessons")]
+mod lesson;
 mod motion;
 mod packed;
 mod record;
@@ -39,6 +41,8 @@ use wasm_bindgen::prelude::*;
 
 #[cfg(feature = "eds")]
 use fixes::Places;
+#[cfg(feature = "lessons")]
+pub use lesson::{judge_answer, parse_lesson};
 use record::Record;
 
 /// A CAN bus with CANopen devices on it, in virtual time.
@@ -48,6 +52,9 @@ pub struct Bus {
     bus: sim::Bus,
     clockwork: motion::Clockwork,
     batch: Vec<u8>,
+    /// The lesson that somebody takes here.
+    #[cfg(feature = "lessons")]
+    taken: Option<lesson::Taken>,
 }
 
 #[wasm_bindgen]
@@ -123,6 +130,7 @@ impl Bus {
         self.collect_trouble();
         if came_through {
             packed::push(&mut self.batch, now, None, &frame);
+            self.saw(now, None, &frame);
         }
         self.collect();
     }
@@ -353,7 +361,9 @@ impl Bus {
         self.collect_trouble();
         while let Some(sent) = self.bus.poll() {
             packed::push(&mut self.batch, sent.at, Some(sent.device), &sent.frame);
+            self.saw(sent.at, Some(sent.device), &sent.frame);
         }
+        self.look();
     }
 }
 

@@ -116,16 +116,19 @@ impl Clockwork {
 }
 
 impl Tick {
-    /// Does it on a bus.
-    pub(crate) fn happen(self, bus: &mut sim::Bus, batch: &mut Vec<u8>) {
+    /// Does it on a bus; answers with the frame that came through.
+    pub(crate) fn happen(self, bus: &mut sim::Bus, batch: &mut Vec<u8>) -> Option<Frame> {
         match self {
             Self::Rpm(device, rpm) => {
                 bus.with(device, |device, now| device.set_rpm(rpm, now));
+                None
             }
             Self::Send(frame) => {
-                if bus.receive(&frame) {
+                let came_through = bus.receive(&frame);
+                if came_through {
                     packed::push(batch, bus.now(), None, &frame);
                 }
+                came_through.then_some(frame)
             }
         }
     }

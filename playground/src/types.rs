@@ -2,6 +2,84 @@
 
 use wasm_bindgen::prelude::*;
 
+#[cfg(feature = "lessons")]
+#[wasm_bindgen(typescript_custom_section)]
+const LESSON_TYPES: &str = r#"
+/** Something wrong with the text of a lesson. */
+export interface LessonProblem {
+  /** Counted from 1. */
+  line: number;
+  column: number;
+  message: string;
+  /** What to do. */
+  help: string;
+}
+
+/** A lesson as it was written; texts are Markdown. */
+export interface Lesson {
+  title: string;
+  /** What it is about, in a sentence; may be empty. */
+  summary: string;
+  /** `en`, `de` … */
+  language: string;
+  /** 1 for beginners, 2, 3. */
+  level: number;
+  minutes: number;
+  intro: string;
+  steps: LessonStep[];
+}
+
+export interface LessonStep {
+  title: string;
+  text: string;
+  /** Each tells a bit more than the one before. */
+  hints: string[];
+  /** What just happened: to be shown once the checkpoint is reached. */
+  happened: string;
+  quiz: LessonQuiz | null;
+  /** Lines for `Bus.runScript`. */
+  solution: string;
+}
+
+/** Predict a frame, then see it. */
+export interface LessonQuiz {
+  question: string;
+  /** For `judgeAnswer`, and to be shown; `..` and `*` are bytes that do not matter. */
+  answer: string;
+  reveal: string;
+}
+
+export interface LessonResult {
+  lesson: Lesson | null;
+  problems: LessonProblem[];
+}
+
+/** One thing that the present step asks for. */
+export interface LessonRequirement {
+  holds: boolean;
+  /** What it is, and what is missing of it. */
+  text: string;
+}
+
+export interface LessonState {
+  /** The present step, counted from 0; the number of steps when all is done. */
+  step: number;
+  done: boolean;
+  /** Virtual microseconds at which each checkpoint was reached. */
+  reached: number[];
+  requirements: LessonRequirement[];
+}
+
+/** What is right about an answer. */
+export interface Judgement {
+  right: boolean;
+  wrongIdentifier: boolean;
+  wrongLength: boolean;
+  /** Counted from 0. */
+  wrongBytes: number[];
+}
+"#;
+
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"
 /** A value: 64-bit integers that a number cannot hold come as bigint. */

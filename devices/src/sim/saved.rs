@@ -90,6 +90,16 @@ impl VirtualDevice {
         memory.bytes().to_vec()
     }
 
+    /// The bytes that an object would have after a start: what was saved, else the default.
+    /// `None` where there is no such object, or none that is kept.
+    pub fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
+        let entry = self.dictionary().find(address).ok()?;
+        let start = entry.slot.offset as usize;
+        let range = start..start + usize::from(entry.slot.len);
+        let kept = entry.group != od_model::Group::None && !range.is_empty();
+        saved.values.get(range).filter(|_| kept).map(<[u8]>::to_vec)
+    }
+
     /// Would this object have another value after a start than it has now? `None` where it is
     /// no object that is saved.
     pub fn is_unsaved(&self, saved: &Saved, address: Address) -> Option<bool> {

@@ -1,125 +1,130 @@
 //! How far somebody is in a lesson.
 
+use std::collections::VecDeque;
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::typed::Scalar;
-use od_model::{DataType, Kind};
 use od_runtime::{Frame, Instant};
 
-use super::check::{Check, Comparison, Subject};
+use super::condition::{Alternative, Fact, Kind, Line, What};
 use super::{Lesson, Step};
-use crate::sim::{Bus, VirtualDevice, values};
+use crate::sim::script::{Bench, Origin};
+use crate::sim::{Bus, VirtualDevice};
 
-/// One line of the present step.
+/// One thing that the present step asks for.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Line {
-    /// What is wanted, in the author's words or as it was written.
+pub struct Requirement {
+    /// It is so.
+    pub holds: bool,
+    /// What it is, and how it stands with it.
     pub text: String,
-    /// Does it hold?
-    pub done: bool,
-    /// What is missing; empty if it holds.
-    pub missing: String,
 }
 
-/// What was seen for one line since its step began.
-#[derive(Clone, Debug, Default)]
-struct Tracker {
+/// What is known of one alternative since the step began.
+#[derive(Clone, Copy, Default, Debug)]
+struct Note {
+    /// Frames that counted.
     count: u32,
+    /// The last of them.
     last: Option<Instant>,
-    /// It happened: what happened once has happened.
-    latched: bool,
+    /// When there were enough.
+    done: Option<Instant>,
+    /// Since when the fact holds.
+    since: Option<Instant>,
 }
 
-/// Somebody's way through a lesson.
-#[derive(Clone, Debug)]
+/// Watches a bench while somebody takes a lesson.
+///
+/// Hand it every frame that came through, then let it look; both change nothing on the bench.
 pub struct Progress {
-    steps: Vec<Step>,
+    lesson: Lesson,
+    /// Number of each device that the lesson names.
+    devices: Vec<(String, usize)>,
     step: usize,
-    trackers: Vec<Tracker>,
-    /// Where the shafts stood when the step began.
-    shafts: Vec<f64>,
-    since: Instant,
+    began: Instant,
+    /// Where each shaft was then.
+    turns: Vec<Option<f64>>,
+    notes: Vec<Vec<Note>>,
+    /// When a frame was disturbed on the wire.
     disturbed: Option<Instant>,
+    reached: Vec<Instant>,
+    news: VecDeque<usize>,
 }
 
 impl Progress {
-    /// At the first step of a lesson, on a bench that is set up for it.
-    pub fn new(lesson: &Lesson, bus: &Bus) -> Self {
+    /// At the first step, with the bench as its set-up left it.
+    pub fn new(lesson: Lesson, bench: &mut Bench) -> Self {
+        let mut devices = Vec::new();
+        for name in lesson.devices_named() {
+            if let Some(number) = bench.device(name) {
+                devices.push((name.to_owned(), number));
+            }
+        }
         let mut progress = Self {
-            steps: lesson.steps.clone(),
+            lesson,
+            devices,
             step: 0,
-            trackers: Vec::new(),
-            shafts: Vec::new(),
-            since: bus.now(),
+            began: Instant::ZERO,
+            turns: Vec::new(),
+            notes: Vec::new(),
             disturbed: None,
+            reached: Vec::new(),
+            news: VecDeque::new(),
         };
-        progress.enter(bus);
+        progress.begin(0, &bench.bus);
         progress
     }
 
-    fn enter(&mut self, bus: &Bus) {
-        let checks = self.checks().len();
-        self.trackers = std::vec![Tracker::default(); checks];
-        self.since = bus.now();
-        let turns = |device: &VirtualDevice| device.shaft(bus.now()).map_or(0.0, |one| one.turns);
-        self.shafts = bus.devices().iter().map(turns).collect();
+    /// The lesson.
+    pub fn lesson(&self) -> &Lesson {
+        &self.lesson
     }
 
-    fn checks(&self) -> &[Check] {
-        self.steps.get(self.step).map_or(&[], |step| &step.checks)
-    }
-
-    /// Number of the present step, from 0; the number of steps when all are done.
+    /// The present step, counted from 0; the number of steps when all is done.
     pub fn step(&self) -> usize {
         self.step
     }
 
-    /// Is there nothing left to do?
+    /// Is every checkpoint reached?
     pub fn is_done(&self) -> bool {
-        self.step == self.steps.len()
+        self.step >= self.lesson.steps.len()
     }
 
-    /// A frame went over the bus.
-    pub fn frame(&mut self, at: Instant, from_device: bool, frame: &Frame) {
-        let Some(step) = self.steps.get(self.step) else {
-            return;
-        };
-        for (check, tracker) in step.checks.iter().zip(&mut self.trackers) {
-            match &check.subject {
-                Subject::Frame {
-                    pattern,
-                    from_device: wanted,
-                    times,
-                    every,
-                } if *wanted == from_device && pattern.matches(frame) => {
-                    let fits = match (every, tracker.last) {
-                        (Some(every), Some(last)) => {
-                            at.micros_since(last).abs_diff(*every) <= every / 10
-                        }
-                        _ => true,
-                    };
-                    tracker.count = if fits { tracker.count + 1 } else { 1 };
-                    tracker.last = Some(at);
-                    tracker.latched |= tracker.count >= *times;
-                }
-                Subject::Abort(code) => {
-                    let id = frame.id().as_standard().unwrap_or(0);
-                    tracker.latched |= (0x581..=0x67F).contains(&id)
-                        && frame.data().first() == Some(&0x80)
-                        && frame.data().get(4..8) == Some(&code.to_le_bytes());
-                }
-                Subject::Emergency(code) => {
-                    let id = frame.id().as_standard().unwrap_or(0);
-                    tracker.latched |= (0x81..=0xFF).contains(&id)
-                        && frame.data().get(..2) == Some(&code.to_le_bytes());
-                }
-                Subject::Quiet(pattern, _) if from_device && pattern.matches(frame) => {
-                    tracker.last = Some(at);
-                }
-                _ => {}
-            }
+    /// When each checkpoint was reached.
+    pub fn reached(&self) -> &[Instant] {
+        &self.reached
+    }
+
+    /// A checkpoint that was reached since the last call: the number of its step.
+    pub fn poll(&mut self) -> Option<usize> {
+        self.news.pop_front()
+    }
+
+    /// Does a checkpoint wait to be polled? A bench that runs by itself pauses then.
+    pub fn has_news(&self) -> bool {
+        !self.news.is_empty()
+    }
+
+    /// Goes to a step, as if those before it had just been done; what was seen so far does
+    /// not count for it.
+    pub fn begin(&mut self, step: usize, bus: &Bus) {
+        self.step = step.min(self.lesson.steps.len());
+        self.reached.truncate(self.step);
+        while self.reached.len() < self.step {
+            self.reached.push(bus.now());
         }
+        self.began = bus.now();
+        let turns = |device: &VirtualDevice| device.shaft(bus.now()).map(|shaft| shaft.turns);
+        self.turns = bus.devices().iter().map(turns).collect();
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        let notes = |line: &Line| line.alternatives.iter().map(|_| Note::default()).collect();
+        let step = self.lesson.steps.get(self.step);
+        self.notes = step.map_or(Vec::new(), |step| {
+            step.checkpoint.iter().map(notes).collect()
+        });
     }
 
     /// A frame was disturbed on the wire.
@@ -127,171 +132,228 @@ impl Progress {
         self.disturbed = Some(at);
     }
 
-    /// Looks at the bench; answers whether a step was done by that.
-    pub fn look(&mut self, bus: &mut Bus) -> bool {
-        if self.is_done() || self.lines(bus).iter().any(|line| !line.done) {
-            return false;
-        }
-        self.step += 1;
-        self.enter(bus);
-        true
-    }
-
-    /// The lines of the present step.
-    pub fn lines(&mut self, bus: &mut Bus) -> Vec<Line> {
-        let checks = self.checks().to_vec();
-        let all = checks.iter().enumerate();
-        all.map(|(number, check)| {
-            let missing = self.missing(number, check, bus).unwrap_or_default();
-            Line {
-                text: check.words.clone().unwrap_or_else(|| check.text.clone()),
-                done: missing.is_empty(),
-                missing,
-            }
-        })
-        .collect()
-    }
-
-    /// What keeps a line from holding; `None` if nothing does.
-    fn missing(&mut self, number: usize, check: &Check, bus: &mut Bus) -> Option<String> {
-        let now = bus.now();
-        let tracker = self.trackers.get(number).cloned().unwrap_or_default();
-        let happened = |what: String| (!tracker.latched).then_some(what);
-        let since = |last: Option<Instant>| now.micros_since(last.unwrap_or(self.since));
-        let device = bus.devices().get(check.device);
-        let is_about_frames = matches!(
-            check.subject,
-            Subject::Frame { .. }
-                | Subject::Abort(_)
-                | Subject::Emergency(_)
-                | Subject::Quiet(..)
-                | Subject::Undisturbed(_)
-                | Subject::Terminators(_)
-        );
-        if device.is_none() && !is_about_frames {
-            return Some("there is no such device".into());
-        }
-        match &check.subject {
-            Subject::Frame { times, every, .. } => happened(match (tracker.count, every) {
-                (0, _) => "no such frame yet".into(),
-                (count, None) => format!("{count} of {times} so far"),
-                (count, Some(_)) => format!("{count} of {times} in this rhythm"),
-            }),
-            Subject::Abort(code) => happened(format!("no abort {code:08X}h yet")),
-            Subject::Emergency(code) => happened(format!("no emergency {code:04X}h yet")),
-            Subject::Quiet(_, micros) => (since(tracker.last) < *micros).then(|| {
-                format!(
-                    "quiet for {} of {} ms",
-                    since(tracker.last) / 1000,
-                    micros / 1000
-                )
-            }),
-            Subject::Undisturbed(micros) => {
-                let last = self.disturbed.filter(|last| *last > self.since);
-                (since(last) < *micros).then(|| {
-                    format!(
-                        "undisturbed for {} of {} ms",
-                        since(last) / 1000,
-                        micros / 1000
-                    )
-                })
-            }
-            Subject::Terminators(count) => (bus.line.terminators != *count)
-                .then(|| format!("there are {}", bus.line.terminators)),
-            Subject::State(name) => {
-                let device = device?;
-                let state = match device.is_powered() {
-                    true => device.state().name().to_lowercase(),
-                    false => "off".into(),
+    /// A frame came through.
+    pub fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return;
+        };
+        // A device that is not there sends nothing.
+        let device = |name: &Option<String>| {
+            let name = name.as_deref()?;
+            Some(number(&self.devices, Some(name)).unwrap_or(usize::MAX))
+        };
+        let mut again = false;
+        // From the last line to the first, so that one frame counts for one line of a row.
+        for (number, line) in step.checkpoint.iter().enumerate().rev() {
+            let before = number.checked_sub(1).and_then(|above| {
+                self.notes
+                    .get(above)?
+                    .iter()
+                    .filter_map(|note| note.done)
+                    .max()
+            });
+            for (place, one) in line.alternatives.iter().enumerate() {
+                let Some(note) = self
+                    .notes
+                    .get_mut(number)
+                    .and_then(|row| row.get_mut(place))
+                else {
+                    continue;
                 };
-                (state != *name).then(|| format!("it is {state}"))
-            }
-            Subject::Led { green, led } => {
-                let (first, second) = device?.leds();
-                let is = if *green { first } else { second };
-                (is != *led).then(|| format!("it is {}", is.name()))
-            }
-            Subject::NodeId(wanted) => {
-                let device = device?;
-                let is = device.node_id().raw();
-                (is != *wanted || !device.is_powered()).then(|| format!("it is {is}"))
-            }
-            Subject::BitRate(wanted) => {
-                let is = device?.bit_rate();
-                (is != Some(*wanted)).then(|| match is {
-                    Some(is) => format!("it is {is} kbit/s"),
-                    None => "it has none".into(),
-                })
-            }
-            Subject::Turned(turns) => {
-                let start = self.shafts.get(check.device).copied().unwrap_or(0.0);
-                let moved = device?
-                    .shaft(now)
-                    .map_or(0.0, |one| (one.turns - start).abs());
-                if moved >= *turns
-                    && let Some(tracker) = self.trackers.get_mut(number)
-                {
-                    tracker.latched = true;
-                    return None;
-                }
-                happened(format!("{moved:.2} of {turns} turns"))
-            }
-            Subject::Fault { name, broken } => (device?.is_broken(name) != *broken)
-                .then(|| (if *broken { "it is not" } else { "it still is" }).into()),
-            Subject::Saved(object) => {
-                let found = values::find(device?.dictionary(), object).map(|entry| entry.address);
-                let address = match found {
-                    Ok(address) => address,
-                    Err(why) => return Some(why),
-                };
-                let unsaved = bus.with(check.device, |device, _| {
-                    let saved = device.saved();
-                    device.is_unsaved(&saved, address)
-                });
-                match unsaved.flatten() {
-                    Some(false) => None,
-                    Some(true) => Some("a power cycle would change it".into()),
-                    None => Some("it is no object that is saved".into()),
-                }
-            }
-            Subject::Value {
-                object,
-                comparison,
-                value,
-            } => {
-                let found = values::find(device?.dictionary(), object);
-                let (address, data_type) = match found {
-                    Ok(entry) => (entry.address, entry.data_type),
-                    Err(why) => return Some(why),
-                };
-                if !device?.is_powered() {
-                    return Some("it has no power".into());
-                }
-                let bytes = bus.with(check.device, |device, now| device.read(address, now))?;
-                let wanted = match values::parse(data_type, value) {
-                    Ok(wanted) => wanted,
-                    Err(why) => return Some(why),
-                };
-                let holds = match comparison {
-                    Comparison::Equal => bytes == wanted,
-                    Comparison::Other => bytes != wanted,
-                    Comparison::AtLeast => {
-                        integer(data_type, &bytes) >= integer(data_type, &wanted)
+                match &one.what {
+                    What::Seen(seen) if seen.matches(origin, device(&seen.device), frame) => {
+                        if one.not {
+                            again = true;
+                            continue;
+                        }
+                        if line.then {
+                            let Some(before) = before else { continue };
+                            let late = |within| at.micros_since(before) > within;
+                            if seen.within.is_some_and(late) {
+                                continue;
+                            }
+                        }
+                        note.count(at, seen.times, seen.every);
                     }
-                    Comparison::AtMost => integer(data_type, &bytes) <= integer(data_type, &wanted),
-                };
-                (!holds).then(|| format!("it is {}", values::show(data_type, &bytes)))
+                    What::Fact(Fact {
+                        kind: Kind::Quiet(pattern),
+                        ..
+                    }) if pattern.matches(frame) => note.last = Some(at),
+                    _ => {}
+                }
             }
+        }
+        if again {
+            self.forget();
+        }
+    }
+
+    /// Looks at the bench, after each frame and whenever something else happened. Answers
+    /// whether the present step is done now; the next one has begun then.
+    pub fn look(&mut self, bus: &mut Bus) -> bool {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return false;
+        };
+        let mut all = true;
+        let since = (self.began, self.disturbed);
+        for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
+            let mut any = false;
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                // What has to last is looked at each time; the rest only where it decides.
+                let lasts = matches!(&one.what, What::Fact(fact) if fact.lasting > 0);
+                if lasts || (all && !any) {
+                    let device = device_of(&self.devices, one);
+                    let turns = self.turns.get(device).copied().flatten();
+                    any |= holds(one, note, bus, device, turns, since).0;
+                }
+            }
+            all &= any;
+        }
+        if all {
+            let (done, now) = (self.step, bus.now());
+            self.news.push_back(done);
+            self.reached.push(now);
+            self.begin(done + 1, bus);
+        }
+        all
+    }
+
+    /// What the present step asks for, and what is missing of it.
+    pub fn requirements(&mut self, bus: &mut Bus) -> Vec<Requirement> {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return Vec::new();
+        };
+        let devices = &self.devices;
+        let since = (self.began, self.disturbed);
+        let mut requirements = Vec::new();
+        for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
+            let named = |name: &str| number(devices, Some(name)).unwrap_or(0);
+            let mut text = line.words(bus.devices(), named);
+            let mut met = false;
+            let mut state = String::new();
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                let device = device_of(devices, one);
+                let turns = self.turns.get(device).copied().flatten();
+                let (holds, now) = holds(one, note, bus, device, turns, since);
+                met |= holds;
+                if !now.is_empty() {
+                    state = now;
+                }
+            }
+            if !met && !state.is_empty() {
+                text.push_str(&format!(" ({state})"));
+            }
+            requirements.push(Requirement { holds: met, text });
+        }
+        requirements
+    }
+
+    /// What the checkpoints ask for that cannot be on this bench: the line, and why.
+    pub(super) fn impossible(&self, bus: &mut Bus) -> Vec<(u32, String)> {
+        let mut found = Vec::new();
+        for line in self.lesson.steps.iter().flat_map(|step| &step.checkpoint) {
+            for one in &line.alternatives {
+                let name = one.device();
+                if let Some(name) = name
+                    && number(&self.devices, Some(name)).is_none()
+                {
+                    found.push((line.line, format!("the set-up has no device `{name}`")));
+                } else if let What::Fact(fact) = &one.what
+                    && let Err(why) = fact.look(bus, device_of(&self.devices, one), None)
+                {
+                    found.push((line.line, why));
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Note {
+    fn count(&mut self, at: Instant, times: u32, every: Option<(u64, u64)>) {
+        let in_time = match (every, self.last) {
+            (Some((low, high)), Some(last)) => (low..=high).contains(&at.micros_since(last)),
+            _ => true,
+        };
+        self.count = if in_time {
+            self.count.saturating_add(1)
+        } else {
+            1
+        };
+        self.last = Some(at);
+        if self.count >= times {
+            self.done = Some(at);
         }
     }
 }
 
-fn integer(data_type: DataType, bytes: &[u8]) -> i128 {
-    if bytes.len() > 8 {
-        return 0;
+impl Alternative {
+    fn device(&self) -> Option<&str> {
+        match &self.what {
+            What::Seen(seen) => seen.device.as_deref(),
+            What::Fact(fact) => fact.device.as_deref(),
+        }
     }
-    match data_type.kind() {
-        Kind::Signed => i64::from_wire(bytes).into(),
-        _ => u64::from_wire(bytes).into(),
+}
+
+impl Lesson {
+    fn devices_named(&self) -> impl Iterator<Item = &str> {
+        let lines = self.steps.iter().flat_map(|step: &Step| &step.checkpoint);
+        lines
+            .flat_map(|line| &line.alternatives)
+            .filter_map(Alternative::device)
     }
+}
+
+fn number(devices: &[(String, usize)], name: Option<&str>) -> Option<usize> {
+    let name = name?;
+    let (_, number) = devices.iter().find(|(known, _)| known == name)?;
+    Some(*number)
+}
+
+/// The device that a fact is about: the first, where none is named.
+fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
+    number(devices, one.device()).unwrap_or(0)
+}
+
+/// Does it hold, and how does it stand?
+fn holds(
+    one: &Alternative,
+    note: &mut Note,
+    bus: &mut Bus,
+    device: usize,
+    turns: Option<f64>,
+    (began, disturbed): (Instant, Option<Instant>),
+) -> (bool, String) {
+    let now = bus.now();
+    let fact = match &one.what {
+        What::Seen(_) if one.not => return (true, String::new()),
+        What::Seen(seen) => {
+            let state = match (note.count, seen.times) {
+                (0, _) | (_, 1) => String::new(),
+                (count, times) => format!("{count} of {times} so far"),
+            };
+            return (note.done.is_some(), state);
+        }
+        What::Fact(fact) => fact,
+    };
+    if matches!(fact.kind, Kind::Quiet(_) | Kind::Undisturbed) {
+        let last = match fact.kind {
+            Kind::Undisturbed => disturbed,
+            _ => note.last,
+        };
+        let since = last.map_or(began, |last| last.max(began));
+        let quiet = now.micros_since(since) >= fact.lasting;
+        return (quiet != one.not, String::new());
+    }
+    let (is, state) = match fact.look(bus, device, turns) {
+        Ok((is, state)) => (is != one.not, state),
+        Err(why) => (false, why),
+    };
+    if !is {
+        note.since = None;
+        return (false, state);
+    }
+    let since = *note.since.get_or_insert(now);
+    (now.micros_since(since) >= fact.lasting, state)
 }

@@ -174,6 +174,10 @@ impl Console {
                 }
             }
             Action::Bus(event) => self.world(bus, |device, now| device.handle_bus(*event, now))?,
+            Action::Line(wire) => {
+                self.world(bus, |_, _| ())?;
+                wire.act(&mut bus.line, self.current);
+            }
             // A line that only waits; `push` lets nothing else in.
             _ => {}
         }
@@ -208,6 +212,7 @@ fn is_for_a_live_bench(action: &Action) -> bool {
             | Action::SwitchBitrate(_)
             | Action::Fault { .. }
             | Action::Bus(_)
+            | Action::Line(_)
             | Action::Wait
     )
 }

@@ -151,7 +151,7 @@ impl Runner<'_> {
 }
 
 /// Microseconds as a script writes them.
-pub(super) fn duration(micros: u64) -> String {
+pub(in crate::sim) fn duration(micros: u64) -> String {
     match (micros % 1_000_000, micros % 1000) {
         (0, _) if micros > 0 => format!("{}s", micros / 1_000_000),
         (_, 0) => format!("{}ms", micros / 1000),

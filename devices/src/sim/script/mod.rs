@@ -12,13 +12,13 @@
 
 mod client;
 mod console;
-mod expect;
-mod parse;
-mod parse_expect;
+pub(in crate::sim) mod expect;
+pub(in crate::sim) mod parse;
+pub(in crate::sim) mod parse_expect;
 mod pattern;
 mod run;
 mod statement;
-mod words;
+pub(in crate::sim) mod words;
 
 use std::prelude::v1::*;
 use std::{fmt, format};
@@ -27,15 +27,24 @@ use od_runtime::{Frame, Instant, NodeId};
 
 pub use console::Console;
 pub use pattern::Pattern;
-pub use run::{Bench, run, run_on};
+pub use run::{run, run_on};
 
-use super::VirtualDevice;
+use super::{Bus, VirtualDevice};
 use statement::{Action, Statement};
 
 /// A script that was read.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Script {
     statements: Vec<Statement>,
+}
+
+/// Reads a script line by line, each as a script of its own.
+#[derive(Clone, Debug, Default)]
+pub struct Reader {
+    /// Where the time stamps of a log begin.
+    origin: Option<u64>,
+    /// Lines so far.
+    line: u32,
 }
 
 /// A line that says nothing the language knows.
@@ -67,7 +76,20 @@ impl Script {
     /// # Errors
     /// Everything that could not be read, in order.
     pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
-        parse::parse(text)
+        parse::parse(text, 1)
+    }
+
+    /// Reads a script that stands inside another text: its first line has this number there.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_at(text: &str, first_line: u32) -> Result<Self, Vec<Problem>> {
+        parse::parse(text, first_line)
+    }
+
+    /// The numbers of the lines that say something.
+    pub fn lines(&self) -> impl Iterator<Item = u32> + '_ {
+        self.statements.iter().map(|statement| statement.line)
     }
 
     /// How many `expect` lines it has, SDO lines with an outcome included.
@@ -107,6 +129,37 @@ pub trait Host {
     /// A frame is on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         let _ = (at, origin, frame);
+    }
+
+    /// A frame was on the bus, or a line is done: the bench as it is now.
+    fn look(&mut self, bus: &mut Bus) {
+        let _ = bus;
+    }
+}
+
+/// A bus, with the names that scripts gave its devices.
+#[derive(Default)]
+pub struct Bench {
+    /// The bus.
+    pub bus: Bus,
+    labels: Vec<Option<String>>,
+    current: usize,
+}
+
+impl Bench {
+    /// A bus whose devices have no names but their numbers, counted from 1.
+    pub fn new(bus: Bus) -> Self {
+        let labels = bus.devices().iter().map(|_| None).collect();
+        Self {
+            bus,
+            labels,
+            current: 0,
+        }
+    }
+
+    /// The device that a script calls so.
+    pub fn device(&self, name: &str) -> Option<usize> {
+        run::named(&self.labels, name)
     }
 }
 

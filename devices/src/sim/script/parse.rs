@@ -7,7 +7,7 @@ use od_runtime::wire::nmt::Command;
 use od_runtime::{BusEvent, Instant, NodeId};
 
 use super::parse_expect::{expect, repeated, sdo};
-use super::statement::{Action, LineChange, Power, Shaft, Statement, Timing, When};
+use super::statement::{Action, Power, Shaft, Statement, Timing, When, Wire};
 use super::words::{Words, is_decimal};
 use super::{Pattern, Problem, Script};
 use crate::sim::{candump, faults};
@@ -16,14 +16,15 @@ use crate::sim::{candump, faults};
 const WALL_CLOCK: u64 = 100_000_000_000_000;
 
 const STATEMENTS: &str = "a line is a frame (601#4004600000000000), or begins with device, use, \
-                          shaft, power, line, switch, fault, bus, wait, at, after, send, nmt, sync, sdo, \
+                          shaft, power, switch, fault, bus, line, wait, at, after, send, nmt, sync, sdo, \
                           ignore, skip or expect";
 
-pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
+/// Reads a script whose first line has this number in its file.
+pub(super) fn parse(text: &str, first: u32) -> Result<Script, Vec<Problem>> {
     let mut script = Script::default();
     let mut problems = vec![];
     let mut origin = None;
-    for (line, text) in (1..).zip(text.lines()) {
+    for (line, text) in (first..).zip(text.lines()) {
         let words = Words::new(line, text.strip_prefix('\u{feff}').unwrap_or(text));
         if words.is_empty() {
             continue;
@@ -48,6 +49,29 @@ pub(super) fn parse(text: &str) -> Result<Script, Vec<Problem>> {
     }
 }
 
+impl super::Reader {
+    /// Reads one more line.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(&mut self, text: &str) -> Result<Script, Problem> {
+        self.line = self.line.saturating_add(1);
+        let words = Words::new(self.line, text.trim_start_matches('\u{feff}'));
+        let mut script = Script::default();
+        if !words.is_empty() {
+            let shown = words.rest().to_owned();
+            let (when, action) = statement(words, &mut self.origin)?;
+            script.statements.push(Statement {
+                line: self.line,
+                text: shown,
+                when,
+                action,
+            });
+        }
+        Ok(script)
+    }
+}
+
 pub(super) fn statement(
     mut words: Words<'_>,
     origin: &mut Option<u64>,
@@ -62,10 +86,10 @@ pub(super) fn statement(
         "use" => Action::Use(label(&mut words)?),
         "shaft" => shaft(&mut words)?,
         "power" => power(&mut words)?,
-        "line" => line(&mut words)?,
         "switch" => switch(&mut words)?,
         "fault" => fault(&mut words)?,
         "bus" => bus(&mut words)?,
+        "line" => wire(&mut words)?,
         "wait" => {
             let micros = words.duration()?;
             words.end()?;
@@ -168,7 +192,7 @@ fn send(words: &mut Words<'_>) -> Result<Action, Problem> {
 
 fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
     const HELP: &str = "write `device gxmm`, `device gxmm node 5 as left`, or a file name";
-    let head = words.split_at_word(&["node", "as", "on", "off", "serial"]);
+    let head = words.split_at_word(&["node", "serial", "as", "on", "off"]);
     let shown = head.rest();
     let name = shown.trim_matches('"').to_owned();
     if name.is_empty() {
@@ -186,14 +210,14 @@ fn device(words: &mut Words<'_>) -> Result<Action, Problem> {
             while nodes.is_empty() || words.at_number() {
                 nodes.extend(NodeId::new(words.number(1, 127)? as u8));
             }
+        } else if words.take("serial") {
+            serial = Some(words.number(0, u64::from(u32::MAX))? as u32);
         } else if words.take("as") {
             name_of = Some(label(words)?);
         } else if words.take("on") {
             beside = Some(label(words)?);
         } else if words.take("off") {
             powered = false;
-        } else if words.take("serial") {
-            serial = Some(words.number(0, u32::MAX.into())? as u32);
         } else {
             return Err(words.problem(format!("`{}` is unknown", words.peek()), HELP));
         }
@@ -271,21 +295,6 @@ fn power(words: &mut Words<'_>) -> Result<Action, Problem> {
     }))
 }
 
-fn line(words: &mut Words<'_>) -> Result<Action, Problem> {
-    let here = *words;
-    Ok(Action::Line(match words.next() {
-        "real" => LineChange::Real(true),
-        "ideal" => LineChange::Real(false),
-        "terminators" => LineChange::Terminators(words.number(0, 9)? as u8),
-        word => {
-            return Err(here.problem(
-                format!("the wire cannot be `{word}`"),
-                "write `line real`, `line ideal` or `line terminators 1`",
-            ));
-        }
-    }))
-}
-
 fn switch(words: &mut Words<'_>) -> Result<Action, Problem> {
     let here = *words;
     match words.next() {
@@ -340,9 +349,40 @@ fn bus(words: &mut Words<'_>) -> Result<Action, Problem> {
     }
 }
 
-fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {
+fn wire(words: &mut Words<'_>) -> Result<Action, Problem> {
     let here = *words;
-    let command = match words.next() {
+    Ok(Action::Line(match words.next() {
+        "real" => Wire::Real(true),
+        "ideal" => Wire::Real(false),
+        "terminators" => Wire::Terminators(words.number(0, 4)? as u8),
+        "bitrate" if words.take("any") => Wire::BitRate(None),
+        "bitrate" => Wire::BitRate(Some(words.number(1, 1000)? as u16)),
+        "plug" => Wire::Plugged(true),
+        "unplug" => Wire::Plugged(false),
+        word => {
+            return Err(here.problem(
+                format!("a line cannot `{word}`"),
+                "there are line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, \
+                 plug and unplug",
+            ));
+        }
+    }))
+}
+
+fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {
+    let command = command(words)?;
+    let node = match words.is_empty() {
+        true => None,
+        false if words.take("all") => Some(0),
+        false => Some(words.number(0, 127)? as u8),
+    };
+    Ok(Action::Nmt { command, node })
+}
+
+/// The name of an NMT command.
+pub(in crate::sim) fn command(words: &mut Words<'_>) -> Result<Command, Problem> {
+    let here = *words;
+    Ok(match words.next() {
         "start" => Command::Start,
         "stop" => Command::Stop,
         "preop" => Command::EnterPreOperational,
@@ -352,13 +392,7 @@ fn nmt(words: &mut Words<'_>) -> Result<Action, Problem> {
             let message = format!("there is no NMT command `{word}`");
             return Err(here.problem(message, "there are start, stop, preop, reset, reset-comm"));
         }
-    };
-    let node = match words.is_empty() {
-        true => None,
-        false if words.take("all") => Some(0),
-        false => Some(words.number(0, 127)? as u8),
-    };
-    Ok(Action::Nmt { command, node })
+    })
 }
 
 fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {

@@ -91,7 +91,8 @@ pub(super) fn sdo(words: &mut Words<'_>) -> Result<Action, Problem> {
     }
 }
 
-fn abort(words: &mut Words<'_>) -> Result<AbortCode, Problem> {
+/// An abort code that CiA 301 knows.
+pub(in crate::sim) fn abort(words: &mut Words<'_>) -> Result<AbortCode, Problem> {
     let here = *words;
     let word = words.next();
     let digits = word

@@ -81,6 +81,30 @@ impl Pattern {
         Ok(pattern)
     }
 
+    /// A pattern that no frame of a device has: an NMT command of no bytes.
+    pub(in crate::sim) const fn nothing() -> Self {
+        Self {
+            id: CanId::standard(0),
+            bytes: None,
+            open: false,
+        }
+    }
+
+    /// The identifier.
+    pub const fn id(&self) -> CanId {
+        self.id
+    }
+
+    /// Its bytes, `None` for one that may be anything; no bytes at all for a remote frame.
+    pub fn bytes(&self) -> Option<&[Option<u8>]> {
+        self.bytes.as_deref()
+    }
+
+    /// May more bytes follow?
+    pub const fn is_open(&self) -> bool {
+        self.open
+    }
+
     /// Is this the frame that was meant?
     pub fn matches(&self, frame: &Frame) -> bool {
         let Some(bytes) = &self.bytes else {

@@ -7,8 +7,8 @@ use std::prelude::v1::*;
 use od_runtime::wire::nmt;
 use od_runtime::{Frame, Instant, NodeId};
 
-use super::statement::{Action, LineChange, Power, Shaft, Statement, When};
-use super::{Host, Origin, Pattern, Reason, Script, Stop, Summary};
+use super::statement::{Action, Power, Shaft, Statement, When, Wire};
+use super::{Bench, Host, Origin, Pattern, Reason, Script, Stop, Summary};
 use crate::sim::bus::{Bus, Sent};
 use crate::sim::{VirtualDevice, values};
 
@@ -51,62 +51,62 @@ pub(super) struct Runner<'h> {
     frames: u64,
 }
 
-/// A bench that scripts run on, one after the other.
-#[derive(Default)]
-pub struct Bench {
-    /// The devices and their bus.
-    pub bus: Bus,
-    labels: Vec<Option<String>>,
-    current: usize,
-}
-
 /// Runs a script from its first line to its last, or to the first that does not hold.
 ///
 /// # Errors
 /// [`Stop`] says which line, and why.
 pub fn run(script: &Script, host: &mut dyn Host) -> core::result::Result<Summary, Box<Stop>> {
-    run_on(script, host, &mut Bench::default())
+    run_on(script, &mut Bench::default(), host)
 }
 
-/// As [`run`], on a bench where scripts may have run before: devices, their names and the time
-/// stay. What they sent before is not expected any more.
+/// As [`run`], on a bench that is there already and stays there afterwards.
 ///
 /// # Errors
-/// [`Stop`] says which line, and why.
+/// [`Stop`] says which line, and why; what the lines before it did stays done.
 pub fn run_on(
     script: &Script,
-    host: &mut dyn Host,
     bench: &mut Bench,
+    host: &mut dyn Host,
 ) -> core::result::Result<Summary, Box<Stop>> {
-    let Bench {
-        bus,
-        labels,
-        current,
-    } = core::mem::take(bench);
     let mut runner = Runner {
         host,
-        bus,
-        labels,
-        current,
+        bus: core::mem::take(&mut bench.bus),
+        labels: core::mem::take(&mut bench.labels),
+        current: bench.current,
         pending: VecDeque::new(),
         ignored: Vec::new(),
         greetings: Vec::new(),
         held: 0,
         frames: 0,
     };
-    let result = runner.run(script);
-    *bench = Bench {
-        bus: runner.bus,
-        labels: runner.labels,
-        current: runner.current,
-    };
+    let result = runner.all(script);
+    (bench.bus, bench.labels, bench.current) = (runner.bus, runner.labels, runner.current);
     result
 }
 
+/// The device with this label, or the `name.1` of a redundant one; else the one with this
+/// number, counted from 1.
+pub(super) fn named(labels: &[Option<String>], label: &str) -> Option<usize> {
+    let find = |name: &str| {
+        labels
+            .iter()
+            .position(|label| label.as_deref() == Some(name))
+    };
+    let number = || {
+        let number: usize = label.parse().ok()?;
+        (1..=labels.len()).contains(&number).then(|| number - 1)
+    };
+    find(label)
+        .or_else(|| find(label.strip_suffix(".1")?))
+        .or_else(number)
+}
+
 impl Runner<'_> {
-    fn run(&mut self, script: &Script) -> core::result::Result<Summary, Box<Stop>> {
+    fn all(&mut self, script: &Script) -> core::result::Result<Summary, Box<Stop>> {
         for statement in &script.statements {
-            if let Err(reason) = self.statement(statement) {
+            let result = self.statement(statement);
+            self.host.look(&mut self.bus);
+            if let Err(reason) = result {
                 return Err(Box::new(Stop {
                     line: statement.line,
                     text: statement.text.clone(),
@@ -124,8 +124,13 @@ impl Runner<'_> {
 
     fn statement(&mut self, statement: &Statement) -> Result<()> {
         let now = self.bus.now();
-        let names_device = matches!(statement.action, Action::Device { .. });
-        if self.labels.is_empty() && !names_device {
+        // The wire is there before the first device is.
+        let names_device = matches!(
+            statement.action,
+            Action::Device { .. }
+                | Action::Line(Wire::Real(_) | Wire::Terminators(_) | Wire::BitRate(_))
+        );
+        if self.bus.devices().is_empty() && !names_device {
             self.add(&Wanted::default(), true)?;
         }
         match statement.when {
@@ -173,13 +178,6 @@ impl Runner<'_> {
             }
             Action::Shaft(shaft) => self.shaft(*shaft)?,
             Action::Power(power) => self.power(*power),
-            Action::Line(change) => {
-                let line = &mut self.bus.line;
-                match *change {
-                    LineChange::Real(real) => line.is_real = real,
-                    LineChange::Terminators(count) => line.terminators = count,
-                }
-            }
             Action::SwitchNode(number) => {
                 self.with(|device, now| device.set_node_switch(*number, now))
             }
@@ -195,6 +193,7 @@ impl Runner<'_> {
                 }
             }
             Action::Bus(event) => self.with(|device, now| device.handle_bus(*event, now)),
+            Action::Line(wire) => wire.act(&mut self.bus.line, self.current),
             Action::BusRate(kbit) => self.bus.set_bit_rate(*kbit),
             Action::Wait => {}
             Action::Nmt { command, node } => {
@@ -228,13 +227,7 @@ impl Runner<'_> {
     /// The device of a `device … as` line above; of a redundant one, `name.2` is the second
     /// channel.
     fn labelled(&self, label: &str) -> Result<usize> {
-        let find = |name: &str| {
-            let name = Some(name);
-            self.labels
-                .iter()
-                .position(|label| label.as_deref() == name)
-        };
-        match find(label).or_else(|| find(label.strip_suffix(".1")?)) {
+        match named(&self.labels, label) {
             Some(device) => Ok(device),
             None => impossible(format!("no `device … as {label}` line stands above")),
         }
@@ -273,7 +266,7 @@ impl Runner<'_> {
                 .host
                 .device(wanted.name, Some(id))
                 .or_else(impossible)?;
-            let serial_number = u32::from(channel) + 1;
+            let serial_number = wanted.serial.unwrap_or(1).wrapping_add(u32::from(channel));
             self.bus
                 .add_beside(device.with_serial_number(serial_number), first);
             let label = wanted.label.map(|label| format!("{label}.{}", channel + 1));
@@ -316,8 +309,12 @@ impl Runner<'_> {
 
     /// Puts a frame on the bus.
     pub(super) fn send(&mut self, frame: &Frame) {
-        self.host.frame(self.bus.now(), Origin::Script, frame);
-        self.bus.receive(frame);
+        let at = self.bus.now();
+        // The answers wait in the bus until `collect`, so the frame is seen before them.
+        if self.bus.receive(frame) {
+            self.host.frame(at, Origin::Script, frame);
+            self.host.look(&mut self.bus);
+        }
         self.collect();
     }
 
@@ -340,6 +337,7 @@ impl Runner<'_> {
             self.frames += 1;
             self.host
                 .frame(sent.at, Origin::Device(sent.device), &sent.frame);
+            self.host.look(&mut self.bus);
             if !self
                 .ignored
                 .iter()

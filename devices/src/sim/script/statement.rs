@@ -6,7 +6,7 @@ use od_runtime::wire::nmt::Command;
 use od_runtime::{AbortCode, BusEvent, Frame, Instant, NodeId};
 
 use super::Pattern;
-use crate::sim::{Led, VirtualDevice};
+use crate::sim::{Led, Line, VirtualDevice};
 
 /// When a line acts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -53,12 +53,29 @@ pub(super) enum Power {
     Cycle(u64),
 }
 
-/// What happens to the wire.
+/// What becomes of the wire.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum LineChange {
-    /// Bit rates, terminators and error counters matter, or do not.
+pub(super) enum Wire {
+    /// Can frames fail?
     Real(bool),
+    /// Resistors at its ends.
     Terminators(u8),
+    /// Bit rate of what is outside in kbit/s; `None`: that of the first device.
+    BitRate(Option<u16>),
+    /// The present device hangs on it.
+    Plugged(bool),
+}
+
+impl Wire {
+    /// Changes the line that a device, counted from 0, hangs on.
+    pub(super) fn act(self, line: &mut Line, device: usize) {
+        match self {
+            Self::Real(real) => line.is_real = real,
+            Self::Terminators(count) => line.terminators = count,
+            Self::BitRate(kbit) => line.bit_rate = kbit,
+            Self::Plugged(plugged) => line.set_plugged(device + 1, plugged),
+        }
+    }
 }
 
 /// When an expected frame has to come.
@@ -118,7 +135,7 @@ pub(super) enum Action {
         label: Option<String>,
         /// The device on whose shaft it sits.
         beside: Option<String>,
-        /// Of the first channel.
+        /// Another serial number than the first.
         serial: Option<u32>,
         powered: bool,
     },
@@ -130,7 +147,6 @@ pub(super) enum Action {
     },
     Shaft(Shaft),
     Power(Power),
-    Line(LineChange),
     SwitchNode(u8),
     SwitchBitrate(u8),
     Fault {
@@ -141,6 +157,8 @@ pub(super) enum Action {
     BusRate(Option<u16>),
     /// News of the CAN controller.
     Bus(BusEvent),
+    /// The wire changes.
+    Line(Wire),
     Wait,
     Nmt {
         command: Command,

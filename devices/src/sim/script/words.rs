@@ -13,7 +13,7 @@ const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
 
 /// A stretch of a line, to be taken apart from the front.
 #[derive(Clone, Copy)]
-pub(super) struct Words<'t> {
+pub(in crate::sim) struct Words<'t> {
     line: u32,
     column: usize,
     text: &'t str,
@@ -22,7 +22,7 @@ pub(super) struct Words<'t> {
 impl<'t> Words<'t> {
     /// The line without its comment and the blanks around it. A comment begins with `#` at
     /// the start of a line or behind a blank; `601#40` is a frame.
-    pub(super) fn new(line: u32, text: &'t str) -> Self {
+    pub(in crate::sim) fn new(line: u32, text: &'t str) -> Self {
         let mut end = text.len();
         let mut quoted = false;
         let mut before = ' ';
@@ -51,21 +51,21 @@ impl<'t> Words<'t> {
         self.text = trimmed;
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::sim) fn is_empty(&self) -> bool {
         self.text.is_empty()
     }
 
     /// All that is left.
-    pub(super) fn rest(&self) -> &'t str {
+    pub(in crate::sim) fn rest(&self) -> &'t str {
         self.text
     }
 
-    pub(super) fn peek(&self) -> &'t str {
+    pub(in crate::sim) fn peek(&self) -> &'t str {
         self.text.split_whitespace().next().unwrap_or("")
     }
 
     /// The next word; empty at the end of the line.
-    pub(super) fn next(&mut self) -> &'t str {
+    pub(in crate::sim) fn next(&mut self) -> &'t str {
         let word = self.peek();
         self.text = &self.text[word.len()..];
         self.column += word.chars().count();
@@ -74,7 +74,7 @@ impl<'t> Words<'t> {
     }
 
     /// Takes the next word if it is this one.
-    pub(super) fn take(&mut self, word: &str) -> bool {
+    pub(in crate::sim) fn take(&mut self, word: &str) -> bool {
         let here = self.peek() == word;
         if here {
             self.next();
@@ -83,7 +83,7 @@ impl<'t> Words<'t> {
     }
 
     /// Splits off what begins with the first of these words.
-    pub(super) fn split_at_word(&mut self, keywords: &[&str]) -> Self {
+    pub(in crate::sim) fn split_at_word(&mut self, keywords: &[&str]) -> Self {
         let mut head = *self;
         let mut quoted = false;
         loop {
@@ -99,7 +99,7 @@ impl<'t> Words<'t> {
     }
 
     /// Splits the last word off.
-    pub(super) fn split_last(&mut self) -> Self {
+    pub(in crate::sim) fn split_last(&mut self) -> Self {
         let at = self.text.rfind(char::is_whitespace).map_or(0, |at| at + 1);
         let mut last = *self;
         last.column += self.text[..at].chars().count();
@@ -109,7 +109,7 @@ impl<'t> Words<'t> {
     }
 
     /// Splits at the first `=`, which is dropped; `None` where there is none.
-    pub(super) fn split_at_equals(&mut self) -> Option<Self> {
+    pub(in crate::sim) fn split_at_equals(&mut self) -> Option<Self> {
         let at = self.text.find('=')?;
         let mut head = *self;
         head.text = self.text[..at].trim_end();
@@ -119,7 +119,11 @@ impl<'t> Words<'t> {
         Some(head)
     }
 
-    pub(super) fn problem(&self, message: impl Into<String>, help: impl Into<String>) -> Problem {
+    pub(in crate::sim) fn problem(
+        &self,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Problem {
         Problem {
             line: self.line,
             column: self.column,
@@ -129,14 +133,14 @@ impl<'t> Words<'t> {
     }
 
     /// A mistake in a frame that begins at the front.
-    pub(super) fn frame_problem(&self, error: &candump::Error) -> Problem {
+    pub(in crate::sim) fn frame_problem(&self, error: &candump::Error) -> Problem {
         let mut problem = self.problem(error.message.clone(), error.help);
         problem.column += error.column - 1;
         problem
     }
 
     /// Nothing may be left.
-    pub(super) fn end(&self) -> Result<(), Problem> {
+    pub(in crate::sim) fn end(&self) -> Result<(), Problem> {
         if self.is_empty() {
             return Ok(());
         }
@@ -148,7 +152,7 @@ impl<'t> Words<'t> {
     }
 
     /// Does a number begin here, whether it fits or not?
-    pub(super) fn at_number(&self) -> bool {
+    pub(in crate::sim) fn at_number(&self) -> bool {
         let word = self.peek();
         word.strip_prefix('-')
             .unwrap_or(word)
@@ -156,12 +160,12 @@ impl<'t> Words<'t> {
     }
 
     /// A moment or a duration of this line, `None` where it is past counting.
-    pub(super) fn limited(&self, micros: Option<u64>) -> Result<u64, Problem> {
+    pub(in crate::sim) fn limited(&self, micros: Option<u64>) -> Result<u64, Problem> {
         self.within(self.peek(), micros)
     }
 
     /// So many turns of a line must not take longer, either.
-    pub(super) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
+    pub(in crate::sim) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
         let micros = every.checked_mul(u64::from(times));
         self.within(&format!("{times} times"), micros).map(|_| ())
     }
@@ -173,7 +177,7 @@ impl<'t> Words<'t> {
     }
 
     /// A duration in microseconds: `500ms`, `1.5s`, `20us`, `2min`.
-    pub(super) fn duration(&mut self) -> Result<u64, Problem> {
+    pub(in crate::sim) fn duration(&mut self) -> Result<u64, Problem> {
         let here = *self;
         let word = self.next();
         let unit = word
@@ -198,7 +202,7 @@ impl<'t> Words<'t> {
     }
 
     /// A whole number in a range.
-    pub(super) fn number(&mut self, low: u64, high: u64) -> Result<u64, Problem> {
+    pub(in crate::sim) fn number(&mut self, low: u64, high: u64) -> Result<u64, Problem> {
         let here = *self;
         let word = self.next();
         let value = crate::sim::values::integer(word).and_then(|value| u64::try_from(value).ok());
@@ -215,7 +219,7 @@ impl<'t> Words<'t> {
 }
 
 /// Digits with at most one point among them, as many as there are.
-pub(super) fn is_decimal(text: &str) -> bool {
+pub(in crate::sim) fn is_decimal(text: &str) -> bool {
     text.matches('.').count() <= 1
         && text.bytes().any(|byte| byte.is_ascii_digit())
         && text
@@ -237,12 +241,12 @@ fn cut(text: &str, limit: usize) -> String {
 }
 
 /// A line as messages show it.
-pub(super) fn line(text: &str) -> String {
+pub(in crate::sim) fn line(text: &str) -> String {
     cut(text, SHOWN)
 }
 
 /// A message whose quotes are not longer than a line is shown.
-pub(super) fn brief(message: &str) -> String {
+pub(in crate::sim) fn brief(message: &str) -> String {
     if message.len() <= SHOWN {
         return message.to_owned();
     }

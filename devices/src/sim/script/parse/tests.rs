@@ -2,7 +2,7 @@ use super::*;
 
 #[track_caller]
 fn check(text: &str, expected: &str) {
-    let shown = match parse(text) {
+    let shown = match parse(text, 1) {
         Ok(script) => format!("{} lines", script.statements.len()),
         Err(problems) => problems
             .iter()
@@ -129,12 +129,12 @@ fn long_lines_are_cut_where_they_are_quoted() {
         "sdo read 6004h aborts {}",
         "{}` `{}",
     ] {
-        for problem in parse(&line.replace("{}", &long)).expect_err(line) {
+        for problem in parse(&line.replace("{}", &long), 1).expect_err(line) {
             let length = problem.to_string().chars().count();
             assert!(length < 600, "{line}: {length} characters");
         }
     }
-    let problem = &parse(&"x".repeat(61)).expect_err("no statement")[0];
+    let problem = &parse(&"x".repeat(61), 1).expect_err("no statement")[0];
     let message = format!("`{}…` begins no statement", "x".repeat(60));
     assert_eq!(problem.message, message);
 }
@@ -155,6 +155,6 @@ fn no_text_panics() {
             text.push_str(if state & 0x100 == 0 { " " } else { "" });
         }
         state = state.wrapping_add(1);
-        let _ = parse(&text);
+        let _ = parse(&text, 1);
     }
 }

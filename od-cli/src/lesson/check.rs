@@ -1,0 +1,57 @@
+//! `odkit lesson check`.
+
+use std::path::{Path, PathBuf};
+
+use od_devices::sim::lesson::{Lesson, Problem, prove};
+
+use super::{Terminal, files, show_problems};
+use crate::output::note;
+use crate::{Failure, report};
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Lessons, or folders of such
+    #[arg(required = true, value_name = "FILE")]
+    paths: Vec<PathBuf>,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let files = files(&args.paths)?;
+    let mut bad = 0;
+    for file in &files {
+        let path = Path::new(&file.path);
+        let problems = match &file.lesson {
+            Ok(lesson) => {
+                let mut problems = prove(lesson, &mut Terminal::beside(path));
+                problems.extend(dead_links(lesson, path));
+                problems
+            }
+            Err(problems) => problems.clone(),
+        };
+        show_problems(&file.path, &problems);
+        bad += usize::from(!problems.is_empty());
+    }
+    let count = report::plural(files.len(), "lesson");
+    if bad > 0 {
+        note!("{count}, {bad} with mistakes");
+        return Err(Failure::Reported(1));
+    }
+    note!("{count}: all is as it should be");
+    Ok(())
+}
+
+/// Files that the text links to and that are not there.
+fn dead_links(lesson: &Lesson, path: &Path) -> Vec<Problem> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let dead = |(_, file): &(u32, &str)| !folder.join(file).exists();
+    lesson
+        .files()
+        .filter(dead)
+        .map(|(line, file)| Problem {
+            line,
+            column: 1,
+            message: format!("there is no file {file}"),
+            help: "links are relative to the lesson".into(),
+        })
+        .collect()
+}

@@ -1,0 +1,50 @@
+//! `odkit lesson list`.
+
+use std::path::{Path, PathBuf};
+
+use super::{FOLDER, files, is_missing, show_problems};
+use crate::Failure;
+use crate::output::Output;
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Lessons, or folders of such; `playground/lessons` if not given
+    paths: Vec<PathBuf>,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let mut paths = args.paths.clone();
+    if paths.is_empty() {
+        if is_missing(Path::new(FOLDER)) {
+            let message = format!("there is no folder {FOLDER} here; name a folder of lessons");
+            return Err(Failure::Usage(message));
+        }
+        paths.push(FOLDER.into());
+    }
+    let mut output = Output::new();
+    let mut bad = false;
+    for file in files(&paths)? {
+        match &file.lesson {
+            Ok(lesson) => {
+                let steps = lesson.steps.len();
+                let line = format!(
+                    "{}  level {}, {:>2} min, {steps} steps  {}",
+                    file.path, lesson.level, lesson.minutes, lesson.title
+                );
+                if !output.line(&line)? {
+                    return Ok(());
+                }
+            }
+            Err(problems) => {
+                show_problems(&file.path, problems);
+                bad = true;
+            }
+        }
+    }
+    output.flush()?;
+    if bad {
+        Err(Failure::Reported(1))
+    } else {
+        Ok(())
+    }
+}

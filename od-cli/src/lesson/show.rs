@@ -1,0 +1,84 @@
+//! `odkit lesson show`.
+
+use std::path::PathBuf;
+
+use od_devices::sim::lesson::{Lesson, Step};
+
+use super::File;
+use crate::Failure;
+use crate::output::Output;
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// The lesson
+    file: PathBuf,
+    /// Only this step, counted from 1
+    #[arg(long, value_name = "N")]
+    step: Option<usize>,
+    /// With so many hints of each step
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    hints: usize,
+    /// With the solution, and with what just happened
+    #[arg(long)]
+    solution: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let lesson = File::read(&args.file)?.usable()?;
+    let steps = lesson.steps.len();
+    if args.step.is_some_and(|step| step == 0 || step > steps) {
+        return Err(Failure::Usage(format!("the lesson has steps 1 to {steps}")));
+    }
+    let mut output = Output::new();
+    for line in text(&lesson, args).trim_end().lines() {
+        if !output.line(line)? {
+            return Ok(());
+        }
+    }
+    output.flush()?;
+    Ok(())
+}
+
+fn text(lesson: &Lesson, args: &Args) -> String {
+    let mut text = String::new();
+    if args.step.is_none() {
+        let steps = lesson.steps.len();
+        let (level, minutes) = (lesson.level, lesson.minutes);
+        text.push_str(&format!(
+            "# {}\n\nLevel {level}, {minutes} minutes, {steps} steps.\n\n{}\n",
+            lesson.title, lesson.intro
+        ));
+        text.push_str(&block("On the bench:", &lesson.set_up.text));
+    }
+    let wanted = |number: usize| args.step.is_none_or(|step| step == number);
+    for (number, step) in (1..)
+        .zip(&lesson.steps)
+        .filter(|(number, _)| wanted(*number))
+    {
+        text.push_str(&step_text(number, step, args));
+    }
+    text
+}
+
+fn step_text(number: usize, step: &Step, args: &Args) -> String {
+    let mut text = format!("\n## {number}. {}\n\n{}\n", step.title, step.text);
+    if let Some(quiz) = &step.quiz {
+        text.push_str(&format!("\n**Predict:** {}\n", quiz.question));
+        if args.solution {
+            text.push_str(&format!("\nAnswer: `{}`. {}\n", quiz.answer, quiz.reveal));
+        }
+    }
+    for (number, hint) in (1..).zip(step.hints.iter().take(args.hints)) {
+        text.push_str(&format!("\nHint {number}: {hint}\n"));
+    }
+    if args.solution {
+        text.push_str(&block("Solution:", &step.solution.text));
+        text.push_str(&format!("\nWhat just happened: {}\n", step.happened));
+    }
+    text
+}
+
+fn block(title: &str, lines: &str) -> String {
+    let lines: Vec<_> = lines.lines().map(|line| format!("    {line}")).collect();
+    format!("\n{title}\n\n{}\n", lines.join("\n"))
+}
