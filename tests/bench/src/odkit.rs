@@ -188,9 +188,19 @@ impl Seconds {
         odkit.write(0x1800, 5, &[1, 0]);
         if is_moving {
             odkit.write(0x1A00, 0, &[0]);
-            odkit.write(0x1A00, 2, &0x6030_0110u32.to_le_bytes());
-            odkit.write(0x1A00, 3, &0x6040_0110u32.to_le_bytes());
-            odkit.write(0x1A00, 0, &[3]);
+            // 64 bits are enough where speed and acceleration have 16; else for them alone.
+            let mapped = [(0x6004u16, 0u8), (0x6030, 1), (0x6040, 1)].map(|(index, sub)| {
+                let entry = device.dictionary.entry(index, sub);
+                let bits = entry.and_then(|entry| entry.data_type.bits());
+                let bits = bits.expect("an encoder's number");
+                u32::from(index) << 16 | u32::from(sub) << 8 | u32::from(bits)
+            });
+            let bits: u32 = mapped.iter().map(|mapped| mapped & 0xFF).sum();
+            let mapped = if bits > 64 { &mapped[1..] } else { &mapped[..] };
+            for (sub, mapped) in (1u8..).zip(mapped) {
+                odkit.write(0x1A00, sub, &mapped.to_le_bytes());
+            }
+            odkit.write(0x1A00, 0, &[mapped.len() as u8]);
         }
         odkit.write(0x1800, 1, &[0x80 + node, 0x01, 0x00, 0x00]);
         odkit.write(0x1801, 1, &[0x80 + node, 0x02, 0x00, 0x80]);
