@@ -12,78 +12,28 @@ use od_model::{Access, Address, Entry};
 use od_runtime::wire::nmt::State;
 use od_runtime::{Event, Frame, Instant};
 
+mod input;
+
 use super::Target;
 use super::bench::{self, Act, STEP};
 use crate::harness::Enough;
-use crate::random::Random;
 use crate::trace;
+use input::{COUPLED, LIVE};
 
 pub(super) const TARGET: Target = Target {
     name: "sdo",
     run,
-    make: Some(make),
+    make: Some(input::make),
     frames: |wanted| wanted,
     unit: STEP,
     ..Target::PLAIN
 };
-
-/// Steps of an input: a device lives so long.
-const STEPS: usize = 2000;
-
-fn make(random: &mut Random) -> Vec<u8> {
-    // One of each manual most of the time, the others, and files now and then.
-    let device = match random.below(8) {
-        0 | 1 => bench::number_of("gxmm"),
-        2 | 3 => bench::number_of("eam_mt"),
-        4 | 5 => bench::number_of("en580c"),
-        6 => bench::first_file() + random.below(2),
-        _ => random.below(bench::kinds()),
-    };
-    let mut input = vec![0; STEP];
-    input[0] = device as u8;
-    for _ in 0..STEPS {
-        let bytes = random.next().to_le_bytes();
-        let more = random.next().to_le_bytes();
-        let mut step = [
-            bytes[0], bytes[1], bytes[2], bytes[3], bytes[4], more[0], more[1], more[2], more[3],
-            more[4],
-        ];
-        // The world outside belongs to another target; here it only spoils the comparison.
-        if step[0] % 40 >= 35 {
-            step[0] = 31;
-        }
-        input.extend(step);
-    }
-    input
-}
 
 /// How many frames an input has, for counting.
 pub(crate) fn frames_of(input: &[u8]) -> u64 {
     let steps = input.chunks_exact(STEP).skip(1);
     steps.filter(|step| step[0] % 40 < 31).count() as u64
 }
-
-/// Objects whose value is not what was last written, by nature.
-const LIVE: &[u16] = &[
-    0x1001, 0x1003, 0x1010, 0x1011, 0x2116, 0x2117, 0x2120, 0x2122, 0x2201, 0x2A00, 0x2A01, 0x6004,
-    0x600C, 0x6030, 0x6040, 0x6503, 0x6504, 0x6505, 0x6506, 0x6508,
-];
-
-/// Objects of which one moves the others.
-const COUPLED: &[&[u16]] = &[
-    // Scaling, ranges, gear, preset and offset.
-    &[
-        0x2001, 0x2110, 0x6000, 0x6001, 0x6002, 0x6003, 0x6005, 0x600D, 0x6010, 0x6501, 0x6502,
-        0x6509, 0x650A, 0x650C,
-    ],
-    // The event timer and its mirror, with the 2 ms of 2110h bit 8.
-    &[0x1800, 0x2110, 0x6200],
-    // Node ID and bit rate, which other objects may follow.
-    &[0x2100, 0x2101],
-    // A mapping and its length.
-    &[0x1A00],
-    &[0x1A01],
-];
 
 /// An upload in segments that is under way.
 #[derive(Default)]
