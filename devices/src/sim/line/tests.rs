@@ -1,4 +1,3 @@
-
 use super::*;
 
 fn real(terminators: u8) -> Line {
