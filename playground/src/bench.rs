@@ -140,6 +140,9 @@ impl Bus {
     /// `index * 256 + sub`; with `saved`, those that are saved as they are.
     pub fn unsaved(&mut self, device: usize, saved: bool) -> Vec<u32> {
         let look = |device: &mut VirtualDevice| {
+            if !device.is_powered() {
+                return Vec::new();
+            }
             let image = device.saved();
             let dictionary = device.dictionary();
             let of = |address: Address| device.is_unsaved(&image, address);
