@@ -1,12 +1,12 @@
 //! `odkit lesson`: lessons without a page: list, read, take and check them.
 
+mod builtin;
 mod check;
 mod list;
 mod play;
 mod show;
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use od_devices::sim::VirtualDevice;
@@ -18,12 +18,10 @@ use crate::output::{Output, note};
 use crate::source::{self, Source};
 use crate::{Failure, report};
 
-/// Where the lessons stand that come with odkit, seen from its folder.
-const FOLDER: &str = "playground/lessons";
-
 /// List, read, take and check lessons
 ///
-/// A lesson is a Markdown file; LESSONS.md says how to write one. Exit code 0: all is as it
+/// A lesson is a Markdown file, or the name of one that comes with odkit (`odkit lesson list`);
+/// LESSONS.md says how to write one. Exit code 0: all is as it
 /// should be; 1: a checkpoint is not reached, or a lesson has mistakes; 2: wrong usage, or a
 /// file that cannot be read.
 #[derive(clap::Args)]
@@ -64,6 +62,12 @@ struct File {
 impl File {
     fn read(path: &Path) -> Result<Self, Failure> {
         let shown = path.display().to_string();
+        if let Some(text) = builtin::find(&shown).filter(|_| !path.is_file()) {
+            return Ok(Self {
+                path: shown,
+                lesson: Lesson::parse(text),
+            });
+        }
         let failed = |why: &str| Failure::Usage(format!("{shown}: {why}"));
         let bytes = fs::read(path).map_err(|error| failed(&source::read_error(&error)))?;
         let text = String::from_utf8(bytes).map_err(|_| failed("a lesson is UTF-8 text"))?;
@@ -164,9 +168,4 @@ impl Host for Terminal {
             self.line(&line);
         }
     }
-}
-
-/// Is it a file that is missing? Then whoever asks may have meant something else.
-fn is_missing(path: &Path) -> bool {
-    fs::metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound)
 }

@@ -179,3 +179,52 @@ test('what is not saved lives on in an image', () => {
   other.setPower(copy, true);
   assert.equal(other.read(copy, 0x6001, 0), 2048);
 });
+
+const lessonText = await readFile(new URL('../lessons/01-boot-up-and-heartbeat.md', import.meta.url), 'utf8');
+
+test('a lesson is read, taken, and pauses the bench at each checkpoint', () => {
+  const { lesson, problems } = odkit.parseLesson(lessonText);
+  assert.deepEqual(problems, []);
+  assert.equal(lesson.title, 'Boot-up and heartbeat');
+  assert.equal(lesson.steps[0].quiz.answer, '705#00');
+  assert.deepEqual(odkit.judgeAnswer('705#00', '7F').wrongBytes, [0]);
+  assert.throws(() => odkit.judgeAnswer('705#00', 'what'));
+
+  const bus = new odkit.Bus(1000);
+  assert.equal(bus.lesson(), null);
+  bus.startLesson(lessonText);
+  assert.equal(bus.now(), 1000);
+  assert.equal(bus.advance(1_000_000, 100), 1_000_000, 'waiting reaches nothing');
+  assert.deepEqual(bus.lesson().requirements, [{ holds: false, text: 'the boot-up message of node 5 comes' }]);
+
+  bus.setPower(0, true);
+  assert.deepEqual([...bus.lessonEvents()], [0]);
+  bus.send(0x605, bytes('2b171000f4010000'), false, false);
+  assert.equal(bus.advance(10_000_000, 1000), 1_500_000, 'it stops where the third heartbeat is');
+  assert.deepEqual([...bus.lessonEvents()], [1]);
+  const state = bus.lesson();
+  assert.equal(state.step, 2);
+  assert.equal(state.reached.length, 2);
+  assert.ok(bus.advance(100_000, 1000) > 0, 'it goes on');
+
+  for (const step of lesson.steps.slice(2)) bus.runScript(step.solution);
+  assert.ok(bus.lesson().done);
+  assert.ok(frames(bus).some((one) => one.own && one.id === 0), 'frames of a script are in the trace');
+  bus.beginStep(0);
+  assert.equal(bus.lesson().step, 0);
+  bus.endLesson();
+  assert.equal(bus.lesson(), null);
+});
+
+test('what is wrong with a lesson or a script is said with its line', () => {
+  const { lesson, problems } = odkit.parseLesson('+++\ntitle = 5\n+++\n## a\n```checkpoint\ncame 7\n```\n');
+  assert.equal(lesson, null);
+  assert.ok(problems.some((one) => one.line === 6 && one.message.includes('is no frame') && one.help));
+  const bus = new odkit.Bus();
+  bus.addDevice('gxmm', 1);
+  assert.throws(() => bus.startLesson('nothing'), /1:1: the lesson has no/);
+  assert.equal(bus.deviceCount(), 1, 'the bench stays');
+  assert.throws(() => bus.runScript('nmt explode'), /1:5: there is no NMT command/);
+  assert.throws(() => bus.runScript('sdo read 5555h'), /line 1 /);
+  assert.equal(bus.nmt(0), 'pre-operational', 'the bus is still there');
+});

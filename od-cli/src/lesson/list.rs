@@ -1,25 +1,21 @@
 //! `odkit lesson list`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::{FOLDER, files, is_missing, show_problems};
+use super::{builtin, files, show_problems};
 use crate::Failure;
 use crate::output::Output;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Lessons, or folders of such; `playground/lessons` if not given
+    /// Lessons, or folders of such; those that come with odkit if not given
     paths: Vec<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut paths = args.paths.clone();
     if paths.is_empty() {
-        if is_missing(Path::new(FOLDER)) {
-            let message = format!("there is no folder {FOLDER} here; name a folder of lessons");
-            return Err(Failure::Usage(message));
-        }
-        paths.push(FOLDER.into());
+        paths.extend(builtin::LESSONS.iter().map(|(name, _)| PathBuf::from(name)));
     }
     let mut output = Output::new();
     let mut bad = false;

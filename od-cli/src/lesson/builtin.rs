@@ -1,0 +1,79 @@
+//! The lessons that come with odkit, so that they are there where its repository is not.
+
+/// Name and text of each, in their order.
+pub(super) const LESSONS: &[(&str, &str)] = &[
+    (
+        "boot-up-and-heartbeat",
+        include_str!("../../../playground/lessons/01-boot-up-and-heartbeat.md"),
+    ),
+    ("nmt", include_str!("../../../playground/lessons/02-nmt.md")),
+    ("sdo", include_str!("../../../playground/lessons/03-sdo.md")),
+    (
+        "aborts",
+        include_str!("../../../playground/lessons/04-aborts.md"),
+    ),
+    (
+        "guarding",
+        include_str!("../../../playground/lessons/05-guarding.md"),
+    ),
+    (
+        "pdo-sync",
+        include_str!("../../../playground/lessons/06-pdo-sync.md"),
+    ),
+    (
+        "mapping",
+        include_str!("../../../playground/lessons/07-mapping.md"),
+    ),
+    (
+        "scaling",
+        include_str!("../../../playground/lessons/08-scaling.md"),
+    ),
+    (
+        "store",
+        include_str!("../../../playground/lessons/09-store.md"),
+    ),
+    ("lss", include_str!("../../../playground/lessons/10-lss.md")),
+    (
+        "emcy",
+        include_str!("../../../playground/lessons/11-emcy.md"),
+    ),
+    (
+        "gear",
+        include_str!("../../../playground/lessons/12-gear.md"),
+    ),
+    (
+        "find-silent-node",
+        include_str!("../../../playground/lessons/13-find-silent-node.md"),
+    ),
+    (
+        "find-terminator",
+        include_str!("../../../playground/lessons/14-find-terminator.md"),
+    ),
+    (
+        "find-two-nodes",
+        include_str!("../../../playground/lessons/15-find-two-nodes.md"),
+    ),
+];
+
+/// The text of the one with this name.
+pub(super) fn find(name: &str) -> Option<&'static str> {
+    let (_, text) = LESSONS.iter().find(|(known, _)| *known == name)?;
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_lesson_of_the_repository_is_here() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../playground/lessons");
+        let files = std::fs::read_dir(folder).expect("the lessons are there");
+        for file in files {
+            let file = file.expect("an entry").file_name();
+            let name = file.to_str().and_then(|name| name.strip_suffix(".md"));
+            let name = name.and_then(|name| name.get(3..)).expect("`01-name.md`");
+            assert!(find(name).is_some(), "{name} is missing in LESSONS");
+        }
+    }
+}
