@@ -59,7 +59,8 @@ test('axe finds nothing in what opens over the page', async () => {
     assert.deepEqual(await faults(page), [], `sharing, ${width}`);
     await page.keyboard.press('Escape');
     if (width < 1024) await page.getByRole('tab', { name: 'Objects' }).click();
-    await page.getByRole('option').filter({ hasText: '6004h' }).or(page.getByRole('option').nth(3)).first().click();
+    await page.getByRole('searchbox', { name: 'Search objects' }).fill('6001');
+    await page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: '6001h' }).click();
     assert.deepEqual(await faults(page), [], `an object, ${width}`);
     await page.getByRole('button', { name: 'PDO mapping' }).click();
     const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
@@ -69,6 +70,31 @@ test('axe finds nothing in what opens over the page', async () => {
     assert.deepEqual(await faults(page), [], `the mapping, ${width}`);
     await close();
   }
+});
+
+test('keys alone: from part to part, to the filter, to an object and its value', async () => {
+  const { page, close } = await open(browser, {});
+  await booted(page);
+  const focused = () => page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.id);
+  const seen = [];
+  for (let i = 0; i < 5; i++) {
+    await page.keyboard.press('F6');
+    seen.push(await focused());
+  }
+  assert.deepEqual(seen.slice(0, 4), ['Shaft', 'Objects with their live values', 'Captured frames, oldest first', 'raw-frame']);
+  await page.keyboard.press('F6');
+  assert.equal(await focused(), 'Shaft');
+  await page.keyboard.press('/');
+  assert.equal(await focused(), 'Filter frames');
+  await page.getByRole('searchbox', { name: 'Search objects' }).fill('6001');
+  await page.getByRole('listbox', { name: 'Objects with their live values' }).focus();
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('Enter');
+  assert.equal(await focused(), 'New value');
+  await page.keyboard.type('1000');
+  await page.keyboard.press('Enter');
+  await row(page, 'the download', (one) => one.id === '601' && one.data.startsWith('23 01 60 00 E8 03'));
+  await close();
 });
 
 test('the keyboard reaches every control, in a sensible order', async () => {

@@ -202,6 +202,44 @@ test('it loads without a network after the first visit', async () => {
   await close();
 });
 
+test('a new version is offered, and comes when it is wanted', async () => {
+  // The page as it is, and then with another icon: one file of another content.
+  let isNew = false;
+  const server = createServer(async (request, response) => {
+    const name = new URL(request.url, URL_OF_PAGE).pathname.slice(1);
+    const answer = await fetch(new URL(name, URL_OF_PAGE));
+    let body = Buffer.from(await answer.arrayBuffer());
+    if (isNew && name === 'sw.js') body = Buffer.from(body.toString().replace(/\["icon.svg","[^"]+"\]/, '["icon.svg","another"]'));
+    if (isNew && name === 'icon.svg') body = Buffer.from(body.toString().replace('<svg', '<svg data-new=""'));
+    response.writeHead(answer.status, { 'content-type': answer.headers.get('content-type') ?? 'application/octet-stream' });
+    response.end(body);
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  const url = `http://127.0.0.1:${server.address().port}/`;
+  const page = await browser.newPage();
+  const icon = () => page.evaluate(async () => (await fetch('icon.svg')).text());
+  try {
+    await page.goto(url);
+    await booted(page);
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await until('the page to be kept', () => page.evaluate(() => navigator.serviceWorker.controller !== null));
+    isNew = true;
+    await page.reload();
+    await booted(page);
+    const load = page.getByRole('button', { name: 'Load it' });
+    await load.waitFor({ timeout: 20_000 });
+    assert.ok(!(await icon()).includes('data-new'), 'the old version until then');
+    await Promise.all([page.waitForNavigation(), load.click()]);
+    await booted(page);
+    await until('the new version', async () => (await icon()).includes('data-new'));
+    assert.equal(await page.evaluate(async () => (await (await caches.open('odkit')).keys()).filter(({ url }) => url.includes('icon.svg')).length), 1, 'the old file is gone');
+  } finally {
+    await page.close();
+    server.closeAllConnections();
+    server.close();
+  }
+});
+
 test('in a frame of another page there is less around it', async () => {
   const host = createServer((_, response) => {
     response.setHeader('content-type', 'text/html');

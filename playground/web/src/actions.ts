@@ -13,13 +13,7 @@ export function sendFrame(frame: Typed): void {
   act({ op: 'send', id: frame.id, data, extended: frame.extended, remote: frame.remote });
 }
 
-export const NMT_COMMANDS = [
-  { code: 0x01, text: 'Start', title: 'Start remote node: Operational' },
-  { code: 0x80, text: 'Pre-op', title: 'Enter Pre-operational' },
-  { code: 0x02, text: 'Stop', title: 'Stop remote node: Stopped' },
-  { code: 0x81, text: 'Reset node', title: 'Reset node: the device starts afresh' },
-  { code: 0x82, text: 'Reset comm', title: 'Reset communication: 1000h to 1FFFh are loaded again' },
-] as const;
+export const NMT_COMMANDS = T.nmt;
 
 export function nmt(code: number): void {
   act({ op: 'send', id: 0, data: new Uint8Array([code, state.nodeId.value]), extended: false, remote: false });

@@ -2,6 +2,7 @@
 // Terms side by side all have to hold; `or` and parentheses do what they say.
 
 import type { Frame } from '../sim/packed';
+import { T } from '../texts';
 import { tagOf } from './service';
 import { hexBytes } from './text';
 
@@ -61,9 +62,9 @@ function tokens(text: string): Token[] {
   while (pattern.lastIndex < text.trimEnd().length) {
     const start = pattern.lastIndex;
     const match = pattern.exec(text);
-    if (!match?.[1]) throw new Failure('This cannot be read', start);
+    if (!match?.[1]) throw new Failure(T.filter.unreadable, start);
     const at = match.index + match[0].length - match[1].length;
-    if (match[1].includes('"') && match[2] === '') throw new Failure('The quotation mark is not closed', at);
+    if (match[1].includes('"') && match[2] === '') throw new Failure(T.filter.quote, at);
     list.push({ text: match[1], at });
   }
   return list;
@@ -103,13 +104,13 @@ class Parser {
       if (next === 'and') this.place += 1;
       tests.push(this.one());
     }
-    if (tests.length === 0) throw new Failure('Something is missing here', this.list[this.place]?.at ?? this.length);
+    if (tests.length === 0) throw new Failure(T.filter.missing, this.list[this.place]?.at ?? this.length);
     return tests.length === 1 ? tests[0]! : (frame, words) => tests.every((test) => test(frame, words));
   }
 
   private one(): Test {
     const token = this.list[this.place];
-    if (!token) throw new Failure('Something is missing here', this.length);
+    if (!token) throw new Failure(T.filter.missing, this.length);
     this.place += 1;
     const text = token.text.toLowerCase();
     if (text === '!' || text === '-' || text === 'not') {
@@ -122,17 +123,17 @@ class Parser {
     }
     if (text === '(') {
       const inner = this.any();
-      if (this.peek() !== ')') throw new Failure('The parenthesis is not closed', token.at);
+      if (this.peek() !== ')') throw new Failure(T.filter.unclosed, token.at);
       this.place += 1;
       return inner;
     }
-    if (text === ')') throw new Failure('No parenthesis is open', token.at);
+    if (text === ')') throw new Failure(T.filter.unopened, token.at);
     return this.term(token);
   }
 
   end(): void {
     const rest = this.list[this.place];
-    if (rest) throw new Failure('No parenthesis is open', rest.at);
+    if (rest) throw new Failure(T.filter.unopened, rest.at);
   }
 
   private term({ text, at }: Token): Test {
@@ -153,7 +154,7 @@ class Parser {
     const range = /^(?:0x)?([0-9a-f]{1,8})(?:-|\.\.)(?:0x)?([0-9a-f]{1,8})$/i.exec(plain);
     if (range) {
       const [low, high] = [Number.parseInt(range[1]!, 16), Number.parseInt(range[2]!, 16)];
-      if (low > high) throw new Failure('The range ends before it begins', at);
+      if (low > high) throw new Failure(T.filter.range, at);
       return (frame) => frame.id >= low && frame.id <= high;
     }
     // Three digits are a COB-ID, four an object.
@@ -168,12 +169,12 @@ class Parser {
   }
 
   private fieldTest(name: string, value: string, at: number, start: number): Test {
-    if (value === '') throw new Failure(`A value is missing after “${name}:”`, at);
+    if (value === '') throw new Failure(T.filter.value(name), at);
     switch (name) {
       case 'node':
       case 'canopen.node_id': {
         const node = /^0x/i.test(value) ? hex(value) : /^\d+$/.test(value) ? Number(value) : null;
-        if (node === null || node < 1 || node > 127) throw new Failure('A node ID is 1 to 127', at);
+        if (node === null || node < 1 || node > 127) throw new Failure(T.filter.node, at);
         return (frame) =>
           nodeOf(frame.id, frame.extended) === node || (frame.id === 0 && !frame.extended && (frame.data[1] === node || frame.data[1] === 0));
       }
@@ -184,7 +185,7 @@ class Parser {
         return value.includes(':') || value.includes('-') ? this.term({ text: value, at }) : this.identifier(value, at);
       case 'data': {
         const digits = value.replace(/["\s]/g, '').toUpperCase();
-        if (!/^([0-9A-F]{2}|\.\.|XX)+$/.test(digits)) throw new Failure('Bytes are two hexadecimal digits each; .. is any byte', at);
+        if (!/^([0-9A-F]{2}|\.\.|XX)+$/.test(digits)) throw new Failure(T.filter.bytes, at);
         const wanted = digits.match(/../g)!.map((pair) => (/[.X]/.test(pair) ? null : Number.parseInt(pair, 16)));
         return (frame) => wanted.every((byte, i) => (byte === null ? i < frame.data.length : frame.data[i] === byte));
       }
@@ -193,26 +194,26 @@ class Parser {
         return this.object(value, at);
       case 'len':
       case 'dlc': {
-        if (!/^[0-8]$/.test(value)) throw new Failure('A length is 0 to 8', at);
+        if (!/^[0-8]$/.test(value)) throw new Failure(T.filter.length, at);
         return (frame) => frame.dlc === Number(value);
       }
       case 'text':
         return this.words(value);
       default:
-        throw new Failure(`“${name}” is no field; there are node, id, data, object, len and text`, start);
+        throw new Failure(T.filter.field(name), start);
     }
   }
 
   private identifier(text: string, at: number): Test {
     const id = hex(text);
-    if (id === null || id > 0x1fffffff) throw new Failure('A COB-ID is a hexadecimal number up to 1FFFFFFF', at);
+    if (id === null || id > 0x1fffffff) throw new Failure(T.filter.id, at);
     return (frame) => frame.id === id;
   }
 
   /** SDO frames about an object, and whatever names it. */
   private object(text: string, at: number): Test {
     const match = /^(?:0x)?([0-9a-f]{4})h?(?:[:.](?:0x)?([0-9a-f]{1,2})h?)?$/i.exec(text);
-    if (!match) throw new Failure('An object is four hexadecimal digits, such as 6004 or 1018:01', at);
+    if (!match) throw new Failure(T.filter.object, at);
     const index = Number.parseInt(match[1]!, 16);
     const sub = match[2] === undefined ? null : Number.parseInt(match[2], 16);
     return (frame) =>

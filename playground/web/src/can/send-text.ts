@@ -3,6 +3,7 @@
 
 import type { ObjectRecord } from '../sim/api';
 import { parseAddress } from '../views/object-search';
+import { T } from '../texts';
 import { parseFrame, type Typed } from './text';
 import { encode } from './values';
 
@@ -26,9 +27,9 @@ export function parseSend(text: string, target: Target): ParsedSend {
       return { frame: { id: 0x700 + target.nodeId, extended: false, remote: true, data: new Uint8Array(0), dlc: 1 } };
     case 'nmt': {
       const command = NMT[(rest[0] ?? '').toLowerCase()];
-      if (command === undefined) return { error: 'After nmt: start, stop, preop, reset or reset-comm' };
+      if (command === undefined) return { error: T.typed.nmt };
       const node = rest[1] === 'all' ? 0 : rest[1] === undefined ? target.nodeId : Number(rest[1]);
-      return Number.isInteger(node) && node >= 0 && node <= 127 ? frame(0, [command, node]) : { error: 'A node ID is 1 to 127' };
+      return Number.isInteger(node) && node >= 0 && node <= 127 ? frame(0, [command, node]) : { error: T.typed.node };
     }
     case 'read':
     case 'write':
@@ -43,15 +44,15 @@ export function parseSend(text: string, target: Target): ParsedSend {
 function sdo(isWrite: boolean, text: string, { nodeId, object }: Target): ParsedSend {
   const [where = '', ...value] = text.split('=');
   const address = parseAddress(where);
-  if (!address) return { error: 'An object is written as 6004 or 1018:01' };
+  if (!address) return { error: T.typed.object };
   const { index, sub } = address;
   const head = [index & 255, index >> 8, sub];
   if (!isWrite) return frame(0x600 + nodeId, [0x40, ...head, 0, 0, 0, 0]);
   const known = object(index, sub);
-  if (!known) return { error: 'This object is not in the dictionary' };
+  if (!known) return { error: T.typed.noObject };
   const encoded = encode(value.join('='), known);
   if ('error' in encoded) return { error: encoded.error };
   const { bytes } = encoded;
-  if (bytes.length === 0 || bytes.length > 4) return { error: 'More than four bytes need a transfer: use the SDO line' };
+  if (bytes.length === 0 || bytes.length > 4) return { error: T.typed.long };
   return frame(0x600 + nodeId, [0x23 | ((4 - bytes.length) << 2), ...head, ...bytes, ...new Array<number>(4 - bytes.length).fill(0)]);
 }

@@ -1,6 +1,7 @@
 // Frames as people type and save them: cansend's form, looser ones, and candump logs.
 
 import type { Frame } from '../sim/packed';
+import { T } from '../texts';
 
 export interface Typed {
   id: number;
@@ -23,14 +24,14 @@ export function parseFrame(text: string): Parsed {
   const head = /^\s*(?:0x)?([^\s#:,]*)h?/i.exec(text);
   const start = text.search(/\S/);
   const digits = head?.[1]?.replace(/h$/i, '') ?? '';
-  if (start < 0) return fail('Type a COB-ID and up to 8 bytes, such as 601#40 04 60 00', 0);
-  if (!/^[0-9a-f]+$/i.test(digits)) return fail('The COB-ID is a hexadecimal number, such as 601', start);
+  if (start < 0) return fail(T.typed.frame, 0);
+  if (!/^[0-9a-f]+$/i.test(digits)) return fail(T.typed.hexId, start);
   const extended = digits.length > 3;
   const id = Number.parseInt(digits, 16);
   if (extended && (digits.length !== 8 || id > 0x1fffffff)) {
-    return fail('A COB-ID has up to 3 digits, or 8 for a 29-bit identifier up to 1FFFFFFF', start);
+    return fail(T.typed.idLength, start);
   }
-  if (!extended && id > 0x7ff) return fail('An 11-bit COB-ID goes up to 7FF', start);
+  if (!extended && id > 0x7ff) return fail(T.typed.idRange, start);
   let at = head?.[0].length ?? 0;
   const length = /^\s*[#:]?\s*\[(\d)\]/.exec(text.slice(at));
   const separator = /^\s*[#:,]?\s*/.exec(text.slice(at));
@@ -39,7 +40,7 @@ export function parseFrame(text: string): Parsed {
   const remote = /^\s*r(?:tr)?\s*([0-9])?\s*$/i.exec(rest);
   if (remote) {
     const dlc = Number(remote[1] ?? length?.[1] ?? 0);
-    if (dlc > 8) return fail('A CAN frame has at most 8 bytes', text.length - 1);
+    if (dlc > 8) return fail(T.typed.bytes, text.length - 1);
     return { frame: { id, extended, remote: true, data: new Uint8Array(0), dlc } };
   }
   const bytes: number[] = [];
@@ -52,13 +53,13 @@ export function parseFrame(text: string): Parsed {
     if (!match || pair === undefined) {
       const trailing = position + (match?.[1]?.length ?? 0);
       if (trailing >= rest.length) break;
-      return fail(`“${rest[trailing]}” is not a hexadecimal digit`, at + trailing);
+      return fail(T.typed.digit(rest[trailing] ?? ''), at + trailing);
     }
     const next = rest[match[0].length + position];
     if (pair.length === 1 && next !== undefined && !/[\s.,_-]/.test(next)) {
-      return fail(`“${next}” is not a hexadecimal digit`, at + position + match[0].length);
+      return fail(T.typed.digit(next), at + position + match[0].length);
     }
-    if (bytes.length === 8) return fail('A CAN frame has at most 8 bytes', at + position);
+    if (bytes.length === 8) return fail(T.typed.bytes, at + position);
     bytes.push(Number.parseInt(pair, 16));
     position += match[0].length;
   }

@@ -1,6 +1,7 @@
 // Values of the dictionary's types: shown, typed in, and as bytes on the bus.
 
 import type { ObjectRecord, Value } from '../sim/api';
+import { T } from '../texts';
 
 /** A number with thin spaces between its thousands. */
 export const grouped = (value: number | bigint): string => value.toLocaleString('en').replaceAll(',', '\u2009');
@@ -71,19 +72,19 @@ export type Encoded = { bytes: Uint8Array; note: string } | { error: string };
 /** Reads what was typed for an object: decimal, 0x or trailing h for hexadecimal, quotes for text. */
 export function encode(text: string, object: ObjectRecord): Encoded {
   const typed = text.trim();
-  if (typed === '') return { error: 'Type a value' };
+  if (typed === '') return { error: T.typed.value };
   const quoted = /^["'“](.*)["'”]$/.exec(typed);
   if (isText(object) || quoted) {
     const content = quoted?.[1] ?? typed;
     const bytes = new TextEncoder().encode(content);
     if (!isText(object) && object.bits && bytes.length * 8 > object.bits) {
-      return { error: `“${content}” is longer than ${object.bits / 8} bytes` };
+      return { error: T.typed.textLength(content, object.bits / 8) };
     }
-    return { bytes, note: `${bytes.length} characters` };
+    return { bytes, note: T.typed.characters(bytes.length) };
   }
   if (isFloat(object)) {
     const value = Number(typed);
-    if (!Number.isFinite(value)) return { error: `“${typed}” is not a number` };
+    if (!Number.isFinite(value)) return { error: T.typed.number(typed) };
     const bytes = new Uint8Array(object.bits / 8);
     const view = new DataView(bytes.buffer);
     if (object.bits === 64) view.setFloat64(0, value, true);
@@ -92,21 +93,21 @@ export function encode(text: string, object: ObjectRecord): Encoded {
   }
   if (!isInteger(object)) {
     const digits = typed.replace(/[\s,]/g, '');
-    if (!/^([0-9a-f]{2})*$/i.test(digits)) return { error: 'Type the bytes in hexadecimal' };
-    return { bytes: Uint8Array.from(digits.match(/../g) ?? [], (pair) => Number.parseInt(pair, 16)), note: 'bytes as typed' };
+    if (!/^([0-9a-f]{2})*$/i.test(digits)) return { error: T.typed.hexBytes };
+    return { bytes: Uint8Array.from(digits.match(/../g) ?? [], (pair) => Number.parseInt(pair, 16)), note: T.typed.asTyped };
   }
   const value = integer(typed);
-  if (value === null) return { error: `“${typed}” is not a whole number (decimal, 0x1F or 1Fh)` };
+  if (value === null) return { error: T.typed.whole(typed) };
   const width = BigInt(object.bits || 8);
   const least = -(1n << (width - 1n));
   const most = (1n << width) - 1n;
-  if (value < least || value > most) return { error: `${value} does not fit ${object.type}` };
+  if (value < least || value > most) return { error: T.typed.fit(String(value), object.type) };
   const bytes = new Uint8Array(Math.max(1, object.bits / 8));
   let rest = BigInt.asUintN(Number(width), value);
   for (let i = 0; i < bytes.length; i++, rest >>= 8n) bytes[i] = Number(rest & 255n);
   const limits = range(object);
   const outside = limits && (value < BigInt(limits.low) || value > BigInt(limits.high));
-  return { bytes, note: outside ? `outside ${grouped(limits.low)} … ${grouped(limits.high)}: the node should refuse` : object.type };
+  return { bytes, note: outside ? T.typed.outside(grouped(limits.low), grouped(limits.high)) : object.type };
 }
 
 function integer(typed: string): bigint | null {

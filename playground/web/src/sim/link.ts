@@ -3,6 +3,7 @@
 
 import { batch } from '@preact/signals-core';
 import * as state from '../state';
+import { T } from '../texts';
 import { frameArrived, tick } from './client';
 import { forgetWords, noteWords } from './words';
 import type { Added, Address, Command, DeviceInfo, Entry, Input, Report, Snapshot, Value } from './api';
@@ -32,7 +33,7 @@ export function start(): void {
   };
   own.onerror = (event) => {
     event.preventDefault();
-    if (own === worker) crashed(event.message || 'the worker could not be loaded');
+    if (own === worker) crashed(event.message || T.app.unloaded);
   };
 }
 
@@ -167,7 +168,7 @@ function devices(list: DeviceInfo[]): void {
     state.lastPdo.value = null;
     forgetWords();
   });
-  document.title = list.length ? `${list.map((one) => one.name).join(', ')} – odkit` : 'odkit – virtual CANopen encoder';
+  document.title = list.length ? T.app.devices(list.map((one) => one.name).join(', ')) : T.app.empty;
 }
 
 /** Shows another device in the panels. */
@@ -284,11 +285,11 @@ function crashed(message: string): void {
   additions.clear();
   if (crashes > MOST_CRASHES) {
     state.health.value = 'failed';
-    state.toast.value = { text: `The simulation stopped: ${message}`, tone: 'error' };
+    state.toast.value = { text: T.app.crashed(message), tone: 'error' };
     return;
   }
   state.health.value = 'restarting';
-  state.toast.value = { text: `The simulation stopped (${message}) and was started again.`, tone: 'error' };
+  state.toast.value = { text: T.app.restarted(message), tone: 'error' };
   start();
   watch(watched, chosen);
   send({ op: 'speed', factor: state.speed.peek() });

@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { togglePause } from '../actions';
+import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
 import { openFile } from './files';
@@ -16,11 +17,10 @@ import './device-dialog';
 import './help';
 import './offer';
 
-const TABS: { tab: state.Tab; text: string; icon: unknown }[] = [
-  { tab: 'encoder', text: 'Encoder', icon: icons.encoder },
-  { tab: 'console', text: 'Bus', icon: icons.console },
-  { tab: 'objects', text: 'Objects', icon: icons.objects },
-];
+const TABS = ['encoder', 'console', 'objects'] as const satisfies state.Tab[];
+
+/** The parts of the page, in the order in which F6 goes through them. */
+const PARTS = ['.dial', 'od-encoder .switch', '.object-rows', '.frames', '#raw-frame', '.topbar .device-button'];
 
 class App extends View {
   static override properties = { isDropping: { state: true } };
@@ -51,9 +51,28 @@ class App extends View {
     });
   }
 
+  /** Puts the focus on the next part of the page that can be seen. */
+  private goOn(by: number): void {
+    const home = (part: Element | null): Element | null => part?.closest('.panel, od-send, od-topbar') ?? null;
+    const seen = PARTS.flatMap((part) => [...this.querySelectorAll<HTMLElement>(part)].slice(0, 1)).filter((part) => part.checkVisibility());
+    // Of each part its first control that is there: a device may have no shaft.
+    const parts = seen.filter((part, i) => seen.findIndex((other) => home(other) === home(part)) === i);
+    const at = parts.findIndex((part) => home(part) === home(document.activeElement));
+    parts[at < 0 ? 0 : (at + by + parts.length) % parts.length]?.focus();
+  }
+
   private onKey(event: KeyboardEvent): void {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target as HTMLElement;
+    if (event.key === 'F6' && !target.closest('dialog')) {
+      event.preventDefault();
+      this.goOn(event.shiftKey ? -1 : 1);
+    }
+    if (event.key === '/' && !target.closest('input, select, textarea, dialog')) {
+      event.preventDefault();
+      state.tab.value = 'console';
+      void this.updateComplete.then(() => this.querySelector<HTMLElement>('.filter-bar input')?.focus());
+    }
     if (event.key === '?' && !target.closest('input, textarea, dialog')) state.helpDialog.value = true;
     if (event.key !== ' ') return;
     if (target.closest('input, select, textarea, button, summary, dialog, [role=slider], [role=option], [role=tab]')) return;
@@ -67,7 +86,7 @@ class App extends View {
       <od-topbar></od-topbar>
       
       <main class="bench" data-tab=${tab}>
-        <h1 class="sr">Virtual CANopen encoder</h1>
+        <h1 class="sr">${T.app.title}</h1>
         <div class="side">
           <od-encoder class="panel" data-panel="encoder"></od-encoder>
           <od-objects class="panel" data-panel="objects"></od-objects>
@@ -77,10 +96,10 @@ class App extends View {
           <od-send></od-send>
         </div>
       </main>
-      <nav aria-label="Panels"><div class="tabs" role="tablist" aria-label="Panels">
+      <nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
         ${TABS.map(
-          (entry) => html`<button role="tab" aria-selected=${entry.tab === tab} @click=${() => (state.tab.value = entry.tab)}>
-            ${entry.icon}<span>${entry.text}</span>
+          (one) => html`<button role="tab" aria-selected=${one === tab} @click=${() => (state.tab.value = one)}>
+            ${icons[one]}<span>${T.app.tabs[one]}</span>
           </button>`,
         )}
       </div></nav>
@@ -94,15 +113,15 @@ class App extends View {
           ? html`<div class="toast" data-tone=${state.toast.value.tone}>
               <span>${state.toast.value.text}</span>
               ${state.toast.value.action ? html`<button class="small" @click=${() => { state.toast.value?.action?.run(); state.toast.value = null; }}>${state.toast.value.action.text}</button>` : nothing}
-              <button class="quiet" aria-label="Dismiss" @click=${() => (state.toast.value = null)}>${icons.close}</button>
+              <button class="quiet" aria-label=${T.app.dismiss} @click=${() => (state.toast.value = null)}>${icons.close}</button>
             </div>`
           : nothing}
       </div>
-      ${this.isDropping ? html`<div class="drop-veil"><p>${icons.file} Drop the EDS file to run it</p></div>` : nothing}
+      ${this.isDropping ? html`<div class="drop-veil"><p>${icons.file} ${T.app.drop}</p></div>` : nothing}
       ${state.health.value === 'failed'
         ? html`<div class="failed" role="alert">
-            <p>The simulation does not run in this browser.</p>
-            <button class="primary" @click=${() => location.reload()}>Load the page again</button>
+            <p>${T.app.failed}</p>
+            <button class="primary" @click=${() => location.reload()}>${T.app.again}</button>
           </div>`
         : nothing}
     `;

@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import * as state from '../state';
 import { hexByte } from '../can/text';
 import { grouped } from '../can/values';
+import { T } from '../texts';
 import { View } from './view';
 
 
@@ -20,26 +21,26 @@ class Chain extends View {
     const isLive = state.powered.value;
     const how: string[] = [];
     if (parameters != null) {
-      how.push(parameters & REVERSED ? 'counts backwards' : 'counts forwards');
-      how.push(parameters & SCALING && perTurn ? `${grouped(perTurn)} steps a turn` : 'not scaled');
+      how.push(parameters & REVERSED ? T.encoder.chain.backwards : T.encoder.chain.forwards);
+      how.push(parameters & SCALING && perTurn ? T.encoder.chain.perTurn(grouped(perTurn)) : T.encoder.chain.unscaled);
     }
-    return html`<div class="chain" aria-label="From sensor to telegram" role="group">
+    return html`<div class="chain" aria-label=${T.encoder.chain.title} role="group">
       <div class="chain-step">
-        <span class="chain-name">Sensor</span>
-        <span class="chain-value num" aria-label="Raw position">${shaft ? grouped(shaft.raw) : '–'}</span>
-        <span class="chain-note">raw steps</span>
+        <span class="chain-name">${T.encoder.chain.sensor}</span>
+        <span class="chain-value num" aria-label=${T.encoder.chain.raw}>${shaft ? grouped(shaft.raw) : '–'}</span>
+        <span class="chain-note">${T.encoder.chain.rawSteps}</span>
       </div>
       <span class="chain-arrow" aria-hidden="true"></span>
       <div class="chain-step">
         <span class="chain-name">6004h</span>
-        <span class="chain-value num" aria-label="Position value 6004h">${isLive && position != null ? grouped(position) : '–'}</span>
+        <span class="chain-value num" aria-label=${T.encoder.chain.position}>${isLive && position != null ? grouped(position) : '–'}</span>
         <span class="chain-note" title=${how.join(', ')}>${how.at(-1) ?? nothing}</span>
       </div>
       <span class="chain-arrow" aria-hidden="true"></span>
       <div class="chain-step">
         <span class="chain-name">PDO1</span>
-        <span class="chain-value num bytes" aria-label="Last PDO1">${pdo ? Array.from(pdo.data, (byte) => html`<span>${hexByte(byte)}</span>`) : html`<span>–</span>`}</span>
-        <span class="chain-note">${pdo ? 'low byte first' : 'when Operational'}</span>
+        <span class="chain-value num bytes" aria-label=${T.encoder.chain.pdo}>${pdo ? Array.from(pdo.data, (byte) => html`<span>${hexByte(byte)}</span>`) : html`<span>–</span>`}</span>
+        <span class="chain-note">${pdo ? T.encoder.chain.lowFirst : T.encoder.chain.whenOperational}</span>
       </div>
     </div>`;
   }

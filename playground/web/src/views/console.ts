@@ -142,7 +142,7 @@ class BusStatus extends View {
     const t = T.frames;
     const tone = line?.controller === 'bus-off' ? 'bad' : line?.controller === 'error passive' ? 'amber' : '';
     const left = state.toSend.peek();
-    return html`<footer class="bus-status" aria-label="Bus">
+    return html`<footer class="bus-status" aria-label=${T.send.bus}>
       <span class="meter" title=${t.load(load.toFixed(1), line?.rate ?? null)}><i style=${`width: ${Math.min(100, load).toFixed(1)}%`}></i></span>
       <span class="num">${t.load(load < 10 ? load.toFixed(1) : load.toFixed(0), line?.rate ?? null)}</span>
       <span class="num">${t.perSecond(grouped(frames))}</span>

@@ -96,7 +96,7 @@ class DeviceDialog extends View {
       <div class="dialog-body">
         <header class="dialog-head">
           <h2 id="device-title">${isNew ? T.dialog.another : T.dialog.title}</h2>
-          <button class="icon-button" aria-label="Close" @click=${() => this.close()}>${icons.close}</button>
+          <button class="icon-button" aria-label=${T.close} @click=${() => this.close()}>${icons.close}</button>
         </header>
         <div class="cards">
           ${state.builtins.value.map(
@@ -108,17 +108,17 @@ class DeviceDialog extends View {
         <label class="drop" data-over=${this.isOver}
           @dragover=${() => (this.isOver = true)} @dragleave=${() => (this.isOver = false)} @drop=${() => (this.isOver = false)}>
           ${icons.file}
-          <span><strong>Open an EDS or DCF file</strong><span class="muted">or drop one anywhere on the page. It stays on this computer.</span></span>
-          <input class="sr" type="file" accept=".eds,.dcf,text/plain" aria-label="EDS or DCF file" @change=${(event: Event) => {
+          <span><strong>${T.dialog.open}</strong><span class="muted">${T.dialog.openHint}</span></span>
+          <input class="sr" type="file" accept=".eds,.dcf,text/plain" aria-label=${T.dialog.file} @change=${(event: Event) => {
             const input = event.target as HTMLInputElement;
             void this.openFirst(input.files).then(() => (input.value = ''));
           }}>
         </label>
         ${this.faults()}
         <div class="dialog-foot">
-          <label for="node-id">Node ID</label>
+          <label for="node-id">${T.dialog.nodeId}</label>
           <input id="node-id" class="num" type="number" min="1" max="127" .value=${this.node} aria-invalid=${isBad} @keydown=${(event: KeyboardEvent) => event.key === 'Enter' && void this.apply()} @input=${(event: Event) => (this.node = (event.target as HTMLInputElement).value)}>
-          <span class="note" data-tone=${isBad ? 'error' : ''}>${isBad ? '1 to 127' : isTwice ? T.dialog.twice(this.nodeId() ?? 0) : ''}</span>
+          <span class="note" data-tone=${isBad ? 'error' : ''}>${isBad ? T.dialog.range : isTwice ? T.dialog.twice(this.nodeId() ?? 0) : ''}</span>
           <div class="spacer"></div>
           ${isNew ? nothing : html`<button ?hidden=${state.devices.value.length < 2} @click=${() => { removeDevice(place); this.close(); }}>${T.dialog.remove}</button>
           <button class="primary" ?disabled=${isBad} @click=${() => this.apply()}>${T.dialog.apply}</button>`}
@@ -132,10 +132,10 @@ class DeviceDialog extends View {
     if (!attempt) return nothing;
     const lines = attempt.text.split(/\r\n|\r|\n/);
     const errors = attempt.diagnostics.filter((one) => one.severity === 'error').length;
-    return html`<section class="faults" role="alert" aria-label="What is wrong with the file">
+    return html`<section class="faults" role="alert" aria-label=${T.dialog.faults}>
       <header>
-        <h3>${attempt.name} cannot run: ${errors} error${errors === 1 ? '' : 's'}</h3>
-        <button class="small" title="Leave out what is wrong" @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true, this.place)}>Run anyway</button>
+        <h3>${T.dialog.broken(attempt.name, errors)}</h3>
+        <button class="small" title=${T.dialog.anywayTitle} @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true, this.place)}>${T.dialog.anyway}</button>
       </header>
       <ol class="scroll">${attempt.diagnostics.map((one) => this.fault(one, lines))}</ol>
     </section>`;

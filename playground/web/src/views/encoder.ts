@@ -3,7 +3,7 @@
 import { html, nothing, type TemplateResult } from 'lit';
 import * as state from '../state';
 import { nmt, setPower, setRpm, turnTo } from '../actions';
-import type { Lamp, Nmt } from '../sim/api';
+import type { Lamp } from '../sim/api';
 import { grouped } from '../can/values';
 import { T } from '../texts';
 import { choose, motionOf, parseMotion, PROFILES } from './motion';
@@ -13,14 +13,6 @@ import './shaft';
 import './chain';
 import './hardware';
 import './eeprom';
-
-const STATES: Record<Nmt, string> = {
-  off: 'Off',
-  initialising: 'Initialising',
-  'pre-operational': 'Pre-operational',
-  operational: 'Operational',
-  stopped: 'Stopped',
-};
 
 const FASTEST = 6000;
 
@@ -44,11 +36,11 @@ class Encoder extends View {
     const hasShaft = state.shaft.value !== null || state.device.value === null;
     return html`
       <header class="panel-head">
-        <h2>Encoder</h2>
-        <span class="pill" data-nmt=${nmtState} role="status" aria-label="NMT state">${STATES[nmtState]}</span>
+        <h2>${T.encoder.title}</h2>
+        <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>
-        <button class="small" aria-label="Reset node" title="Reset node (NMT command 81h)" ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} Reset</button>
-        <button class="switch" role="switch" aria-checked=${isOn} aria-label="Power" title=${isOn ? 'Power off' : 'Power on'} @click=${() => setPower(!isOn)}>
+        <button class="small" aria-label=${T.encoder.resetLabel} title=${T.encoder.resetTitle} ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} ${T.encoder.reset}</button>
+        <button class="switch" role="switch" aria-checked=${isOn} aria-label=${T.encoder.power} title=${isOn ? T.encoder.powerOff : T.encoder.powerOn} @click=${() => setPower(!isOn)}>
           ${icons.power}<span class="switch-track"><span class="switch-thumb"></span></span>
         </button>
       </header>
@@ -110,10 +102,10 @@ class Encoder extends View {
     const toSlider = (value: number): number => Math.sign(value) * Math.cbrt(Math.abs(value) / FASTEST) * 100;
     const fromSlider = (value: number): number => Math.round((Math.abs(value) < 6 ? 0 : (value / 100) ** 3) * FASTEST);
     return html`<div class="rpm">
-      <label class="field-label" for="rpm">Speed</label>
+      <label class="field-label" for="rpm">${T.encoder.speed}</label>
       <span class="input-unit"><input id="rpm" class="num" type="number" step="1" min=${-FASTEST} max=${FASTEST} .value=${String(Math.round(rpm * 100) / 100)}
-        @change=${(event: Event) => set((event.target as HTMLInputElement).value)}><span>rpm</span></span>
-      <input type="range" min="-100" max="100" step="1" aria-label="Speed slider" aria-valuetext=${`${Math.round(rpm)} rpm`}
+        @change=${(event: Event) => set((event.target as HTMLInputElement).value)}><span>${T.encoder.rpm}</span></span>
+      <input type="range" min="-100" max="100" step="1" aria-label=${T.encoder.slider} aria-valuetext=${`${Math.round(rpm)} ${T.encoder.rpm}`}
           .value=${String(toSlider(rpm))} @input=${(event: Event) => set(String(fromSlider(Number((event.target as HTMLInputElement).value))))}>
     </div>`;
   }
@@ -126,9 +118,9 @@ class Angle extends View {
     const whole = Math.floor(turns);
     const degrees = (turns - whole) * 360;
     return html`<div class="angle"><dl>
-      <div><dt>Turn</dt><dd class="num" aria-label="Turns">${grouped(whole)}</dd></div>
-      <div><dt>Angle</dt><dd class="num" aria-label="Angle">${degrees.toFixed(2)}°</dd></div></dl>
-      <button class="small quiet" title="Turn the shaft to its zero point" @click=${() => turnTo(0)}>To zero</button>
+      <div><dt>${T.encoder.turn}</dt><dd class="num" aria-label=${T.encoder.turns}>${grouped(whole)}</dd></div>
+      <div><dt>${T.encoder.angle}</dt><dd class="num" aria-label=${T.encoder.angle}>${degrees.toFixed(2)}°</dd></div></dl>
+      <button class="small quiet" title=${T.encoder.toZeroTitle} @click=${() => turnTo(0)}>${T.encoder.toZero}</button>
     </div>`;
   }
 }
@@ -141,7 +133,7 @@ class Lamps extends View {
     const isFast = state.running.value && state.speed.value > 2;
     const isLit = Math.floor(isFast ? performance.now() / 200 : state.now.value / 200_000) % 2 === 0;
     const shown = (lamp: Lamp): boolean => lamp === 'on' || (lamp === 'flashing' && isLit);
-    return html`<div class="leds" role="img" aria-label=${`Status lamp: ${this.words()}`}>
+    return html`<div class="leds" role="img" aria-label=${T.encoder.lamp(this.words())}>
       <span class="led" data-colour="green" data-pattern=${green} data-lit=${shown(green)}></span>
       <span class="led" data-colour="red" data-pattern=${red} data-lit=${shown(red)}></span>
       <span class="led-words">${this.words()}</span>
@@ -150,11 +142,11 @@ class Lamps extends View {
 
   private words(): string {
     const { green, red } = state.status.value?.leds ?? { green: 'off', red: 'off' };
-    if (red === 'on') return 'Red: error';
-    if (red === 'flashing') return 'Red flashing: warning';
-    if (green === 'off') return 'Dark: no supply voltage';
-    if (green === 'flashing') return 'Green flashing: Pre-operational';
-    return state.nmt.value === 'stopped' ? 'Green: Stopped' : 'Green: Operational';
+    if (red === 'on') return T.encoder.lamps.error;
+    if (red === 'flashing') return T.encoder.lamps.warning;
+    if (green === 'off') return T.encoder.lamps.dark;
+    if (green === 'flashing') return T.encoder.lamps.preOperational;
+    return state.nmt.value === 'stopped' ? T.encoder.lamps.stopped : T.encoder.lamps.operational;
   }
 }
 

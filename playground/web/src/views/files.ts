@@ -2,6 +2,7 @@
 
 import { openDevice, openLog } from '../actions';
 import * as state from '../state';
+import { T } from '../texts';
 
 /** What is a log of a bus, by its name. */
 const LOG = /\.(log|asc|trc|pcap|pcapng|candump|dump)$/i;
@@ -16,7 +17,7 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     return true;
   }
   if (file.size > LONGEST) {
-    state.toast.value = { text: `${file.name} is too large for an EDS file.`, tone: 'error' };
+    state.toast.value = { text: T.files.tooLarge(file.name), tone: 'error' };
     return false;
   }
   if (/\.json$/i.test(file.name)) {
@@ -33,8 +34,8 @@ export async function openText(name: string, text: string, nodeId: number, lenie
   const found = state.diagnostics.value;
   if (isOpen) {
     const warnings = found.filter((one) => one.severity === 'warning').length;
-    const rest = lenient ? ', as far as it can be run' : warnings ? `, with ${warnings} warning${warnings > 1 ? 's' : ''}` : '';
-    state.toast.value = { text: `${name} is on the bus${rest}.`, tone: 'info' };
+    const rest = lenient ? T.files.lenient : warnings ? T.files.warnings(warnings) : '';
+    state.toast.value = { text: T.files.open(name, rest), tone: 'info' };
     state.deviceDialog.value = null;
   } else {
     state.attempt.value = { name, text, diagnostics: found };

@@ -82,7 +82,7 @@ class FrameDetail extends View {
         : html`<div class="frame-bytes num">
             <span class="muted">${hexId(frame.id, frame.extended)}</span>
             ${frame.remote ? html`<span>${t.remote}, length ${frame.dlc}</span>` : Array.from(frame.data, (byte, i) => html`<span class="byte" data-lit=${isLit(i)} @pointerenter=${() => (this.lit = fields.find((field) => i >= field.from && i < field.to) ?? null)} @pointerleave=${() => (this.lit = null)}><b>${hexByte(byte)}</b><i>${i}</i></span>`)}
-            <span class="muted ascii" title="As characters">${String.fromCharCode(...Array.from(frame.data, (byte) => (byte > 31 && byte < 127 ? byte : 0xb7)))}</span>
+            <span class="muted ascii" title=${T.send.characters}>${String.fromCharCode(...Array.from(frame.data, (byte) => (byte > 31 && byte < 127 ? byte : 0xb7)))}</span>
           </div>`}
       ${fields.length
         ? html`<ul class="fields">${fields.map((field) => html`<li data-lit=${field === this.lit || (this.lit !== null && this.lit.from === field.from)} @pointerenter=${() => (this.lit = field)} @pointerleave=${() => (this.lit = null)}>
@@ -95,7 +95,7 @@ class FrameDetail extends View {
         ${frame.disturbed
           ? nothing
           : html`<button class="small" title=${`${t.again}: ${text}`} @click=${() => sendFrame({ id: frame.id, extended: frame.extended, remote: frame.remote, data: frame.data.slice(), dlc: frame.dlc })}>${t.again}</button>
-            <button class="small" title=${`Put ${text} on the send line`} @click=${() => (state.draft.value = { text })}>${icons.send} ${t.toLine}</button>
+            <button class="small" title=${T.send.toLine(text)} @click=${() => (state.draft.value = { text })}>${icons.send} ${t.toLine}</button>
             <button class="small" @click=${() => addToList(text)}>${icons.plus} ${t.toList}</button>`}
         <button class="icon-button" aria-pressed=${isMarked} aria-label=${t.mark} title=${`${t.mark} (B)`} @click=${() => toggleBookmark(number)}>${icons.mark}</button>
         <button class="icon-button" aria-label=${t.close} @click=${() => (state.chosenFrame.value = null)}>${icons.close}</button>

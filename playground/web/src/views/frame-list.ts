@@ -212,11 +212,11 @@ class FrameList extends View {
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
     const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0, bytes });
     return html`<div class="hints">
-      <p>Node ${node} is on the bus. Turn the shaft, type a frame below, or try:</p>
+      <p>${T.send.node(node)}</p>
       <div>
-        ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>Read the position</button>` : nothing}
-        <button class="small" @click=${() => nmt(0x01)}>Start the node</button>
-        ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>Heartbeat every second</button>` : nothing}
+        ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>${T.send.position}</button>` : nothing}
+        <button class="small" @click=${() => nmt(0x01)}>${T.send.start}</button>
+        ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>${T.send.heartbeat}</button>` : nothing}
       </div>
     </div>`;
   }

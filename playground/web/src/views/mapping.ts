@@ -215,7 +215,7 @@ class Mapping extends View {
           <option value="">${isFull ? t.full : t.add}</option>
           ${candidates.map((one) => html`<option value=${state.keyOf(one.index, one.sub)}>${address(one.index, one.sub)} ${one.name} (${t.bits(one.bits)})</option>`)}
         </select>
-        <meter min="0" max=${MOST_BITS} high=${MOST_BITS - 1} .value=${Math.min(bits, MOST_BITS)} aria-label=${t.size}></meter>
+        <meter min="0" max=${MOST_BITS} .value=${Math.min(bits, MOST_BITS)} aria-label=${t.size}></meter>
         <span class="num note" data-tone=${bits > MOST_BITS ? 'error' : ''}>${t.sum(bits, MOST_BITS)}</span>
       </div>
       ${this.cobId === null

@@ -1,6 +1,7 @@
 // Profiles that a shaft can follow: pairs of rpm and milliseconds.
 
 import { act } from '../sim/link';
+import { T } from '../texts';
 
 const STEP = 50;
 
@@ -13,10 +14,10 @@ const curve = (seconds: number, rpm: (phase: number) => number): number[] => {
 const ramp = (phase: number): number => Math.min(1, phase * 5, (1 - phase) * 5);
 
 export const PROFILES = [
-  { key: 'swing', text: 'Back and forth', steps: [60, 2000, -60, 2000] },
-  { key: 'sine', text: 'Sine', steps: curve(4, (phase) => 60 * Math.sin(2 * Math.PI * phase)) },
-  { key: 'ramp', text: 'Up, hold, down', steps: [...curve(5, (phase) => 300 * ramp(phase)), 0, 1000] },
-  { key: 'index', text: 'Quarter turns', steps: [30, 500, 0, 1000] },
+  { key: 'swing', text: T.encoder.profiles.swing, steps: [60, 2000, -60, 2000] },
+  { key: 'sine', text: T.encoder.profiles.sine, steps: curve(4, (phase) => 60 * Math.sin(2 * Math.PI * phase)) },
+  { key: 'ramp', text: T.encoder.profiles.ramp, steps: [...curve(5, (phase) => 300 * ramp(phase)), 0, 1000] },
+  { key: 'index', text: T.encoder.profiles.index, steps: [30, 500, 0, 1000] },
 ] as const;
 
 const chosen = new Map<number, string>();

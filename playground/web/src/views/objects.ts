@@ -144,6 +144,8 @@ class Objects extends View {
   }
 
   private onKey(event: KeyboardEvent): void {
+    if (event.key === 'Enter') this.querySelector<HTMLElement>('.detail-form input')?.focus();
+    if (event.key === 'Escape') state.selected.value = null;
     const move = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10 }[event.key];
     if (!move) return;
     event.preventDefault();
@@ -200,8 +202,8 @@ class Objects extends View {
           ${choice('all', t.all)}${choice('changed', t.changed)}${choice('unsaved', t.unsaved)}
         </div>
         <div class="spacer"></div>
-        <button class="small" title=${t.mappingTitle} aria-haspopup="dialog" ?hidden=${!hasMapping} @click=${() => openMapping(0)}>${t.mapping}</button>
-        <button class="small" title=${t.dcfTitle} @click=${() => this.saveDcf()}>${t.dcf}</button>
+        <button class="small" title=${t.mappingTitle} aria-haspopup="dialog" ?hidden=${!hasMapping} aria-label=${t.mapping} @click=${() => openMapping(0)}>${t.mappingShort}</button>
+        <button class="small" title=${t.dcfTitle} aria-label=${t.dcf} @click=${() => this.saveDcf()}>${icons.save} ${t.dcfShort}</button>
       </div>
       <div class="object-rows scroll" role="listbox" tabindex="0" aria-label=${t.list}></div>
       <od-object-detail></od-object-detail>

@@ -32,7 +32,7 @@ class Send extends View {
             if (select.value) state.draft.value = { text: select.value };
             select.value = '';
           }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(([text, frame]) => html`<option value=${frame}>${text}</option>`)}</select></label>
-          <button class="small sync" title="Send SYNC (80h)" @click=${() => sendFrame({ id: 0x80, extended: false, remote: false, data: new Uint8Array(0), dlc: 0 })}>SYNC</button>
+          <button class="small sync" title=${T.send.sync} @click=${() => sendFrame({ id: 0x80, extended: false, remote: false, data: new Uint8Array(0), dlc: 0 })}>SYNC</button>
         </div>
       </div>
       <od-send-list></od-send-list>
@@ -135,16 +135,16 @@ class RawFrame extends View {
     const parsed = parseFrame(this.text);
     const isEmpty = this.text.trim() === '';
     const error = 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
-    const bytes = 'frame' in parsed ? `${parsed.frame.dlc} byte${parsed.frame.dlc === 1 ? '' : 's'}` : '';
+    const bytes = 'frame' in parsed ? T.send.bytes(parsed.frame.dlc) : '';
     const node = (0x600 + state.nodeId.value).toString(16).toUpperCase();
     return html`<form class="dock-row" @submit=${this.submit} novalidate>
-      <label class="dock-label" for="raw-frame">Frame</label>
+      <label class="dock-label" for="raw-frame">${T.send.frame}</label>
       <div class="field-group">
         <input id="raw-frame" class="num grow" autocomplete="off" autocapitalize="off" spellcheck="false" enterkeyhint="send"
           placeholder=${`${node}#40 04 60 00 00 00 00 00`} aria-describedby="raw-note" aria-invalid=${error !== ''}
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
         <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
-        <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} Send</button>
+        <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} ${T.send.send}</button>
         <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`COB-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> asks with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
       </div>
     </form>`;

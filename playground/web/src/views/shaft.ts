@@ -4,6 +4,7 @@
 import { html, svg, type TemplateResult } from 'lit';
 import * as state from '../state';
 import { turnTo } from '../actions';
+import { T } from '../texts';
 import { View } from './view';
 
 /** Degrees of an arrow key, and with Shift. */
@@ -106,10 +107,10 @@ class ShaftDial extends View {
     const degrees = (turns - Math.floor(turns)) * 360;
     const drawn = this.drawnTurns();
     const rotation = (drawn - Math.floor(drawn)) * 360;
-    return html`<div class="dial" role="slider" tabindex="0" aria-label="Shaft" aria-valuemin="0" aria-valuemax="360"
-      aria-valuenow=${degrees.toFixed(1)} aria-valuetext=${`Turn ${Math.floor(turns)}, ${degrees.toFixed(1)} degrees`}
+    return html`<div class="dial" role="slider" tabindex="0" aria-label=${T.encoder.shaft} aria-valuemin="0" aria-valuemax="360"
+      aria-valuenow=${degrees.toFixed(1)} aria-valuetext=${T.encoder.shaftValue(Math.floor(turns), degrees.toFixed(1))}
       aria-keyshortcuts="ArrowLeft ArrowRight PageUp PageDown Home" ?data-dragging=${this.drag !== null}
-      title="Drag to turn. Arrow keys: 5°, with Shift 0.1°, Page Up and Page Down: one turn, Home: zero."
+      title=${T.encoder.shaftTitle}
       @pointerdown=${this.onDown} @pointermove=${this.onMove} @pointerup=${this.onUp} @pointercancel=${this.onUp} @keydown=${this.onKey}>
       <svg viewBox="-130 -130 260 260" aria-hidden="true">
         <defs>
