@@ -63,7 +63,8 @@ impl Console {
         }
         let start = words;
         let (when, action) = statement(words, &mut self.origin)?;
-        let only = "frames, nmt, sync, power, shaft, switch, fault, bus, line, use and wait stand here";
+        let only =
+            "frames, nmt, sync, power, shaft, switch, fault, bus, line, use and wait stand here";
         if !is_for_a_live_bench(&action) {
             return Err(start.problem("only a script can do that", only));
         }
