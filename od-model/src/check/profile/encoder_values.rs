@@ -59,6 +59,15 @@ pub(super) fn check(description: &Description, device: DeviceType, findings: &mu
                 .with_help("write a position within the range, for example `DefaultValue=0`"),
         );
     }
+    // Some count steps in 6502h, as 6002h does: then so many of them are one revolution.
+    let turns = turns.map(|turns| match (range, physical) {
+        (Some(range), Some(physical))
+            if range.value == turns.value && (2..=turns.value).contains(&physical.value) =>
+        {
+            Spanned::new(turns.value / physical.value, turns.span)
+        }
+        _ => turns,
+    });
     kind(device, turns, findings);
     status(value(0x6000, 0), value(0x6500, 0), findings);
     signals(0x6503, value(0x6503, 0), value(0x6504, 0), findings);
