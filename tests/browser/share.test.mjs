@@ -126,6 +126,30 @@ check('two nodes, switches, a wire without terminators', async (page) => {
   await other.close();
 });
 
+check('a dropped EDS, its node and its values go along', async (page) => {
+  await booted(page);
+  const eds = join(tmpdir(), `odkit-share-${process.pid}.eds`);
+  const entry = (index, name, type, access, value) => `[${index}]\nParameterName=${name}\nObjectType=7\nDataType=${type}\nAccessType=${access}\nDefaultValue=${value}\nPDOMapping=0\n`;
+  await writeFile(eds, `[FileInfo]\nFileName=x.eds\n[DeviceInfo]\nProductName=Travelled\n${entry('1000', 'Device type', '0x0007', 'ro', 0)}${entry('1001', 'Error register', '0x0005', 'ro', 0)}${entry('2000', 'Grösse', '0x0006', 'rw', 7)}`);
+  await page.locator('.device-button').click();
+  await page.getByRole('spinbutton', { name: 'Node ID' }).fill('9');
+  await page.getByLabel('EDS or DCF file').setInputFiles(eds);
+  const anyway = page.getByRole('button', { name: 'Run anyway' });
+  await until('the file or its faults', async () => (await anyway.isVisible()) || /node 9/.test(await page.locator('.topbar').textContent()), { within: 15_000 });
+  if (await anyway.isVisible()) await anyway.click();
+  await until('node 9', async () => /node 9/.test(await page.locator('.topbar').textContent()));
+  await sdo(page, '2000', '321');
+  await note(page, /2000h written/);
+  for (const trace of [false, true]) {
+    const hash = await linkOf(page, { trace });
+    const other = await open(browser, { hash });
+    await until('node 9 there', async () => /node 9/.test(await other.page.locator('.topbar').textContent()), { within: 15_000 });
+    assert.match(await read(other.page, '2000'), /^321/);
+    assert.deepEqual(other.faults, []);
+    await other.close();
+  }
+});
+
 test('bad links get a message and a fresh bench', async () => {
   for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900']) {
     const { page, faults, close } = await open(browser, { hash });

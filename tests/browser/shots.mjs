@@ -1,6 +1,6 @@
 // Pictures of the page for people to look at: target/shots/*.png.
 import { mkdir } from 'node:fs/promises';
-import { launch, open } from './harness.mjs';
+import { launch, open, URL_OF_PAGE } from './harness.mjs';
 import { booted, nmt, sdo, sendRaw, until, captured } from './bench.mjs';
 
 const out = new URL('../../target/shots/', import.meta.url);
@@ -56,6 +56,21 @@ for (const colorScheme of ['light', 'dark']) {
       await page.getByRole('combobox', { name: 'Object', exact: true }).press('Escape');
       await page.getByRole('searchbox', { name: 'Search objects' }).fill('');
       await shot('bench');
+    }
+    if (colorScheme === 'light') {
+      await page.goto(new URL('#device=eam_mt&node=1', URL_OF_PAGE).href);
+      await page.reload();
+      await tab('Objects');
+      await page.getByRole('button', { name: 'PDO mapping' }).click();
+      const add = page.getByRole('combobox', { name: 'Add an object' });
+      await add.selectOption(await add.locator('option').filter({ hasText: /^6030h/ }).getAttribute('value'));
+      await page.getByRole('button', { name: /^Send 4/ }).click();
+      await page.getByText('✓').nth(3).waitFor();
+      await shot('mapping');
+      await page.keyboard.press('Escape');
+      await page.getByRole('button', { name: 'Share and save' }).click();
+      await until('a link', () => page.getByRole('textbox', { name: 'Link' }).inputValue());
+      await shot('share');
     }
     await close();
   }

@@ -73,6 +73,7 @@ class ObjectDetail extends View {
         <strong><span class="num">${address(object.index, object.sub, object.parent !== null)}</span> ${object.name}</strong>
         <div class="spacer"></div>
         ${isMapping(object.index) ? html`<button class="small" aria-haspopup="dialog" @click=${() => openMapping(object.index)}>${t.editMapping}</button>` : nothing}
+        <button class="small tabs-only" @click=${() => (state.tab.value = 'console')}>${t.sdo}</button>
         <button class="small" title=${t.framesTitle} @click=${() => showFrames(object)}>${t.frames}</button>
         <button class="icon-button" aria-label=${t.close} @click=${() => (state.selected.value = null)}>${icons.close}</button>
       </div>
