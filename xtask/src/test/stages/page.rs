@@ -32,21 +32,35 @@ pub(super) fn page(context: &Context<'_>) -> Result<()> {
     Ok(())
 }
 
-/// The package as npm users get it, and the same tests on it.
+/// The packages as npm users get them, the same tests on the one for pages, and the
+/// example of its README from the packed tarballs.
 pub(super) fn wasm_pack(context: &Context<'_>) -> Result<()> {
     crate::wasm_pack::run(context.repo, context.console, &[])?;
+    let bundler = ["build", "playground", "--target", "bundler", "--out-dir"];
+    let mut bundler: Vec<String> = bundler.map(String::from).into();
+    bundler.push(String::from("pkg/bundler"));
+    crate::wasm_pack::run(context.repo, context.console, &bundler)?;
     let package = context.repo.root.join("playground").join("pkg");
-    for name in [
-        "package.json",
-        "od_playground.d.ts",
-        "od_playground_bg.wasm",
-    ] {
-        if !package.join(name).is_file() {
-            let package = context.repo.short(&package);
-            return Err(Error::Failed(format!("wasm-pack made no {package}/{name}")));
+    let bundler = package.join("bundler");
+    for made in [&package, &bundler] {
+        for name in [
+            "package.json",
+            "od_playground.d.ts",
+            "od_playground_bg.wasm",
+        ] {
+            if !made.join(name).is_file() {
+                let made = context.repo.short(made);
+                return Err(Error::Failed(format!("wasm-pack made no {made}/{name}")));
+            }
         }
     }
-    package_tests(context, &package)
+    package_tests(context, &package)?;
+    let mut command = Command::new("node");
+    command.args(["--test", "--test-reporter=tap", "tarball.mjs"]);
+    command.current_dir(folder(context, "playground/package-test", "tarball.mjs")?);
+    command.env("ODKIT_PKG", &package);
+    command.env("ODKIT_PKG_BUNDLER", &bundler);
+    context.console.run("the packed tarballs", &mut command)
 }
 
 /// The page in a browser, served as `play` serves it.

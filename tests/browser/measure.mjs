@@ -1,0 +1,154 @@
+// What the page promises, measured: `cargo xtask play --no-serve`, then `node measure.mjs`.
+// It serves the bundle itself and prints a Markdown table; what misses its aim ends it with 1.
+import { execFileSync } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { cpus, loadavg } from 'node:os';
+import { extname } from 'node:path';
+import { launch } from './harness.mjs';
+import { booted, nmt, sdo, sdoNote, until } from './bench.mjs';
+
+const WEB = new URL('../../playground/web/', import.meta.url);
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json' };
+
+const server = createServer(async (request, response) => {
+  const path = new URL(request.url, 'http://x').pathname;
+  const at = path.startsWith('/module/') ? new URL(`src/wasm/core/${path.slice(8)}`, WEB) : new URL(`dist${path === '/' ? '/index.html' : path}`, WEB);
+  const body = await readFile(at).catch(() => null);
+  response.writeHead(body ? 200 : 404, { 'content-type': TYPES[extname(at.pathname)] ?? 'text/plain', 'cache-control': 'no-store' });
+  response.end(body);
+});
+await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+const url = `http://127.0.0.1:${server.address().port}/`;
+
+const load = loadavg()[0];
+const table = [];
+const row = (what, value, unit, aim, isMet) => table.push({ what, value: `${value} ${unit}`, aim, isMet });
+const round = (value) => Math.round(value).toLocaleString('en');
+
+/** HTML, scripts, styles and module of a first visit. */
+function firstLoad() {
+  let text;
+  try {
+    text = execFileSync(process.execPath, ['size.mjs'], { cwd: WEB, encoding: 'utf8' });
+  } catch (error) {
+    // Over the budget it ends with 1, and has said how much it is.
+    text = String(error.stdout);
+  }
+  const size = Number(/first load\s+([\d.]+) kB/.exec(text)?.[1]);
+  row('First load, gzip', size.toFixed(1), 'kB', 'at most 250 kB', size <= 250);
+}
+
+const context = async (browser) => browser.newContext({ viewport: { width: 1280, height: 800 }, serviceWorkers: 'block' });
+
+/** From the start of the navigation to the boot-up message in the console, cold, five times. */
+async function interactive(browser) {
+  const times = [];
+  for (let run = 0; run < 5; run++) {
+    const own = await context(browser);
+    const page = await own.newPage();
+    await page.addInitScript(() => {
+      const look = () => {
+        if (document.querySelector('.frame:not([hidden])')) globalThis.readyAt = performance.now();
+        else requestAnimationFrame(look);
+      };
+      requestAnimationFrame(look);
+    });
+    await page.goto(url);
+    times.push(await page.waitForFunction(() => globalThis.readyAt).then((handle) => handle.jsonValue()));
+    await own.close();
+  }
+  const median = times.sort((a, b) => a - b)[2];
+  row('Interactive after a cold local load (median of 5)', round(median), 'ms', 'under 1,000 ms', median < 1000);
+}
+
+/** Virtual seconds in a second, without a page around; `period` of the PDO in milliseconds. */
+async function simulation(browser, period, aim) {
+  const own = await context(browser);
+  const page = await own.newPage();
+  await page.goto(`${url}icon.svg`);
+  const rate = await page.evaluate(async (cycle) => {
+    const { default: init, Bus } = await import('/module/od_playground.js');
+    await init();
+    const bus = new Bus();
+    bus.setRpm(bus.addDevice('gxmm', 1), 60);
+    bus.send(0x601, new Uint8Array([0x2b, 0x00, 0x18, 5, cycle & 0xff, cycle >> 8, 0, 0]), false, false);
+    bus.send(0, new Uint8Array([1, 1]), false, false);
+    const run = (milliseconds) => {
+      const from = performance.now();
+      const start = bus.now();
+      while (performance.now() - from < milliseconds) {
+        bus.advance(60e6, 5000);
+        bus.drain();
+      }
+      return (bus.now() - start) / 1000 / (performance.now() - from);
+    };
+    run(300);
+    return run(3000);
+  }, period);
+  await own.close();
+  row(`One moving node, a PDO every ${period} ms: virtual seconds a second`, round(rate), '×', aim ? `at least ${round(aim)} ×` : '–', rate >= aim);
+}
+
+/** A PDO every 2 virtual milliseconds at ten times the speed: 5,000 frames a second. */
+async function throughput(browser) {
+  const own = await context(browser);
+  const page = await own.newPage();
+  await page.goto(url);
+  await booted(page);
+  await sdo(page, '1800:05', '2');
+  await until('the answer', async () => /written/.test(await sdoNote(page)), { within: 20_000 });
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('10');
+  await nmt(page, 'Start');
+  await page.waitForTimeout(500);
+  const seen = await page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        let longest = 0;
+        let pictures = 0;
+        new PerformanceObserver((list) => list.getEntries().forEach((entry) => (longest = Math.max(longest, entry.duration)))).observe({ type: 'longtask' });
+        const captured = () => Number(document.querySelector('[aria-label="Captured frames"]').textContent.replace(/\D/g, ''));
+        const from = performance.now();
+        const before = captured();
+        const next = () => {
+          pictures += 1;
+          const passed = performance.now() - from;
+          if (passed < 8000) return requestAnimationFrame(next);
+          const rates = { frames: ((captured() - before) * 1000) / passed, pictures: (pictures * 1000) / passed };
+          // The observer has the last long task a little later.
+          return setTimeout(() => resolve({ longest, ...rates }), 200);
+        };
+        next();
+      }),
+  );
+  const download = page.waitForEvent('download');
+  await page.getByRole('button', { name: 'Save log' }).click();
+  const log = await readFile(await (await download).path(), 'utf8');
+  await own.close();
+  const times = [...log.matchAll(/^\((\d+\.\d+)\) \S+ 181#/gm)].map(([, time]) => Number(time));
+  let dropped = 0;
+  for (let i = 1; i < times.length; i++) dropped += Math.max(0, Math.round((times[i] - times[i - 1]) / 0.002) - 1);
+  // Whole pictures are counted, so a second may have some frames less.
+  row('Frames a second through the console', round(seen.frames), '', 'at least 5,000', seen.frames >= 4950);
+  row(`Frames dropped of ${round(times.length)}`, dropped, '', 'none', dropped === 0 && times.length > 20_000);
+  row('Longest task meanwhile', seen.longest ? round(seen.longest) : 'under 50', 'ms', 'at most 100 ms', seen.longest <= 100);
+  row('Pictures a second meanwhile', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
+}
+
+const browser = await launch();
+try {
+  firstLoad();
+  await interactive(browser);
+  await simulation(browser, 100, 5000);
+  await simulation(browser, 10, 5000);
+  // No aim: how far the busiest set-up goes.
+  await simulation(browser, 1, 0);
+  await throughput(browser);
+} finally {
+  await browser.close();
+  server.close();
+}
+console.log(`Chromium ${browser.version()}, ${cpus().length} processors, load ${load.toFixed(1)} before the run\n`);
+console.log('| what | measured | aim |\n|---|--:|---|');
+for (const { what, value, aim, isMet } of table) console.log(`| ${what} | ${value.trim()} | ${aim}${isMet ? '' : ': missed'} |`);
+if (table.some(({ isMet }) => !isMet)) process.exitCode = 1;
