@@ -3,8 +3,8 @@
 //! The library is the program: [`main`] for `odkit` itself, and [`serve`] for a device of one's
 //! own, such as `odkit new` writes. Nothing else of it is meant to be called.
 //!
-//! One file for each subcommand. What they share: [`source`] finds a device, [`output`]
-//! writes to a pipe that may close, [`report`] shows diagnostics.
+//! One file for each subcommand. What they share: `source` finds a device, `output`
+//! writes to a pipe that may close, `report` shows diagnostics.
 
 mod check;
 mod convert;

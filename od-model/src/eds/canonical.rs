@@ -21,8 +21,8 @@ pub fn canonical(description: &Description) -> String {
 
 /// The description with all that a generated file needs, in the form that every reader takes.
 ///
-/// The standard's capitals and order, no octal numbers, all dummies, [FileInfo] and
-/// [DeviceInfo], SubNumber and comments counted. Sections and keys of other tools are
+/// The standard's capitals and order, no octal numbers, all dummies, `[FileInfo]` and
+/// `[DeviceInfo]`, SubNumber and comments counted. Sections and keys of other tools are
 /// kept, and what the objects say is the same.
 pub fn complete(description: &Description) -> Description {
     let made = sections(description).into_iter();
