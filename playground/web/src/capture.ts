@@ -11,8 +11,8 @@ trace.words = knownWords;
 
 /** Changes when all rows were made again. */
 export const refiltered = signal(0);
-/** In order, or one row for each identifier. */
-export const view = signal<'order' | 'ids'>('order');
+/** In order, one row for each identifier, or no frames but values over time. */
+export const view = signal<'order' | 'ids' | 'plot'>('order');
 export const filterText = signal('');
 /** What is wrong with the filter, and where. */
 export const filterError = signal<{ error: string; at: number } | null>(null);

@@ -268,6 +268,18 @@ const en = {
     unreadable: (name: string, why: string) => `${name} cannot be read: ${why}.`,
     replay: 'Send these frames',
   },
+  plot: {
+    title: 'Plot',
+    region: 'Values over time',
+    add: 'Plot an object',
+    shaft: 'Shaft speed in rpm',
+    remove: (name: string) => `Take ${name} off the plot`,
+    window: 'Time shown',
+    windows: { 1: 'Last second', 10: 'Last 10 s', 60: 'Last minute', 0: 'All' } as Record<number, string>,
+    range: (least: string, most: string) => `${least} to ${most}`,
+    nothing: 'Nothing is plotted. Choose an object above; its values are read without a frame on the bus.',
+    unloaded: 'The plots could not be loaded; try again when the network is there.',
+  },
   sendList: {
     title: 'Send list',
     add: 'Add a row',

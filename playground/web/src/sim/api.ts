@@ -224,8 +224,8 @@ export interface Snapshot {
   unsaved: Uint32Array | null;
   /** Of the selected node: the bytes of its EEPROM, while somebody looks. */
   eeprom: Uint8Array | null;
-  /** Of the selected node: values of the plotted objects. */
-  plot: Value[] | null;
+  /** Values of the plotted objects, and whose they are: others may be wanted by now. */
+  plot: { node: number; addresses: Address[]; values: Value[] } | null;
 }
 
 /** The objects between the shaft and the telegram. */

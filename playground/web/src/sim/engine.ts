@@ -260,7 +260,7 @@ export class Engine {
           saved,
           unsaved,
           eeprom,
-          plot: this.plotted.length ? this.plotted.map(read) : null,
+          plot: this.plotted.length ? { node: selected, addresses: this.plotted, values: this.plotted.map(read) } : null,
         },
       },
       [frames.buffer],

@@ -60,6 +60,7 @@ class Console extends View {
       <span class="segmented" role="group" aria-label=${t.view}>
         <button class="small" aria-pressed=${view.value === 'order'} @click=${() => (view.value = 'order')}>${t.order}</button>
         <button class="small" aria-pressed=${view.value === 'ids'} @click=${() => (view.value = 'ids')}>${t.ids}</button>
+        <button class="small" aria-pressed=${view.value === 'plot'} @click=${showPlot}>${T.plot.title}</button>
       </span>
       <button class="icon-button" aria-pressed=${folds.value} aria-label=${t.folds} title=${t.folds} @click=${() => setFolds(!folds.value)}>${icons.fold}</button>
       <button class="icon-button" aria-label=${t.find} title=${t.findTitle} @click=${() => this.openFind()}>${icons.search}</button>
@@ -104,10 +105,17 @@ class Console extends View {
       ${this.filterBar()}
       <od-frames ?hidden=${view.value !== 'order'}></od-frames>
       ${view.value === 'ids' ? html`<od-identifiers></od-identifiers>` : nothing}
+      ${view.value === 'plot' ? html`<od-plot></od-plot>` : nothing}
       <od-frame-detail></od-frame-detail>
       <od-bus-status></od-bus-status>
     `;
   }
+}
+
+/** The plots come with a library that nobody else needs. */
+function showPlot(): void {
+  view.value = 'plot';
+  import('./plot').catch(() => (state.toast.value = { text: T.plot.unloaded, tone: 'error' }));
 }
 
 /** The part of a text that is wrong, and what follows. */
