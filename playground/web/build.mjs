@@ -36,12 +36,28 @@ await mkdir(out, { recursive: true });
 await cp(new URL('src/index.html', import.meta.url), new URL('index.html', out));
 for (const name of ['icon.svg', 'manifest.webmanifest']) await cp(new URL(`src/${name}`, import.meta.url), new URL(name, out));
 for (const [name, path] of Object.entries(modules)) await cp(new URL(path, import.meta.url), new URL(name, out));
+await lessons();
 if (watch) {
   await (await context(options)).watch();
   console.log('watching');
 } else {
   await build(options);
   await serviceWorker();
+}
+
+/** Each lesson is a file that the page fetches when it is taken, with a list of them all. */
+async function lessons() {
+  const folder = new URL('../lessons/', import.meta.url);
+  const list = [];
+  for (const file of (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name)).sort()) {
+    const text = await readFile(new URL(file, folder), 'utf8');
+    const head = text.split(/^\+\+\+\s*$/m)[1] ?? '';
+    const field = (name) => new RegExp(`^${name}\\s*=\\s*"?(.*?)"?\\s*$`, 'm').exec(head)?.[1] ?? '';
+    const name = file.replace(/^\d+-|\.md$/g, '');
+    list.push({ name, title: field('title'), summary: field('summary'), level: Number(field('level')), minutes: Number(field('minutes')) });
+    await cp(new URL(file, folder), new URL(`lesson-${name}.md`, out));
+  }
+  await writeFile(new URL('lessons.json', out), JSON.stringify(list));
 }
 
 /** The service worker knows every file of the page by its content. */

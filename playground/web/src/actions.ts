@@ -4,7 +4,7 @@ import type { Input, Source } from './sim/api';
 import type { Typed } from './can/text';
 import type { Format } from './logs/write';
 import type { Frame } from './sim/packed';
-import { act, add, restore, select, send } from './sim/link';
+import { act, add, dropFrames, restore, select, send } from './sim/link';
 import * as state from './state';
 import { T } from './texts';
 
@@ -173,4 +173,35 @@ export async function begin(wanted: { source: Source; nodeId: number }[]): Promi
     if (!isOpen && source.kind === 'builtin') await openDevice({ kind: 'builtin', name: 'gxmm' }, nodeId, 'new');
   }
   select(0);
+}
+
+/** Begins a lesson on a bench of its own; false, with `lessonFailed`, where it is wrong. */
+export async function openLesson(name: string, text: string): Promise<boolean> {
+  const { node, diagnostics } = await add({ op: 'lesson', text });
+  if (node === null) {
+    state.lessonFailed.value = { name, problems: diagnostics };
+    return false;
+  }
+  dropFrames();
+  state.lessonFailed.value = null;
+  state.lessonRun.value = { name, count: state.lessonRun.value.count + 1 };
+  select(0);
+  setSpeed(1);
+  setRunning(true);
+  state.tab.value = 'lesson';
+  return true;
+}
+
+/** Plays lines of a script, such as the solution of a step. */
+export async function playScript(text: string): Promise<void> {
+  const { diagnostics } = await add({ op: 'script', text });
+  if (diagnostics[0]) state.toast.value = { text: diagnostics[0].message, tone: 'error' };
+}
+
+/** Leaves the lesson; its bench stays as it is. */
+export function leaveLesson(): void {
+  act({ op: 'leave' });
+  if (state.tab.value === 'lesson') state.tab.value = 'encoder';
+  history.replaceState(null, '', location.pathname);
+  setRunning(true);
 }

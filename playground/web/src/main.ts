@@ -10,12 +10,17 @@ window.addEventListener('hashchange', () => {
   void open();
 });
 
-/** The bench that the address holds, or a fresh one with its devices. */
+/** The bench or the lesson that the address names, or a fresh one with its devices. */
 async function open(): Promise<void> {
   const { hash } = location;
   if (hash.startsWith('#bench=')) {
     const { openHash } = await import('./share/make');
     if (await openHash(hash)) return;
+  }
+  const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
+  if (lesson) {
+    const { openNamed } = await import('./lessons/open');
+    if (await openNamed(lesson)) return;
   }
   await begin(recall());
 }

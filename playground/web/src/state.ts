@@ -2,7 +2,7 @@
 // read them, actions go back to the worker: one way round.
 
 import { computed, signal } from '@preact/signals-core';
-import type { Builtin, DeviceInfo, Diagnostic, Entry, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
+import type { Builtin, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
 import { Ring } from './can/ring';
 
 export type Health = 'starting' | 'running' | 'restarting' | 'failed';
@@ -74,7 +74,16 @@ export const selected = signal<ObjectRecord | null>(null);
 /** What the EEPROM holds for the selected object; null where it is none that is saved. */
 export const savedValue = signal<Value>(null);
 
-export type Tab = 'encoder' | 'console' | 'objects';
+/** The lesson that is taken, and how far it is. */
+export const lesson = signal<Lesson | null>(null);
+export const lessonState = signal<LessonState | null>(null);
+/** What it is called in the list or the address, and how often one was begun. */
+export const lessonRun = signal({ name: '', count: 0 });
+/** A lesson that could not be opened, and why. */
+export const lessonFailed = signal<{ name: string; problems: Diagnostic[] } | null>(null);
+export const lessonDialog = signal(false);
+
+export type Tab = 'encoder' | 'console' | 'objects' | 'lesson';
 export const tab = signal<Tab>('encoder');
 
 /** A message that goes away by itself. */

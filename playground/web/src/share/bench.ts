@@ -22,12 +22,12 @@ export class NoBench extends Error {}
 
 /** Inputs of one bench; more would take minutes to make again. */
 const MOST_ENTRIES = 200_000;
-/** Longest EDS text. */
+/** Longest EDS text, and longest lesson. */
 const LONGEST_TEXT = 8_000_000;
 /** Latest moment: a year. */
 const LATEST = 366 * 86_400e6;
 
-type Kind = 'place' | 'count' | 'number' | 'flag' | 'bytes' | 'name' | 'steps' | 'source' | 'dip';
+type Kind = 'text' | 'place' | 'count' | 'number' | 'flag' | 'bytes' | 'name' | 'steps' | 'source' | 'dip';
 
 /** The fields of each input; those with a question mark may be missing, those with a bar null. */
 const FIELDS: Record<Input['op'], Record<string, Kind | `${Kind}?` | `${Kind}|`>> = {
@@ -48,6 +48,9 @@ const FIELDS: Record<Input['op'], Record<string, Kind | `${Kind}?` | `${Kind}|`>
   cut: { node: 'place', bytes: 'count' },
   eeprom: { node: 'place', bytes: 'bytes' },
   deliver: { node: 'place', id: 'count', data: 'bytes' },
+  lesson: { text: 'text' },
+  leave: {},
+  script: { text: 'text' },
 };
 
 export function write(bench: Bench): string {
@@ -107,6 +110,8 @@ function field(value: unknown, kind: Kind): unknown {
       return number(value, -1e9, 1e9);
     case 'flag':
       return flag(value);
+    case 'text':
+      return text(value, LONGEST_TEXT);
     case 'name':
       return text(value, 64);
     case 'bytes':

@@ -1,6 +1,8 @@
 // The seam between the page and the simulation: what a bus can do, and the messages
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
+import type { Judgement, Lesson, LessonState } from '../wasm/od_playground';
+
 /** What kind of value an object holds, by its CiA 301 name. */
 export type TypeName = string;
 
@@ -110,6 +112,8 @@ export interface LineStatus {
   plugged: boolean;
 }
 
+export type { Judgement, Lesson, LessonState };
+
 export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
 
 export interface Address {
@@ -145,7 +149,12 @@ export type Input =
   | { op: 'cut'; node: number; bytes: number }
   | { op: 'eeprom'; node: number; bytes: Uint8Array }
   /** A frame for one device alone, beside the wire. */
-  | { op: 'deliver'; node: number; id: number; data: Uint8Array };
+  | { op: 'deliver'; node: number; id: number; data: Uint8Array }
+  /** Its bench takes the place of all that was there. */
+  | { op: 'lesson'; text: string }
+  | { op: 'leave' }
+  /** Lines of a script, such as the solution of a step. */
+  | { op: 'script'; text: string };
 
 /** An input and its virtual moment in microseconds. */
 export interface Entry {
@@ -172,10 +181,11 @@ export type Command =
   | { op: 'look'; eeprom: boolean }
   | { op: 'describe'; ticket: number; frames: Uint8Array }
   | { op: 'layout'; ticket: number; frame: Uint8Array }
+  | { op: 'judge'; ticket: number; answer: string; given: string }
   | { op: 'replay'; frames: Uint8Array; speed: number }
   | { op: 'drawn' };
 
-/** What came of an input that puts a device on the bus. */
+/** What came of an input that puts a device on the bus, begins a lesson, or plays a script. */
 export interface Added {
   /** Its number, or null where it cannot run. */
   node: number | null;
@@ -186,7 +196,9 @@ export interface Added {
 export type Report =
   | { op: 'ready'; builtins: Builtin[] }
   | { op: 'added'; ticket: number; added: Added }
-  | { op: 'devices'; devices: DeviceInfo[] }
+  | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
+  /** Null: what was given is no frame. */
+  | { op: 'judged'; ticket: number; judgement: Judgement | null }
   | { op: 'rewound'; to: number }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'described'; ticket: number; words: string[] }
@@ -208,6 +220,8 @@ export interface Snapshot {
   rate: number;
   nodes: Status[];
   line: LineStatus;
+  /** How far the lesson is. */
+  lesson: LessonState | null;
   /** New frames, packed. */
   frames: Uint8Array;
   /** The words of the last frames of the batch. */

@@ -1,7 +1,7 @@
 // The clock of the simulation. It advances the bench in slices that never take longer
 // than a budget, and hands the page one snapshot per drawn picture.
 
-import { CHAIN, type Address, type Command, type Report, type Snapshot, type Value } from './api';
+import { CHAIN, type Address, type Command, type Input, type Report, type Snapshot, type Value } from './api';
 import { FRAME_BYTES } from './packed';
 import { Replay } from './replay';
 import type { World } from './world';
@@ -22,6 +22,8 @@ const MOST_UNDRAWN = 2;
 const WITH_WORDS = 48;
 /** Milliseconds between two readings of the watched objects. */
 const WATCH_PERIOD = 200;
+/** Inputs that change what is on the bus. */
+const TELLING: ReadonlySet<Input['op']> = new Set<Input['op']>(['add', 'remove', 'lesson', 'leave']);
 /** Farthest that one step goes in search of a frame, in microseconds. */
 const FARTHEST = 60_000_000;
 
@@ -60,7 +62,9 @@ export class Engine {
         this.isBusy = true;
         const added = await world.act(command.input);
         this.isBusy = false;
-        if (command.input.op === 'add' || command.input.op === 'remove') this.tellDevices();
+        if (TELLING.has(command.input.op)) this.tellDevices();
+        if (command.input.op === 'lesson') this.replay = null;
+        this.pauseAtGoal();
         if (command.ticket !== undefined) this.report({ op: 'added', ticket: command.ticket, added });
         break;
       }
@@ -81,11 +85,13 @@ export class Engine {
         break;
       case 'step':
         world.advance(command.frames ? FARTHEST : command.micros, command.frames || MOST_FRAMES);
+        this.pauseAtGoal();
         break;
       case 'back':
         this.until = null;
         world.drain();
         world.rewind(Math.max(0, command.to));
+        world.reachedGoal();
         this.tellDevices();
         this.report({ op: 'rewound', to: world.bus.now() });
         break;
@@ -111,6 +117,9 @@ export class Engine {
       case 'layout':
         this.report({ op: 'laid', ticket: command.ticket, layout: world.bus.layout(command.frame) });
         return;
+      case 'judge':
+        this.report({ op: 'judged', ticket: command.ticket, judgement: world.judge(command.answer, command.given) });
+        return;
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
         break;
@@ -135,7 +144,7 @@ export class Engine {
   }
 
   private tellDevices(): void {
-    this.report({ op: 'devices', devices: this.world.infos() });
+    this.report({ op: 'devices', devices: this.world.infos(), lesson: this.world.lesson });
     this.watchedAgain = true;
   }
 
@@ -161,6 +170,8 @@ export class Engine {
         this.until = null;
         // Inputs of that very moment are part of it.
         world.advance(0, MOST_FRAMES);
+        // Goals of a run that is made again were reached before.
+        world.reachedGoal();
         this.tellDevices();
       }
       this.changed = true;
@@ -182,10 +193,18 @@ export class Engine {
       const due = this.replay?.due ?? Infinity;
       const passed = world.advance(Math.max(0, Math.min(left, SLICE, due - world.bus.now())), 256);
       left -= passed;
+      if (this.until === null && this.pauseAtGoal()) break;
       if (this.replay && world.bus.now() >= due) this.sendNext(this.replay);
       else if (passed <= 0 && world.done === before) break;
     }
     if (world.devices.length !== known) this.tellDevices();
+  }
+
+  /** A checkpoint that is reached stops time: there is something to read. */
+  private pauseAtGoal(): boolean {
+    const isReached = this.world.reachedGoal();
+    if (isReached) this.running = false;
+    return isReached;
   }
 
   /** The next frame of a log; what it answers is the bench's business. */
@@ -252,6 +271,7 @@ export class Engine {
           rate: this.running ? this.rate : 0,
           nodes,
           line: bus.line(),
+          lesson: world.lessonState(),
           frames,
           words,
           journal: this.journal(),

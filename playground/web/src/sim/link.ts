@@ -6,7 +6,7 @@ import * as state from '../state';
 import { T } from '../texts';
 import { frameArrived, tick } from './client';
 import { forgetWords, noteWords } from './words';
-import type { Added, Address, Command, DeviceInfo, Entry, Input, Report, Snapshot, Value } from './api';
+import type { Added, Address, Command, DeviceInfo, Entry, Input, Judgement, Lesson, Report, Snapshot, Value } from './api';
 import { DISTURBED, FRAME_BYTES, unpack } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
@@ -20,6 +20,7 @@ const layouts = new Map<number, (layout: Uint32Array) => void>();
 const readings = new Map<number, (values: Value[]) => void>();
 const stills = new Map<number, (entries: Entry[] | null) => void>();
 const exports = new Map<number, (text: string | null) => void>();
+const judgements = new Map<number, (judgement: Judgement | null) => void>();
 const additions = new Map<number, (added: Added) => void>();
 /** Who wants to see the frames as they come. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
@@ -46,12 +47,21 @@ export function act(input: Input): void {
   send({ op: 'do', input });
 }
 
-/** Puts a device on the bus; what was there stays when it cannot run. */
-export function add(input: Extract<Input, { op: 'add' }>): Promise<Added> {
+/** Puts a device on the bus, begins a lesson, plays a script; what was there stays when it cannot be. */
+export function add(input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added> {
   return new Promise((resolve) => {
     ticket += 1;
     additions.set(ticket, resolve);
     send({ op: 'do', input, ticket });
+  });
+}
+
+/** What is right about an answer to the question of a lesson; null where it is no frame. */
+export function judge(answer: string, given: string): Promise<Judgement | null> {
+  return new Promise((resolve) => {
+    ticket += 1;
+    judgements.set(ticket, resolve);
+    send({ op: 'judge', ticket, answer, given });
   });
 }
 
@@ -124,7 +134,11 @@ function receive(report: Report): void {
       additions.delete(report.ticket);
       break;
     case 'devices':
-      devices(report.devices);
+      devices(report.devices, report.lesson);
+      break;
+    case 'judged':
+      judgements.get(report.ticket)?.(report.judgement);
+      judgements.delete(report.ticket);
       break;
     case 'rewound':
       rewound(report.to);
@@ -159,9 +173,11 @@ function receive(report: Report): void {
   }
 }
 
-function devices(list: DeviceInfo[]): void {
+function devices(list: DeviceInfo[], lesson: Lesson | null): void {
   batch(() => {
     state.devices.value = list;
+    state.lesson.value = lesson;
+    if (!lesson) state.lessonState.value = null;
     if (state.selectedNode.value >= list.length) select(Math.max(0, list.length - 1));
     state.selected.value = null;
     state.values.value = new Map();
@@ -199,7 +215,7 @@ function rewound(to: number): void {
   });
 }
 
-function dropFrames(): void {
+export function dropFrames(): void {
   state.ring.clear();
   batch(() => {
     state.chosenFrame.value = null;
@@ -219,6 +235,7 @@ function apply(snapshot: Snapshot): void {
     state.toSend.value = snapshot.toSend;
     state.statuses.value = snapshot.nodes;
     state.line.value = snapshot.line;
+    state.lessonState.value = snapshot.lesson;
     state.chain.value = snapshot.chain;
     if (snapshot.values) watchedValues(snapshot);
     if (snapshot.unsaved) state.unsaved.value = new Set(snapshot.unsaved);
@@ -279,8 +296,10 @@ function crashed(message: string): void {
   for (const resolve of readings.values()) resolve([]);
   readings.clear();
   for (const resolve of [...stills.values(), ...exports.values()]) resolve(null);
+  for (const resolve of judgements.values()) resolve(null);
   stills.clear();
   exports.clear();
+  judgements.clear();
   for (const resolve of additions.values()) resolve({ node: null, diagnostics: [] });
   additions.clear();
   if (crashes > MOST_CRASHES) {

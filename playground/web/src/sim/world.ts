@@ -1,15 +1,17 @@
 // The simulated bench and its journal. What happened is told by the journal alone, so the
 // bench can be made again up to any moment: for a step back, from a link, after a reload.
 
-import type { Added, Builtin, DeviceInfo, Diagnostic, Entry, Input, Source } from './api';
-import type { Bus as Simulation } from '../wasm/od_playground';
+import type { Added, Builtin, DeviceInfo, Diagnostic, Entry, Input, Judgement, Lesson, LessonState, Source } from './api';
+import type { Bus as Simulation, LessonResult } from '../wasm/od_playground';
 
-/** One of the two WebAssembly modules; the small one knows no EDS texts. */
+/** One of the two WebAssembly modules; the small one knows no EDS texts and no lessons. */
 export interface Module {
   Bus: new (micros?: number) => Simulation;
   builtinDevices(): Builtin[];
-  /** Can it run an EDS text? */
+  /** Can it run an EDS text, and a lesson? */
   whole: boolean;
+  parseLesson?(text: string): LessonResult;
+  judgeAnswer?(answer: string, given: string): Judgement;
 }
 
 export interface Modules {
@@ -20,11 +22,18 @@ export interface Modules {
 /** Frames in one replayed portion: they are thrown away in between. */
 const PORTION = 5000;
 
-const needsWhole = (input: Input): boolean => input.op === 'add' && input.source.kind === 'eds';
+const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
+const needsWhole = (input: Input): boolean => WHOLE.has(input.op) || (input.op === 'add' && input.source.kind === 'eds');
+
+const fault = (error: unknown): Diagnostic => ({
+  code: '', severity: 'error', message: error instanceof Error ? error.message : String(error), help: '', line: 0, column: 0, object: '',
+});
 
 export class World {
   bus: Simulation;
   devices: { source: Source; nodeId: number; name: string }[] = [];
+  /** The lesson that is taken. */
+  lesson: Lesson | null = null;
   journal: Entry[] = [];
   /** Entries that have taken effect; those behind are still to come. */
   done = 0;
@@ -52,13 +61,16 @@ export class World {
   /** Something happens now. What was still to come of a run before does not happen any more. */
   async act(input: Input): Promise<Added> {
     if (needsWhole(input)) await this.enlarge();
+    if (input.op === 'lesson') return this.begins(input);
     if (this.done < this.journal.length) {
       this.journal.length = this.done;
       this.told = Math.min(this.told, this.done);
     }
+    // Time passes in a script.
+    const at = this.bus.now();
     const added = this.apply(input);
     if (input.op !== 'add' || added.node !== null) {
-      this.journal.push({ at: this.bus.now(), input });
+      this.journal.push({ at, input });
       this.done += 1;
     }
     return added;
@@ -91,6 +103,7 @@ export class World {
     this.bus.free();
     this.bus = fresh;
     this.devices = [];
+    this.lesson = null;
     this.done = 0;
   }
 
@@ -212,8 +225,78 @@ export class World {
       case 'deliver':
         bus.deliver(input.node, input.id, input.data);
         break;
+      case 'lesson':
+        return this.startLesson(input.text);
+      case 'leave':
+        bus.endLesson();
+        this.lesson = null;
+        break;
+      case 'script':
+        try {
+          bus.runScript(input.text);
+        } catch (error) {
+          return { node: null, diagnostics: [fault(error)] };
+        }
+        break;
     }
     return { node: null, diagnostics: [] };
+  }
+
+  /** A lesson begins at zero, and what was before is gone; a wrong one leaves all as it is. */
+  private begins(input: Extract<Input, { op: 'lesson' }>): Added {
+    const before = { bus: this.bus, devices: this.devices, lesson: this.lesson };
+    this.bus = this.fresh();
+    const added = this.startLesson(input.text);
+    if (added.node === null) {
+      this.bus.free();
+      Object.assign(this, before);
+      return added;
+    }
+    before.bus.free();
+    this.unseen = new Uint8Array(0);
+    this.journal = [{ at: 0, input }];
+    this.done = 1;
+    this.told = 0;
+    return added;
+  }
+
+  private startLesson(text: string): Added {
+    const { lesson, problems } = this.module.parseLesson!(text);
+    if (!lesson) {
+      return { node: null, diagnostics: problems.map((one) => ({ ...one, code: '', severity: 'error' as const, object: '' })) };
+    }
+    try {
+      this.bus.startLesson(text);
+    } catch (error) {
+      return { node: null, diagnostics: [fault(error)] };
+    }
+    this.lesson = lesson;
+    const known = this.module.builtinDevices();
+    this.devices = Array.from({ length: this.bus.deviceCount() }, (_, number) => {
+      const title = this.bus.title(number);
+      const name = known.find((one) => one.title === title)?.name ?? title;
+      return { source: { kind: 'builtin' as const, name }, nodeId: this.bus.nodeId(number), name };
+    });
+    return { node: 0, diagnostics: [] };
+  }
+
+  lessonState(): LessonState | null {
+    return this.lesson ? this.bus.lesson() : null;
+  }
+
+  /** Was a checkpoint reached since the last call? */
+  reachedGoal(): boolean {
+    // Looking comes first: a switch that was moved counts, too.
+    return this.lessonState() !== null && this.bus.lessonEvents().length > 0;
+  }
+
+  /** What is right about an answer; null where it is no frame. */
+  judge(answer: string, given: string): Judgement | null {
+    try {
+      return this.module.judgeAnswer?.(answer, given) ?? null;
+    } catch {
+      return null;
+    }
   }
 
   private setSwitches({ node, id, dip }: Extract<Input, { op: 'switches' }>): void {
@@ -237,8 +320,7 @@ export class World {
         if (node !== null) name = this.bus.title(node);
       }
     } catch (error) {
-      const message = error instanceof Error ? error.message : String(error);
-      diagnostics = [{ code: '', severity: 'error', message, help: '', line: 0, column: 0, object: '' }];
+      diagnostics = [fault(error)];
     }
     if (node !== null) this.devices[node] = { source, nodeId, name };
     // The further channels of a redundant encoder are nodes of their own.

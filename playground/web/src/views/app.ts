@@ -17,10 +17,10 @@ import './device-dialog';
 import './help';
 import './offer';
 
-const TABS = ['encoder', 'console', 'objects'] as const satisfies state.Tab[];
+const TABS = ['encoder', 'console', 'objects', 'lesson'] as const satisfies state.Tab[];
 
 /** The parts of the page, in the order in which F6 goes through them. */
-const PARTS = ['.dial', 'od-encoder .switch', '.object-rows', '.frames', '#raw-frame', '.topbar .device-button'];
+const PARTS = ['.dial', 'od-encoder .switch', '.object-rows', '.lesson', '.frames', '#raw-frame', '.topbar .device-button'];
 
 class App extends View {
   static override properties = { isDropping: { state: true } };
@@ -44,6 +44,10 @@ class App extends View {
       event.preventDefault();
       this.isDropping = false;
       void openFile(file, state.nodeId.value, state.deviceDialog.value ?? state.selectedNode.value);
+    });
+    // Most visits are no lesson.
+    effect(() => {
+      if (state.lesson.value) void import('./lesson');
     });
     effect(() => {
       const { value } = state.toast;
@@ -85,10 +89,17 @@ class App extends View {
     return html`
       <od-topbar></od-topbar>
       
-      <main class="bench" data-tab=${tab}>
+      <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">
           <od-encoder class="panel" data-panel="encoder"></od-encoder>
+          ${state.lesson.value
+            ? html`<div class="side-switch segmented" role="group" aria-label=${T.lessons.beside}>
+                <button class="small" aria-pressed=${tab !== 'objects'} @click=${() => (state.tab.value = 'lesson')}>${T.app.tabs.lesson}</button>
+                <button class="small" aria-pressed=${tab === 'objects'} @click=${() => (state.tab.value = 'objects')}>${T.app.tabs.objects}</button>
+              </div>
+              <od-lesson class="panel" data-panel="lesson"></od-lesson>`
+            : nothing}
           <od-objects class="panel" data-panel="objects"></od-objects>
         </div>
         <div class="panel bus" data-panel="console">
@@ -97,7 +108,7 @@ class App extends View {
         </div>
       </main>
       <nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
-        ${TABS.map(
+        ${TABS.filter((one) => one !== 'lesson' || state.lesson.value).map(
           (one) => html`<button role="tab" aria-selected=${one === tab} @click=${() => (state.tab.value = one)}>
             ${icons[one]}<span>${T.app.tabs[one]}</span>
           </button>`,
@@ -107,6 +118,7 @@ class App extends View {
       <od-help></od-help>
       <od-share></od-share>
       <od-mapping></od-mapping>
+      <od-lessons></od-lessons>
       <od-offers></od-offers>
       <div class="toasts" role="status" aria-live="polite">
         ${state.toast.value

@@ -20,6 +20,10 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     state.toast.value = { text: T.files.tooLarge(file.name), tone: 'error' };
     return false;
   }
+  if (/\.(md|markdown)$/i.test(file.name)) {
+    const { openFile: openLesson } = await import('../lessons/open');
+    return openLesson(file);
+  }
   if (/\.json$/i.test(file.name)) {
     const share = await import('../share/make');
     return share.openText(await file.text(), file.name);

@@ -20,6 +20,8 @@ export const icons = {
   filter: icon(svg`<path d="M3.5 4.5h13L11.5 10.6v4.6l-3 1.6v-6.2z"/>`),
   fold: icon(svg`<path d="M4 5h12M7 10h9M7 15h9M4 8.2v7.4"/>`),
   mark: icon(svg`<path d="M6 3.4h8v13.2l-4-3.4-4 3.4z"/>`),
+  lesson: icon(svg`<path d="M10 5.2C8.4 4 6 3.6 3.4 3.8v11.4c2.6-.2 5 .2 6.6 1.4 1.6-1.2 4-1.6 6.6-1.4V3.8C14 3.6 11.6 4 10 5.2zM10 5.2v11.4"/>`),
+  tick: icon(svg`<path d="m4.4 10.6 3.8 3.8 7.4-8.4" stroke-width="2"/>`),
   sun: icon(svg`<circle cx="10" cy="10" r="3.2"/><path d="M10 2.6v1.6M10 15.8v1.6M2.6 10h1.6M15.8 10h1.6M4.8 4.8l1.1 1.1M14.1 14.1l1.1 1.1M4.8 15.2l1.1-1.1M14.1 5.9l1.1-1.1"/>`),
   moon: icon(svg`<path d="M16.2 11.8A6.6 6.6 0 0 1 8.2 3.8a6.6 6.6 0 1 0 8 8z"/>`),
   chevron: icon(svg`<path d="m6 8 4 4 4-4"/>`),

@@ -13,6 +13,9 @@ const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
 /** The dialog comes when it is asked for. */
 const openShare = (): void => void import('./share').then(() => (state.shareDialog.value = true));
 
+/** Lessons come when somebody wants to learn. */
+const openLessons = (): void => void import('./lessons').then(() => (state.lessonDialog.value = true));
+
 /** From a frame to a tab of its own, with the bench as it stands. */
 async function openFull(event: Event): Promise<void> {
   event.preventDefault();
@@ -89,6 +92,7 @@ class Topbar extends View {
           ${icons.chevron}
         </label>
       </div>
+      <button class="learn-button" aria-haspopup="dialog" title=${T.lessons.title} @click=${openLessons}>${icons.lesson}<span>${T.lessons.learn}</span></button>
       <button class="icon-button share-button" aria-label=${t.share} title=${t.share} aria-haspopup="dialog" @click=${openShare}>${icons.share}</button>
       <a class="icon-button full-button" href=${location.pathname} target="_blank" aria-label=${T.share.full} title=${T.share.full} @click=${openFull}>${icons.open}</a>
       <button class="icon-button help-button" aria-label=${t.keys} title=${`${t.keys} (?)`} @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>

@@ -1,0 +1,76 @@
+// A lesson by its name, from an address, or from a file.
+
+import { openLesson } from '../actions';
+import * as state from '../state';
+import { T } from '../texts';
+
+/** One of the lessons that come with odkit. */
+export interface Listed {
+  name: string;
+  title: string;
+  summary: string;
+  level: number;
+  minutes: number;
+}
+
+/** Longest text that is worth a try, in bytes. */
+const LONGEST = 1_000_000;
+
+let list: Promise<Listed[]> | null = null;
+
+/** The lessons that come with odkit; they are fetched once. */
+export function lessons(): Promise<Listed[]> {
+  list ??= load('lessons.json').then((text) => JSON.parse(text) as Listed[]);
+  // Another try may find the network again.
+  list.catch(() => (list = null));
+  return list;
+}
+
+async function load(address: string): Promise<string> {
+  const answer = await fetch(new URL(address, new URL('./', location.href)));
+  if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
+  const body = await answer.blob();
+  if (body.size > LONGEST) throw new Error(T.lessons.tooLarge);
+  return body.text();
+}
+
+function unreachable(name: string, error: unknown): false {
+  state.toast.value = { text: T.lessons.unreachable(name, error instanceof Error ? error.message : String(error)), tone: 'error' };
+  return false;
+}
+
+/** Opens one of ours, or the text at an address; false where that does not work. */
+export async function openNamed(name: string): Promise<boolean> {
+  try {
+    const isOurs = (await lessons().catch(() => [])).some((one) => one.name === name);
+    const text = await load(isOurs ? `lesson-${name}.md` : name);
+    if (!(await tried(name, text))) return false;
+    if (isOurs) history.replaceState(null, '', `${location.pathname}#lesson=${name}`);
+    return true;
+  } catch (error) {
+    return unreachable(name, error);
+  }
+}
+
+/** Opens a file of the learner's own; false where that does not work. */
+export async function openFile(file: File): Promise<boolean> {
+  if (file.size > LONGEST) return unreachable(file.name, T.lessons.tooLarge);
+  const isOpen = await tried(file.name, await file.text());
+  // No address brings a file back.
+  if (isOpen) history.replaceState(null, '', location.pathname);
+  return isOpen;
+}
+
+let last = '';
+
+/** Begins the lesson of the moment anew. */
+export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, last);
+
+/** A lesson that is wrong is told of where lessons are chosen. */
+async function tried(name: string, text: string): Promise<boolean> {
+  const isOpen = await openLesson(name, text);
+  if (isOpen) last = text;
+  else await import('../views/lessons');
+  state.lessonDialog.value = !isOpen;
+  return isOpen;
+}

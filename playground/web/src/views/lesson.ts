@@ -1,0 +1,113 @@
+// The lesson beside the bench: what to do, what is done and what is missing, hints one by
+// one, and what just happened.
+
+import { html, nothing, type TemplateResult } from 'lit';
+import { keyed } from 'lit/directives/keyed.js';
+import { effect } from '@preact/signals-core';
+import { leaveLesson, playScript, setRunning } from '../actions';
+import { finish } from '../lessons/kept';
+import { again } from '../lessons/open';
+import type { Lesson, LessonState } from '../sim/api';
+import * as state from '../state';
+import { T } from '../texts';
+import { icons } from './icons';
+import { markdown } from './markdown';
+import './quiz';
+import { View } from './view';
+
+type Step = Lesson['steps'][number];
+
+const choose = (): void => void import('./lessons').then(() => (state.lessonDialog.value = true));
+
+class LessonPanel extends View {
+  static override properties = { seen: { state: true }, hints: { state: true } };
+  /** The step that is shown: one that was just done stays until the learner goes on. */
+  declare seen: number;
+  declare hints: number;
+  private unfollow: (() => void) | undefined;
+
+  constructor() {
+    super();
+    this.seen = 0;
+    this.hints = 0;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    this.unfollow = effect(() => {
+      void state.lessonRun.value;
+      this.seen = 0;
+      this.hints = 0;
+    });
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.unfollow?.();
+  }
+
+  private next(step: number): void {
+    this.seen = step;
+    this.hints = 0;
+    setRunning(true);
+    void this.updateComplete.then(() => {
+      const text = this.querySelector<HTMLElement>('.lesson');
+      text?.scrollTo(0, 0);
+      text?.focus();
+    });
+  }
+
+  private done(step: Step, number: number, isLast: boolean): TemplateResult {
+    const t = T.lessons;
+    return html`<div class="happened" role="status"><h4>${icons.tick} ${t.happened}</h4><div class="prose">${markdown(step.happened)}</div></div>
+      ${isLast
+        ? html`<p class="lesson-end" role="status">${t.finished}</p>
+          <div class="button-row"><button class="primary" @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
+        : html`<button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>`}`;
+  }
+
+  private open(step: Step, progress: LessonState): TemplateResult {
+    const t = T.lessons;
+    return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz}></od-quiz>` : nothing}
+      <ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
+        (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
+      )}</ul>
+      ${step.hints.slice(0, this.hints).map((hint) => html`<div class="hint prose">${markdown(hint)}</div>`)}
+      ${this.hints < step.hints.length
+        ? html`<button class="small" @click=${() => (this.hints += 1)}>${this.hints ? t.nextHint : t.hint}</button>`
+        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void playScript(step.solution)}>${t.show}</button>` : nothing}`;
+  }
+
+  protected override render() {
+    const lesson = state.lesson.value;
+    const progress = state.lessonState.value;
+    if (!lesson || !progress) return nothing;
+    const t = T.lessons;
+    const all = lesson.steps.length;
+    // A step back in time may lead to an earlier one.
+    const shown = Math.min(this.seen, progress.step, all - 1);
+    const step = lesson.steps[shown]!;
+    if (progress.done) finish(state.lessonRun.value.name);
+    return html`
+      <header class="panel-head">
+        <h2>${lesson.title}</h2>
+        <div class="spacer"></div>
+        <button class="icon-button" aria-label=${t.other} title=${t.other} aria-haspopup="dialog" @click=${choose}>${icons.lesson}</button>
+        <button class="icon-button" aria-label=${t.leave} title=${t.leave} @click=${leaveLesson}>${icons.close}</button>
+      </header>
+      <div class="lesson scroll" tabindex="0" role="region" aria-label=${lesson.title} lang=${lesson.language}>
+        <div class="lesson-steps" role="img" aria-label=${t.step(shown + 1, all)}>${lesson.steps.map((_, i) => html`<i data-state=${i < progress.step ? 'done' : i === shown ? 'now' : ''}></i>`)}</div>
+        ${shown === 0 && lesson.intro ? html`<div class="prose">${markdown(lesson.intro)}</div>` : nothing}
+        ${keyed(
+          `${state.lessonRun.value.count}/${shown}`,
+          html`<section class="lesson-step">
+            <h3><span class="muted num">${shown + 1}</span> ${step.title}</h3>
+            <div class="prose">${markdown(step.text)}</div>
+            ${progress.step > shown ? this.done(step, shown, shown === all - 1) : this.open(step, progress)}
+          </section>`,
+        )}
+      </div>`;
+  }
+}
+
+customElements.define('od-lesson', LessonPanel);

@@ -1,0 +1,82 @@
+// The list of lessons, and one's own from a file.
+
+import { html, nothing, type PropertyValues } from 'lit';
+import { effect } from '@preact/signals-core';
+import { finished } from '../lessons/kept';
+import { lessons, openFile, openNamed, type Listed } from '../lessons/open';
+import * as state from '../state';
+import { T } from '../texts';
+import { icons } from './icons';
+import { View } from './view';
+
+class Lessons extends View {
+  static override properties = { list: { state: true } };
+  /** Null: it could not be loaded. */
+  declare list: Listed[] | null;
+  private unopen: (() => void) | undefined;
+
+  constructor() {
+    super();
+    this.list = [];
+  }
+
+  protected override firstUpdated(changed: PropertyValues): void {
+    super.firstUpdated(changed);
+    const dialog = this.querySelector('dialog')!;
+    this.unopen = effect(() => {
+      if (state.lessonDialog.value && !dialog.open) {
+        dialog.showModal();
+        lessons().then((list) => (this.list = list), () => (this.list = null));
+        this.requestUpdate();
+      } else if (!state.lessonDialog.value && dialog.open) {
+        dialog.close();
+      }
+    });
+  }
+
+  override disconnectedCallback(): void {
+    super.disconnectedCallback();
+    this.unopen?.();
+  }
+
+  private failed() {
+    const failed = state.lessonFailed.value;
+    if (!failed) return nothing;
+    return html`<section class="faults" role="alert">
+      <header><h3>${T.lessons.failed(failed.name, failed.problems.length)}</h3></header>
+      <ol class="scroll" tabindex="0" aria-label=${T.lessons.failed(failed.name, failed.problems.length)}>${failed.problems.map((one) => html`<li data-severity="error">
+        <span class="where">${one.line ? T.lessons.line(one.line) : nothing}</span>
+        <span>${one.message}${one.help ? html`<span class="help muted">${one.help}</span>` : nothing}</span></li>`)}</ol>
+    </section>`;
+  }
+
+  protected override render() {
+    const t = T.lessons;
+    const done = finished();
+    const close = (): void => {
+      state.lessonDialog.value = false;
+      state.lessonFailed.value = null;
+    };
+    return html`<dialog class="dialog wide" aria-labelledby="lessons-title" @close=${close} @click=${(event: Event) => event.target === event.currentTarget && close()}>
+      <div class="dialog-body">
+        <header class="dialog-head"><h2 id="lessons-title">${t.title}</h2><button class="icon-button" aria-label=${T.close} @click=${close}>${icons.close}</button></header>
+        ${this.failed()}
+        ${this.list === null ? html`<p class="note" role="alert">${t.noList}</p>` : nothing}
+        <ol class="lesson-list">${(this.list ?? []).map((one) => html`<li><button class="card" @click=${() => void openNamed(one.name)}>
+          <strong>${one.title}${done.has(one.name) ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>` : nothing}</strong>
+          ${one.summary ? html`<span>${one.summary}</span>` : nothing}
+          <span class="muted">${t.about(t.levels[one.level] ?? '', one.minutes)}</span></button></li>`)}</ol>
+        <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
+          <input class="sr" type="file" accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
+            const input = event.target as HTMLInputElement;
+            const file = input.files?.[0];
+            if (file) void openFile(file);
+            // The same file can be chosen again when it was mended.
+            input.value = '';
+          }}></label>
+      </div>
+    </dialog>`;
+  }
+}
+
+customElements.define('od-lessons', Lessons);

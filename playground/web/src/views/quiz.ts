@@ -1,0 +1,56 @@
+// Predict a frame, then see it.
+
+import { html, nothing } from 'lit';
+import type { Judgement, Lesson } from '../sim/api';
+import { judge } from '../sim/link';
+import { T } from '../texts';
+import { markdown } from './markdown';
+import { View } from './view';
+
+type Asked = NonNullable<Lesson['steps'][number]['quiz']>;
+
+/** What to look at again. */
+function wrongParts(found: Judgement): string {
+  const t = T.lessons;
+  const bytes = found.wrongBytes.map((at) => at + 1).join(', ');
+  return [found.wrongIdentifier ? t.wrongId : '', found.wrongLength ? t.wrongLength : '', bytes ? t.wrongBytes(bytes) : ''].filter(Boolean).join(t.and);
+}
+
+class Quiz extends View {
+  static override properties = { quiz: { attribute: false }, said: { state: true }, isTold: { state: true } };
+  declare quiz: Asked;
+  declare said: string;
+  declare isTold: boolean;
+
+  constructor() {
+    super();
+    this.said = '';
+    this.isTold = false;
+  }
+
+  private async check(event: Event): Promise<void> {
+    event.preventDefault();
+    const given = this.querySelector('input')!.value.trim();
+    if (!given) return;
+    const found = await judge(this.quiz.answer, given);
+    this.isTold ||= found?.right ?? false;
+    this.said = !found ? T.lessons.noFrame : found.right ? T.lessons.right : T.lessons.wrong(wrongParts(found));
+  }
+
+  protected override render() {
+    const t = T.lessons;
+    return html`<form class="quiz" @submit=${(event: Event) => void this.check(event)}>
+      <h4>${t.predict}</h4>
+      <div class="prose">${markdown(this.quiz.question)}</div>
+      ${this.isTold
+        ? nothing
+        : html`<div class="button-row"><input class="mono" aria-label=${t.answer} placeholder=${t.answerHint} autocomplete="off" spellcheck="false">
+          <button class="small" type="submit">${t.check}</button>
+          <button class="small" type="button" @click=${() => (this.isTold = true)}>${t.reveal}</button></div>`}
+      <p role="status">${this.said}</p>
+      ${this.isTold ? html`<p><code>${this.quiz.answer}</code></p><div class="prose">${markdown(this.quiz.reveal)}</div>` : nothing}
+    </form>`;
+  }
+}
+
+customElements.define('od-quiz', Quiz);

@@ -1,0 +1,221 @@
+// Lessons at the page: taken by clicks, keys and the send line, and a trainer's own files.
+import assert from 'node:assert/strict';
+import { readdir, readFile } from 'node:fs/promises';
+import { after, before, test } from 'node:test';
+import { launch, open, URL_OF_PAGE } from './harness.mjs';
+import { booted, nmt, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+
+const folder = new URL('../../playground/lessons/', import.meta.url);
+const files = await readdir(folder);
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser?.close());
+
+const NMT = { start: 'Start', stop: 'Stop', preop: 'Pre-op', reset: 'Reset node' };
+const FAULTS = { 'position-error': 'Sensor position' };
+const millis = (text) => Number.parseFloat(text) * (text.endsWith('ms') ? 1 : 1000);
+const part = (page, name) => page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name }).click();
+const power = (page) => page.getByRole('switch', { name: 'Power' }).click();
+const devices = (page) => page.getByRole('group', { name: 'Devices on the bus' }).getByRole('button', { name: /node \d/ });
+
+/** Does one line of a solution, as a person does it. */
+async function act(page, line, labels) {
+  const [word, ...rest] = line.split(/\s+/);
+  switch (word) {
+    case 'power':
+      await power(page);
+      if (rest[0] !== 'cycle') return;
+      await page.waitForTimeout(300);
+      return power(page);
+    case 'nmt':
+      if (rest[1]) return sendRaw(page, `000#${{ start: '01', stop: '02', reset: '81' }[rest[0]]} ${rest[1] === 'all' ? '00' : rest[1].padStart(2, '0')}`);
+      return nmt(page, NMT[rest[0]]);
+    case 'sdo': {
+      const [, kind, object, value] = /^sdo (read|write) (\S+?)(?: = (\S+))?(?: aborts .*)?$/.exec(line);
+      await sdo(page, object.replace('h', ''), kind === 'write' ? value : undefined);
+      return until(`an answer to ${line}`, async () => /written|=|abort/i.test(await sdoNote(page)));
+    }
+    case 'fault':
+      await part(page, 'Hardware');
+      return page.getByRole('button', { name: FAULTS[rest[0]] }).click();
+    case 'shaft': {
+      await part(page, 'Shaft');
+      const shaft = page.getByRole('slider', { name: 'Shaft' });
+      for (let degrees = 0; degrees < Number(rest[1]) * 360; degrees += 5) await shaft.press('ArrowRight');
+      return;
+    }
+    case 'use':
+      return devices(page).nth(labels.indexOf(rest[0])).click();
+    case 'switch':
+      await part(page, 'Hardware');
+      for (const [i, bit] of [4, 2, 1].entries()) {
+        const dip = page.getByRole('switch', { name: `DIP ${i + 1}` });
+        if (((await dip.getAttribute('aria-checked')) === 'true') !== ((Number(rest[1]) & bit) !== 0)) await dip.click();
+      }
+      return;
+    case 'line':
+      await part(page, 'Hardware');
+      return page.getByRole('button', { name: `${rest[1]} × 120 Ω` }).click();
+    case 'wait':
+      return page.waitForTimeout(millis(rest[0]));
+    default:
+      return sendRaw(page, line);
+  }
+}
+
+for (const name of ['boot-up-and-heartbeat', 'nmt', 'sdo', 'scaling', 'find-silent-node', 'find-terminator']) {
+  test(`the lesson ${name} is solved by hand`, async () => {
+    const text = await readFile(new URL(files.find((file) => file.endsWith(`-${name}.md`)), folder), 'utf8');
+    const solutions = [...text.matchAll(/```solution\n([\s\S]*?)```/g)].map(([, lines]) => lines.trim().split('\n'));
+    const labels = [...text.matchAll(/^device .* as (\S+)/gm)].map(([, label]) => label);
+    const { page, faults, close } = await open(browser, { hash: `#lesson=${name}` });
+    const lesson = page.locator('od-lesson');
+    const isDone = async () => (await lesson.locator('.happened').count()) === 1;
+    for (const [i, lines] of solutions.entries()) {
+      await until(`step ${i + 1}`, async () => (await lesson.locator('.lesson-step h3 .num').textContent()) === String(i + 1), { within: 15_000 });
+      assert.equal(await isDone(), false, `step ${i + 1} is done before anything was done`);
+      for (const line of lines) if (!(await isDone())) await act(page, line.trim(), labels);
+      await until(`step ${i + 1} of ${name} to be done`, isDone, { within: 15_000 });
+      if (i + 1 < solutions.length) await lesson.getByRole('button', { name: 'Go on' }).click();
+    }
+    await lesson.getByText('You did it').waitFor();
+    assert.deepEqual(faults, [], 'the page complained');
+    await close();
+  });
+}
+
+test('a lesson is chosen from the list, asks, gives hints one by one, stops time at a goal, and is marked when done', async () => {
+  const { page, faults, close } = await open(browser);
+  await booted(page);
+  await page.getByRole('button', { name: 'Learn' }).click();
+  const list = page.getByRole('dialog', { name: 'Lessons' });
+  await until('all lessons', async () => (await list.getByRole('listitem').count()) === files.length);
+  await list.getByRole('button', { name: /^Find the fault: now and then/ }).click();
+  const lesson = page.locator('od-lesson');
+  await lesson.getByRole('heading', { level: 3 }).waitFor();
+  assert.match(page.url(), /#lesson=find-terminator$/);
+
+  await lesson.getByRole('button', { name: 'Other lessons' }).click();
+  await list.getByRole('button', { name: /^Boot-up and heartbeat/ }).click();
+  await lesson.getByRole('heading', { name: 'Boot-up and heartbeat' }).waitFor();
+  const answer = lesson.getByRole('textbox', { name: 'Your frame' });
+  await answer.fill('704#00');
+  await answer.press('Enter');
+  await lesson.getByText('Not quite: look at the identifier again.').waitFor();
+  await answer.fill('705#00');
+  await answer.press('Enter');
+  await lesson.getByText('That is it.').waitFor();
+
+  await lesson.getByRole('button', { name: 'A hint' }).click();
+  assert.equal(await lesson.locator('.hint').count(), 1);
+  await lesson.getByRole('button', { name: 'Another hint' }).click();
+  assert.equal(await lesson.locator('.hint').count(), 2);
+  await power(page);
+  await lesson.getByText('What just happened').waitFor();
+  assert.equal(await page.getByRole('button', { name: 'Run time' }).count(), 1, 'time stands still');
+  const beside = page.getByRole('group', { name: 'Beside the bus' });
+  await beside.getByRole('button', { name: 'Objects' }).click();
+  await page.getByRole('searchbox', { name: 'Search objects' }).waitFor();
+  await beside.getByRole('button', { name: 'Lesson' }).click();
+  await lesson.getByRole('button', { name: 'Go on' }).click();
+  await page.getByRole('button', { name: 'Stop time' }).waitFor();
+
+  // A requirement is ticked as soon as it holds, though others are open.
+  await sdo(page, '1017', '500');
+  await until('two requirements ticked', async () => (await lesson.locator('.checks li[data-done=true]').count()) === 2);
+  assert.equal(await lesson.locator('.happened').count(), 0);
+  await lesson.getByText('What just happened').waitFor();
+
+  // From here on it is shown how: the hints end with that.
+  for (let step = 3; step <= 5; step++) {
+    await lesson.getByRole('button', { name: 'Go on' }).click();
+    while (await lesson.getByRole('button', { name: /hint$/ }).count()) await lesson.getByRole('button', { name: /hint$/ }).click();
+    await lesson.getByRole('button', { name: 'Show me' }).click();
+    await lesson.getByText('What just happened').waitFor();
+  }
+  await lesson.getByText('You did it').waitFor();
+  await lesson.getByRole('button', { name: 'Other lessons' }).last().click();
+  await list.getByRole('button', { name: /^Boot-up and heartbeat.*Done/s }).waitFor();
+  await list.getByRole('button', { name: 'Close' }).click();
+  await lesson.getByRole('button', { name: 'Leave the lesson' }).click();
+  await until('no lesson', async () => (await lesson.count()) === 0);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+const OWN = `+++
+title = "A lesson of my own"
+level = 1
+minutes = 1
++++
+Only for this test.
+
+\`\`\`set-up
+device gxam node 3
+\`\`\`
+
+## Start it
+
+Do it. <b id="markup">Not bold</b>
+
+\`\`\`checkpoint
+state operational -- it runs
+\`\`\`
+
+### Hint
+
+Use the button.
+
+### What just happened
+
+It runs.
+
+\`\`\`solution
+nmt start
+\`\`\`
+`;
+
+test("a trainer's own lesson is opened from a file; a wrong one says in which line, and leaves the bench", async () => {
+  const { page, faults, close } = await open(browser);
+  await booted(page);
+  await page.getByRole('button', { name: 'Learn' }).click();
+  const list = page.getByRole('dialog', { name: 'Lessons' });
+  const give = (name, text) => list.getByLabel('Open a lesson from a file').setInputFiles({ name, mimeType: 'text/markdown', buffer: Buffer.from(text) });
+
+  const bad = OWN.replace('state operational', 'state running');
+  const line = bad.split('\n').findIndex((one) => one.includes('state running')) + 1;
+  await give('bad.md', bad);
+  const faulty = list.getByRole('alert');
+  await faulty.getByText('bad.md cannot be opened').waitFor();
+  await faulty.getByText(`Line ${line}`, { exact: true }).waitFor();
+  assert.match(await faulty.locator('.help').first().textContent(), /operational/, 'it says what to do');
+  assert.equal(await page.locator('od-lesson').count(), 0);
+  assert.match(await devices(page).first().textContent(), /node 1/, 'the bench is as it was');
+
+  await give('device.md', OWN.replace('device gxam', 'device nonsense'));
+  await faulty.getByText('device.md cannot be opened').waitFor();
+
+  await give('own.md', OWN);
+  await page.getByRole('heading', { name: 'A lesson of my own' }).waitFor();
+  assert.match(await devices(page).first().textContent(), /node 3/);
+  assert.equal(await page.locator('#markup').count(), 0, 'what stands in a lesson is text');
+  await nmt(page, 'Start');
+  await page.getByText('You did it').waitFor();
+  await page.getByRole('button', { name: 'Begin again' }).click();
+  await page.getByRole('button', { name: 'A hint' }).waitFor();
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test('a lesson comes from an address; one that is not there leaves a bench to work with', async () => {
+  const context = await browser.newContext({ serviceWorkers: 'block' });
+  const page = await context.newPage();
+  await page.route('**/course/one.md', (route) => route.fulfill({ body: OWN, contentType: 'text/markdown' }));
+  await page.goto(new URL('?lesson=course/one.md', URL_OF_PAGE).href);
+  await page.getByRole('heading', { name: 'A lesson of my own' }).waitFor();
+  await page.goto(new URL('?lesson=course/two.md', URL_OF_PAGE).href);
+  await page.getByText('The lesson course/two.md cannot be opened: 404').waitFor();
+  await booted(page);
+  await context.close();
+});
