@@ -6,7 +6,7 @@ import { launch, open, URL_OF_PAGE } from './harness.mjs';
 import { booted, nmt, sdo, sdoNote, sendRaw, until } from './bench.mjs';
 
 const folder = new URL('../../playground/lessons/', import.meta.url);
-const files = await readdir(folder);
+const files = (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name));
 
 let browser;
 before(async () => (browser = await launch()));
