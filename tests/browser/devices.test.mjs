@@ -164,9 +164,10 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   const [worker] = page.workers();
   await worker.evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
   await until('a word about it', async () => /started again/.test(await page.locator('.toasts').textContent()));
+  // As on a bus: who asks a node before it has booted again gets no answer.
+  await until('two boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
   await sendRaw(page, '601#4000100000000000');
   await row(page, 'an answer after the crash', (one) => one.id === '581');
-  await until('two boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
 });
 
 const overflow = (page) =>

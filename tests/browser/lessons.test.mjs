@@ -64,7 +64,8 @@ async function act(page, line, labels) {
   }
 }
 
-for (const name of ['boot-up-and-heartbeat', 'nmt', 'sdo', 'scaling', 'find-silent-node', 'find-terminator']) {
+const BY_HAND = ['boot-up-and-heartbeat', 'nmt', 'sdo', 'scaling', 'find-silent-node', 'find-terminator'];
+for (const name of BY_HAND) {
   test(`the lesson ${name} is solved by hand`, async () => {
     const text = await readFile(new URL(files.find((file) => file.endsWith(`-${name}.md`)), folder), 'utf8');
     const solutions = [...text.matchAll(/```solution\n([\s\S]*?)```/g)].map(([, lines]) => lines.trim().split('\n'));
@@ -78,6 +79,28 @@ for (const name of ['boot-up-and-heartbeat', 'nmt', 'sdo', 'scaling', 'find-sile
       for (const line of lines) if (!(await isDone())) await act(page, line.trim(), labels);
       await until(`step ${i + 1} of ${name} to be done`, isDone, { within: 15_000 });
       if (i + 1 < solutions.length) await lesson.getByRole('button', { name: 'Go on' }).click();
+    }
+    await lesson.getByText('You did it').waitFor();
+    assert.deepEqual(faults, [], 'the page complained');
+    await close();
+  });
+}
+
+const nameOf = (file) => file.replace(/^\d+-|\.md$/g, '');
+for (const name of files.map(nameOf).filter((name) => !BY_HAND.includes(name))) {
+  test(`the lesson ${name} is gone through by clicks, hints first`, async () => {
+    const file = files.find((file) => nameOf(file) === name);
+    const steps = [...(await readFile(new URL(file, folder), 'utf8')).matchAll(/```solution\n/g)].length;
+    const { page, faults, close } = await open(browser, { hash: `#lesson=${name}` });
+    const lesson = page.locator('od-lesson');
+    for (let step = 1; step <= steps; step++) {
+      await until(`step ${step}`, async () => (await lesson.locator('.lesson-step h3 .num').textContent()) === String(step), { within: 15_000 });
+      assert.equal(await lesson.locator('.happened').count(), 0, `step ${step} is done before anything was done`);
+      const hint = lesson.getByRole('button', { name: /hint$/ });
+      while (await hint.count()) await hint.click();
+      await lesson.getByRole('button', { name: 'Show me' }).click();
+      await until(`step ${step} of ${name} to be done`, async () => (await lesson.locator('.happened').count()) === 1, { within: 15_000 });
+      if (step < steps) await lesson.getByRole('button', { name: 'Go on' }).click();
     }
     await lesson.getByText('You did it').waitFor();
     assert.deepEqual(faults, [], 'the page complained');
