@@ -7,8 +7,8 @@ use od_devices::{DEVICES, DeviceKind};
 use od_model::Kind;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::{Memory, image};
-use od_runtime::wire::nmt::State;
 use od_runtime::{BusEvent, CanId, Device, Frame, Instant, Node, NodeId, Store};
+use od_wire::nmt::State;
 
 /// xorshift64*: the same frames on every run.
 struct Random(u64);

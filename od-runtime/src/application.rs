@@ -2,8 +2,10 @@
 
 use od_model::Address;
 
+use crate::emcy;
 use crate::fifo::Fifo;
-use crate::{AbortCode, Instant, NodeId, Store, emcy};
+use crate::store::Store;
+use od_wire::{AbortCode, Instant, NodeId};
 
 /// What a reset takes back (CiA 301, chapter 7.3.2).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

@@ -1,9 +1,11 @@
 //! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
 use crate::fifo::Fifo;
-use crate::wire;
-use crate::{CobId, ErrorReset, Frame, Instant, Store};
+use crate::profile::ErrorReset;
+use crate::store::Store;
 use od_model::Address;
+
+use od_wire::{CobId, Frame, Instant};
 
 /// Most errors that can be active at once, that can come or go in one call, and that can wait
 /// to be sent.
@@ -58,7 +60,7 @@ const NO_NEWS: Outcome = Outcome {
 #[derive(Debug)]
 pub(crate) struct Producer {
     active: Fifo<Error, ACTIVE>,
-    waiting: Fifo<wire::emcy::Repr, QUEUE>,
+    waiting: Fifo<od_wire::emcy::Repr, QUEUE>,
     blocked_until: Instant,
     /// Bits of 1001h that no EMCY stands for.
     silent: u8,
@@ -81,7 +83,7 @@ impl Producer {
                 register: 0,
                 info: [0; 5],
             }),
-            waiting: Fifo::new(wire::emcy::Repr {
+            waiting: Fifo::new(od_wire::emcy::Repr {
                 code: 0,
                 register: 0,
                 info: [0; 5],
@@ -137,7 +139,7 @@ impl Producer {
         let register = self.show(store);
         let is_last = reset == ErrorReset::EachError || self.active.is_empty();
         if send && (code != 0 || is_last) {
-            self.waiting.push(wire::emcy::Repr {
+            self.waiting.push(od_wire::emcy::Repr {
                 code,
                 register,
                 info,

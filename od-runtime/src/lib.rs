@@ -70,14 +70,11 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
-mod abort;
 mod application;
 mod emcy;
 pub mod encoder;
 mod error_control;
 mod fifo;
-mod frame;
-mod ids;
 mod limits;
 mod lss;
 mod node;
@@ -87,14 +84,12 @@ mod profile;
 mod sdo;
 pub mod storage;
 mod store;
-mod time;
-pub mod wire;
 
-pub use abort::AbortCode;
+// What frames and times of the node's own functions are made of.
+pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
+
 pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use emcy::{Change as ErrorChange, Error};
-pub use frame::{CanId, Frame};
-pub use ids::{CobId, NodeId};
 pub use node::{BusEvent, Event, Node};
 pub use objects::Device;
 pub use profile::{
@@ -102,6 +97,4 @@ pub use profile::{
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,
     StoreProfile,
 };
-pub use sdo::crc16;
 pub use store::{Store, StoreTooSmall, TextTooLong};
-pub use time::{Duration, Instant};

@@ -3,7 +3,7 @@
 use od_model::typed::Scalar;
 use od_model::{Entry, Kind, Literal};
 
-use crate::Store;
+use crate::store::Store;
 
 /// How a value is not one that its object can have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,7 +5,7 @@
 
 use od_model::Address;
 
-use crate::AbortCode;
+use od_wire::AbortCode;
 
 /// What a device does with an SDO download whose length is not the object's.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -3,7 +3,7 @@
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
 use od_model::{Address, Dictionary, Entry, Literal, Missing, Slot};
 
-use crate::{AbortCode, NodeId};
+use od_wire::{AbortCode, NodeId};
 
 /// The slice is shorter than [`Dictionary::store_len`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

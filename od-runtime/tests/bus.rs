@@ -3,10 +3,10 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::wire::nmt::State;
 use od_runtime::{
     BusEvent, BusOffProfile, ErrorProfile, ErrorReset, Event, NoApplication, Notice, Profile,
 };
+use od_wire::nmt::State;
 use support::{Bench, rows, unsigned};
 
 const fn notice(code: u16, register: u8) -> Option<Notice> {

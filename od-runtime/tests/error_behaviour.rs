@@ -2,8 +2,8 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::wire::nmt::State;
 use od_runtime::{Application, Context, Error, ErrorReset, Instant};
+use od_wire::nmt::State;
 use support::{Bench, rows, unsigned};
 
 #[derive(Default)]

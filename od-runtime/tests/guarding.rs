@@ -2,8 +2,8 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::wire::nmt::State;
 use od_runtime::{NoApplication, Profile};
+use od_wire::nmt::State;
 use support::{Bench, rows, unsigned};
 
 /// Node 1 with 100Ch, 100Dh, 1016h of two entries, and 1029h:01 with this value.

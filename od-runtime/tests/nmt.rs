@@ -2,7 +2,7 @@
 
 mod support;
 use od_runtime::Instant;
-use od_runtime::wire::nmt::State;
+use od_wire::nmt::State;
 use support::Bench;
 
 #[test]

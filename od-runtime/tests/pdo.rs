@@ -1,7 +1,7 @@
 //! Process data and SYNC (CiA 301, chapters 7.2.2 and 7.2.5).
 
 mod support;
-use od_runtime::wire::nmt::State;
+use od_wire::nmt::State;
 use support::Bench;
 
 /// Node 1, Operational, TPDO2 and both RPDOs as they are; `setup` is written before the start.

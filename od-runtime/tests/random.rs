@@ -1,7 +1,7 @@
 //! Any frame at any time: no panic, no answer to what is not for us, no value outside its limits.
 
 mod support;
-use od_runtime::wire::nmt::State;
+use od_wire::nmt::State;
 use support::Bench;
 
 /// xorshift64*: the same frames on every run.

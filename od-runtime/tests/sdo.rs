@@ -1,7 +1,7 @@
 //! SDO server (CiA 301, chapter 7.2.4.3).
 
 mod support;
-use od_runtime::crc16;
+use od_wire::sdo::crc16;
 use support::Bench;
 
 fn bench() -> Bench {

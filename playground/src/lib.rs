@@ -35,8 +35,8 @@ use od_devices::sim::{self, VirtualDevice};
 use od_model::Address;
 #[cfg(feature = "eds")]
 use od_model::{Diagnostic, Severity};
-use od_runtime::wire::nmt::State;
 use od_runtime::{Instant, NodeId};
+use od_wire::nmt::State;
 use wasm_bindgen::prelude::*;
 
 #[cfg(feature = "eds")]

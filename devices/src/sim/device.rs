@@ -9,11 +9,11 @@ use od_model::{Address, Dictionary, Entry};
 use od_model::{Diagnostic, Tables, eds};
 use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
-use od_runtime::wire::nmt::State;
 use od_runtime::{
     Application, BusEvent, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
     Reset, Store,
 };
+use od_wire::nmt::State;
 
 use super::eeprom::Eeprom;
 use crate::DeviceKind;

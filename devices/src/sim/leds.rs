@@ -1,7 +1,7 @@
 //! The dual LED of the bus cover (manual 000, chapter 7.3).
 
 use od_runtime::Instant;
-use od_runtime::wire::nmt::State;
+use od_wire::nmt::State;
 
 /// What one die of the LED does.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

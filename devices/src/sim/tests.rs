@@ -4,8 +4,8 @@ use std::prelude::v1::*;
 use std::{format, vec};
 
 use od_model::Address;
-use od_runtime::wire::nmt::State;
 use od_runtime::{Frame, Instant, NodeId};
+use od_wire::nmt::State;
 
 use super::words::Decoder;
 use super::{Bus, EdsOptions, Led, VirtualDevice, candump};

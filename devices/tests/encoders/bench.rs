@@ -3,8 +3,8 @@
 use od_devices::{DeviceKind, find};
 use od_runtime::encoder::{Angle, Encoder};
 use od_runtime::storage::{Memory, image};
-use od_runtime::wire::nmt::State;
 use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+use od_wire::nmt::State;
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// U-05.

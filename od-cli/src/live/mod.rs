@@ -5,8 +5,8 @@ mod slcan;
 use std::time::{Duration, Instant};
 
 use od_model::Address;
-use od_runtime::wire::sdo::{Request, Response};
 use od_runtime::{Frame, NodeId};
+use od_wire::sdo::{Request, Response};
 
 use crate::Failure;
 

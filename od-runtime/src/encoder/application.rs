@@ -7,7 +7,9 @@ use super::faults::Faults;
 use super::power::OPERATING_TIME;
 use super::timer::{EVENT_TIMER, TIMER};
 use super::{Counter, Encoder, EncoderProfile};
-use crate::{AbortCode, Application, Context, Instant, NodeId, Reset, Store};
+use crate::application::{Application, Context, Reset};
+use crate::store::Store;
+use od_wire::{AbortCode, Instant, NodeId};
 
 const POSITION: u16 = 0x6004;
 

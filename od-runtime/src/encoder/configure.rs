@@ -4,7 +4,8 @@ use od_model::{Address, Group};
 
 use super::movement::Rate;
 use super::{Counter, Encoder, Gear, GearKind, RangeRule, Scale, Total};
-use crate::{AbortCode, Store};
+use crate::store::Store;
+use od_wire::AbortCode;
 
 pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 
@@ -167,7 +168,7 @@ impl Encoder {
     }
 
     /// The offset with which the position at this moment is `preset`.
-    pub(super) fn offset_for(&self, now: crate::Instant, preset: u32) -> i64 {
+    pub(super) fn offset_for(&self, now: od_wire::Instant, preset: u32) -> i64 {
         let angle = self.angle(now);
         if !self.profile.signed_offset {
             return self.scale.offset_for(angle, preset).into();

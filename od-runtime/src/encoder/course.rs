@@ -4,7 +4,7 @@
 //! a revolution ([`PER_REVOLUTION`](super::shaft::PER_REVOLUTION)). Whoever turns the shaft by
 //! hand moves it in no time, which is no speed.
 
-use crate::Instant;
+use od_wire::Instant;
 
 /// How many changes of speed are remembered. Who changes it every 10 ms is followed for 640 ms.
 const PIECES: usize = 64;

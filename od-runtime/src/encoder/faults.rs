@@ -3,7 +3,9 @@
 use od_model::Address;
 
 use super::{Appears, EncoderProfile, Fault, Report, Until};
-use crate::{Context, Error, Store};
+use crate::application::Context;
+use crate::emcy::Error;
+use crate::store::Store;
 
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);

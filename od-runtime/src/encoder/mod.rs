@@ -19,7 +19,7 @@ mod timer;
 use od_model::typed::{Ro, Var};
 use od_model::{DataType, Dictionary};
 
-use crate::Instant;
+use od_wire::Instant;
 
 pub use fault::{Appears, Fault, Report, Until};
 use faults::Faults;

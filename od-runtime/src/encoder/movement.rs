@@ -4,7 +4,8 @@ use od_model::Address;
 
 use super::course::FINE;
 use super::{Encoder, Movement, Quantity, Source};
-use crate::{Instant, Store};
+use crate::store::Store;
+use od_wire::Instant;
 
 /// How many movements of a profile are told apart.
 pub(super) const MOVEMENTS: usize = 4;

@@ -5,7 +5,9 @@ use od_model::Address;
 
 use super::faults::Off;
 use super::{Angle, Counter, Encoder, OperatingTime};
-use crate::{Context, Instant, Reset, Store};
+use crate::application::{Context, Reset};
+use crate::store::Store;
+use od_wire::Instant;
 
 pub(super) const OPERATING_TIME: Address = Address::new(0x6508, 0);
 

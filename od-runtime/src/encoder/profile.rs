@@ -3,7 +3,7 @@
 use od_model::Address;
 
 use super::{Fault, Report, Sensor};
-use crate::AbortCode;
+use od_wire::AbortCode;
 
 /// What object 6502h counts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

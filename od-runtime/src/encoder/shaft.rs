@@ -1,7 +1,7 @@
 //! The shaft that the encoder sits on: an angle that is a pure function of time.
 
 use super::course::{Course, Ramp};
-use crate::Instant;
+use od_wire::Instant;
 
 /// Thousandths of a revolution per minute, times microseconds, in one revolution.
 pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;

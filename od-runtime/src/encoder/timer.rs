@@ -3,7 +3,8 @@
 use od_model::Address;
 
 use super::Encoder;
-use crate::{Context, Store};
+use crate::application::Context;
+use crate::store::Store;
 
 pub(super) const TIMER: Address = Address::new(0x6200, 0);
 pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);

@@ -1,6 +1,7 @@
 //! Heartbeat consumer (CiA 301, chapter 7.2.8.2.2; object 1016h).
 
-use crate::{Instant, NodeId, Store};
+use crate::store::Store;
+use od_wire::{Instant, NodeId};
 
 /// How many nodes can be watched; entries of 1016h past that are not.
 const WATCHED: usize = 8;

@@ -1,7 +1,8 @@
 //! Node and life guarding (CiA 301, chapter 7.2.8.2.1; objects 100Ch and 100Dh).
 
-use crate::wire::nmt::State;
-use crate::{Instant, Store};
+use crate::store::Store;
+use od_wire::Instant;
+use od_wire::nmt::State;
 
 /// The slave's side: a toggling answer to each remote frame, and the life time of the master.
 #[derive(Debug)]

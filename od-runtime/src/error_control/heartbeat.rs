@@ -1,6 +1,8 @@
 //! Heartbeat producer (CiA 301, chapter 7.2.8.2.2, object 1017h).
 
-use crate::{Instant, Profile, Store};
+use crate::profile::Profile;
+use crate::store::Store;
+use od_wire::Instant;
 
 /// When the next heartbeat is due.
 #[derive(Clone, Copy, Debug)]

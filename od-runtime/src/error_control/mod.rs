@@ -10,8 +10,10 @@ mod heartbeat;
 
 pub(crate) use heartbeat::Producer;
 
-use crate::wire::nmt::State;
-use crate::{Instant, Profile, Store};
+use crate::profile::Profile;
+use crate::store::Store;
+use od_wire::Instant;
+use od_wire::nmt::State;
 
 /// Is node guarding in force, and heartbeat not?
 ///

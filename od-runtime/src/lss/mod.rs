@@ -4,7 +4,7 @@ mod identify;
 
 use crate::objects::Objects;
 use crate::profile::LssProfile;
-use crate::wire::lss::{Part, Request, Response};
+use od_wire::lss::{Part, Request, Response};
 
 /// The pending node ID of a slave that has none (CiA 305, chapter 6.3.1).
 const UNCONFIGURED: u8 = 0xFF;

@@ -1,12 +1,14 @@
 //! Power-on, the two NMT resets, and how the services get their configuration.
 
 use super::{BusEvent, Core, Event};
+use crate::application::Reset;
 use crate::objects::{Device, Objects, Outbox};
+use crate::profile::{CommunicationReset, LssProfile};
 use crate::storage::image::{self, Loaded};
-use crate::wire::nmt::State;
-use crate::{
-    CobId, CommunicationReset, Frame, Instant, LssProfile, Reset, StoreTooSmall, lss, pdo,
-};
+use crate::store::StoreTooSmall;
+use crate::{lss, pdo};
+use od_wire::nmt::State;
+use od_wire::{CobId, Frame, Instant};
 
 impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     /// See [`Node::power_on`](super::Node::power_on).

@@ -2,9 +2,11 @@
 
 use super::input::PDO_LENGTH;
 use super::{Core, Event};
+use crate::application::Reset;
 use crate::objects::{Device, Objects, Outbox};
-use crate::wire::nmt::State;
-use crate::{Instant, Notice, Reset};
+use crate::profile::Notice;
+use od_wire::Instant;
+use od_wire::nmt::State;
 
 /// News of the CAN controller (CiA 301, table 26, codes 81xxh).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

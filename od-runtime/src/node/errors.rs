@@ -2,9 +2,11 @@
 //! set (CiA 301, object 1029h).
 
 use super::{Core, Event};
+use crate::emcy;
+use crate::emcy::{Change as ErrorChange, Error};
 use crate::objects::Objects;
-use crate::wire::nmt::State;
-use crate::{Error, ErrorChange, Notice, emcy};
+use crate::profile::Notice;
+use od_wire::nmt::State;
 
 /// What 1029h asks for, the gravest last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

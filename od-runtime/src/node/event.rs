@@ -2,8 +2,10 @@
 
 use od_model::Address;
 
-use crate::wire::nmt::State;
-use crate::{Error, NodeId, Reset};
+use crate::application::Reset;
+use crate::emcy::Error;
+use od_wire::NodeId;
+use od_wire::nmt::State;
 
 /// Something happened in the node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

@@ -1,12 +1,17 @@
 //! What comes in: frames and the passing of time.
 
 use super::{Core, Event, bus};
+use crate::application::Reset;
+use crate::emcy::Error;
+use crate::error_control;
 use crate::lss::Action;
 use crate::objects::{Device, Effect, Objects, Outbox};
 use crate::pdo::Received;
 use crate::storage::image;
-use crate::wire::nmt::{self, Command, State};
-use crate::{CanId, Error, Frame, Instant, Reset, error_control, wire};
+
+use od_wire::nmt;
+use od_wire::nmt::{Command, State};
+use od_wire::{CanId, Frame, Instant};
 
 /// Sub-index of 1010h, were it one, under which the device saves its own record.
 const LIFE_RECORD: u8 = 0;
@@ -35,7 +40,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             return;
         }
         let is_error_control = id.raw() & 0x780 == 0x700 && !id.is_extended();
-        if id == CanId::standard(wire::lss::MASTER) {
+        if id == CanId::standard(od_wire::lss::MASTER) {
             self.handle_lss(device, outbox, frame);
             return;
         }
@@ -185,7 +190,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             Action::Answer(None) => {}
             Action::Answer(Some(answer)) => {
                 self.out.push(Frame::full(
-                    CanId::standard(wire::lss::SLAVE),
+                    CanId::standard(od_wire::lss::SLAVE),
                     answer.emit(),
                 ));
             }
@@ -344,7 +349,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
                     continue;
                 }
                 Effect::Restored(sub) => {
-                    let at_once = objects.profile.store.restore == crate::Restore::AtOnce;
+                    let at_once = objects.profile.store.restore == crate::profile::Restore::AtOnce;
                     communication |= at_once;
                     heartbeat |= at_once;
                     monitor |= at_once;

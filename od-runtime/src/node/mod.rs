@@ -16,8 +16,10 @@ mod input;
 
 use crate::fifo::Fifo;
 use crate::objects::{Device, Objects, Outbox};
-use crate::wire::nmt::State;
-use crate::{CanId, Frame, Instant, NodeId, StoreTooSmall, emcy, error_control, lss, pdo, sdo};
+use crate::store::StoreTooSmall;
+use crate::{emcy, error_control, lss, pdo, sdo};
+use od_wire::nmt::State;
+use od_wire::{CanId, Frame, Instant, NodeId};
 
 pub use bus::BusEvent;
 pub use event::Event;

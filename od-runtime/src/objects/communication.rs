@@ -3,8 +3,8 @@
 use od_model::{Address, Entry};
 
 use super::Objects;
-use crate::wire::pdo::MapRepr;
-use crate::{AbortCode, CobId};
+use od_wire::pdo::MapRepr;
+use od_wire::{AbortCode, CobId};
 
 /// The signature that a write to 1010h or 1011h has to carry, as it stands on the wire.
 pub(super) fn command(address: Address) -> Option<[u8; 4]> {

@@ -4,12 +4,13 @@ mod communication;
 
 use od_model::{Address, Dictionary, Entry, Missing};
 
+use crate::application::{Application, Context, Reset, Signals};
 use crate::fifo::Fifo;
 use crate::limits::{self, Outside};
+use crate::profile::{Profile, SaveAnswer};
 use crate::storage::{Storage, image};
-use crate::{
-    AbortCode, Application, Context, Instant, NodeId, Profile, Reset, SaveAnswer, Signals, Store,
-};
+use crate::store::Store;
+use od_wire::{AbortCode, Instant, NodeId};
 
 pub(crate) use communication::check_mapped;
 
@@ -264,7 +265,7 @@ impl<'c> Objects<'c> {
         let profile = &self.profile.store;
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
-        if profile.restore == crate::Restore::AtOnce {
+        if profile.restore == crate::profile::Restore::AtOnce {
             self.store
                 .reset(|entry| image::restores(profile, entry, sub));
             self.application(|application, context| application.reset(context, Reset::Defaults));

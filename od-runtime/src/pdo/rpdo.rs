@@ -2,7 +2,7 @@
 
 use super::mapping::Mapping;
 use crate::objects::Objects;
-use crate::{CanId, CobId, Frame};
+use od_wire::{CanId, CobId, Frame};
 
 /// An RPDO with what its objects say, and a frame that waits for SYNC.
 #[derive(Clone, Copy, PartialEq, Debug)]

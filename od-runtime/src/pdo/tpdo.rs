@@ -2,7 +2,7 @@
 
 use super::mapping::Mapping;
 use crate::objects::Objects;
-use crate::{CanId, CobId, Frame, Instant};
+use od_wire::{CanId, CobId, Frame, Instant};
 
 /// Transmission types of CiA 301 (table 72).
 mod kind {

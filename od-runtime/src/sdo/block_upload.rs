@@ -2,10 +2,10 @@
 
 use od_model::Address;
 
-use super::{Answer, Server, Transfer, crc16};
-use crate::AbortCode;
+use super::{Answer, Server, Transfer};
 use crate::objects::Objects;
-use crate::wire::sdo::Response;
+use od_wire::AbortCode;
+use od_wire::sdo::{Response, crc16};
 
 /// A block upload under way: the value stands in the buffer.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! An answer that waits until the device has stored (1010h), and the request that waits for it.
 
 use super::Server;
-use crate::AbortCode;
+use od_wire::AbortCode;
 
 /// What waits.
 #[derive(Clone, Copy, Debug)]

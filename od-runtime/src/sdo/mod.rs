@@ -5,7 +5,6 @@
 
 mod block_download;
 mod block_upload;
-mod crc;
 mod late;
 mod segmented;
 
@@ -13,10 +12,8 @@ use od_model::Address;
 
 use crate::objects::Objects;
 use crate::store::little_endian;
-use crate::wire::sdo::{Request, Response, expedited_upload};
-use crate::{AbortCode, Instant};
-
-pub use crc::crc16;
+use od_wire::sdo::{Request, Response, expedited_upload};
+use od_wire::{AbortCode, Instant};
 
 /// How long a block transfer waits for the client, in microseconds: its segments cannot
 /// be told from requests, so a client that died would block the next one.

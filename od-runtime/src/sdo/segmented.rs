@@ -3,9 +3,9 @@
 use od_model::Address;
 
 use super::{Answer, Server, Transfer};
-use crate::AbortCode;
 use crate::objects::Objects;
-use crate::wire::sdo::Response;
+use od_wire::AbortCode;
+use od_wire::sdo::Response;
 
 /// An upload under way: the value stands in the buffer.
 #[derive(Clone, Copy, Debug)]

@@ -19,7 +19,7 @@
 //! save goes on.
 //!
 //! A value is as it stands on the wire; where a family keeps COB-IDs as differences
-//! ([`SavedCobIds::Difference`](crate::SavedCobIds)), one whose default has `$NODEID` in it is
+//! ([`SavedCobIds::Difference`](crate::profile::SavedCobIds)), one whose default has `$NODEID` in it is
 //! less that default.
 //!
 //! Records go by address, so an image survives a firmware with another dictionary:
@@ -28,7 +28,9 @@
 use od_model::{Address, Dictionary, Entry, Group, Literal};
 
 use super::{Storage, StorageError};
-use crate::{CutSave, Store, StoreProfile, limits};
+use crate::limits;
+use crate::profile::{CutSave, StoreProfile};
+use crate::store::Store;
 
 mod bank;
 mod cob_id;

@@ -3,8 +3,8 @@
 //! was mended and power-cycled.
 
 use od_devices::sim::{Bus, VirtualDevice};
-use od_runtime::wire::nmt::State;
 use od_runtime::{Frame, Instant};
+use od_wire::nmt::State;
 
 use super::Target;
 use super::bench::{self, Act, STEP};

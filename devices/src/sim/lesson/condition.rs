@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 use od_runtime::AbortCode;
-use od_runtime::wire::nmt::Command;
+use od_wire::nmt::Command;
 
 use crate::sim::Led;
 use crate::sim::script::Pattern;

@@ -1,9 +1,9 @@
 //! Frames against what a checkpoint waits for.
 
 use od_model::Address;
-use od_runtime::wire::nmt::Repr;
-use od_runtime::wire::{emcy, sdo};
 use od_runtime::{AbortCode, Frame};
+use od_wire::nmt::Repr;
+use od_wire::{emcy, sdo};
 
 use super::condition::{Frames, Seen, Who};
 use crate::sim::script::Origin;

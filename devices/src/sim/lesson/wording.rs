@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 use od_runtime::Frame;
-use od_runtime::wire::nmt::Command;
+use od_wire::nmt::Command;
 
 use super::condition::{Alternative, Fact, Frames, How, Kind, Line, Seen, Test, What, Who};
 use crate::sim::script::Pattern;

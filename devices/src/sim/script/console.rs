@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::wire::nmt;
 use od_runtime::{Frame, Instant};
+use od_wire::nmt;
 
 use super::Problem;
 use super::parse::statement;

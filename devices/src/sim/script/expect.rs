@@ -3,8 +3,8 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::wire::sdo;
 use od_runtime::{AbortCode, Frame};
+use od_wire::sdo;
 
 use super::Pattern;
 use super::run::{Result, Runner, failed, impossible};

@@ -3,8 +3,8 @@
 use std::prelude::v1::*;
 use std::{format, vec};
 
-use od_runtime::wire::nmt::Command;
 use od_runtime::{BusEvent, Instant, NodeId};
+use od_wire::nmt::Command;
 
 use super::parse_expect::{expect, repeated, sdo};
 use super::statement::{Action, Power, Shaft, Statement, Timing, When, Wire};

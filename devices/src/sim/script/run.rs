@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::wire::nmt;
 use od_runtime::{Frame, Instant, NodeId};
+use od_wire::nmt;
 
 use super::statement::{Action, Power, Shaft, Statement, When, Wire};
 use super::{Bench, Host, Origin, Pattern, Reason, Script, Stop, Summary};

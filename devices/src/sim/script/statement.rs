@@ -2,8 +2,8 @@
 
 use std::prelude::v1::*;
 
-use od_runtime::wire::nmt::Command;
 use od_runtime::{AbortCode, BusEvent, Frame, Instant, NodeId};
+use od_wire::nmt::Command;
 
 use super::Pattern;
 use crate::sim::{Led, Line, VirtualDevice};

@@ -4,7 +4,7 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_runtime::Frame;
-use od_runtime::wire::nmt::{Command, Repr, State};
+use od_wire::nmt::{Command, Repr, State};
 
 use super::{Service, Words};
 

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{CobId, Frame, wire};
+use od_runtime::{CobId, Frame};
 
 use super::{Service, Words};
 use crate::sim::VirtualDevice;
@@ -49,7 +49,7 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
 }
 
 pub(super) fn words(node: u8, frame: &Frame) -> Words {
-    let Some(emcy) = wire::emcy::Repr::parse(frame.data()) else {
+    let Some(emcy) = od_wire::emcy::Repr::parse(frame.data()) else {
         return Words::new(Service::Emcy, Some(node), "eight bytes were due").error();
     };
     let info = crate::sim::values::hex(&emcy.info);

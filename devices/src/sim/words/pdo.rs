@@ -4,8 +4,8 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_model::Address;
-use od_runtime::wire::pdo::MapRepr;
 use od_runtime::{CobId, Frame};
+use od_wire::pdo::MapRepr;
 
 use super::{Service, Words, bytes};
 use crate::sim::{VirtualDevice, values};

@@ -4,8 +4,8 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_model::Address;
-use od_runtime::wire::sdo::{Request, Response};
 use od_runtime::{AbortCode, Frame};
+use od_wire::sdo::{Request, Response};
 
 use super::{Service, Words, bytes};
 use crate::sim::{VirtualDevice, values};

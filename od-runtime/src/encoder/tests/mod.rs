@@ -10,7 +10,10 @@ use od_model::patch::{self, Edit, Raw, Target};
 use od_model::{Access, Address, DataType, Description, ObjectCode, Tables};
 
 use super::*;
-use crate::{AbortCode, Application, Context, ErrorChange, NodeId, Reset, Signals, Store};
+use crate::application::{Application, Context, Reset, Signals};
+use crate::emcy::Change as ErrorChange;
+use crate::store::Store;
+use od_wire::{AbortCode, NodeId};
 
 /// A family like that of the bus covers.
 static PROFILE: EncoderProfile = EncoderProfile {

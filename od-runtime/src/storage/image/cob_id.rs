@@ -2,7 +2,9 @@
 
 use od_model::{Entry, Literal};
 
-use crate::{CobId, SavedCobIds, Store};
+use crate::profile::SavedCobIds;
+use crate::store::Store;
+use od_wire::CobId;
 
 /// What is saved instead of the value; `None` where the value is.
 pub(super) fn difference(store: &Store<'_>, entry: &Entry, rule: SavedCobIds) -> Option<[u8; 8]> {

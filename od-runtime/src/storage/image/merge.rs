@@ -6,9 +6,10 @@ use od_model::{Address, Entry};
 
 use super::bank::{Banks, MAGIC, REPLACED, Record, Records, VERSION};
 use super::{HEADER, MAX_VALUE, RECORD, cob_id, is_life_record, is_saved};
+use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
-use crate::{CutSave, SavedCobIds, Store};
+use crate::store::Store;
 
 /// What becomes of an address in the next set.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -13,7 +13,8 @@ use crate::storage::Memory;
 
 mod factory;
 mod versions;
-use crate::{NodeId, Profile};
+use crate::profile::Profile;
+use od_wire::NodeId;
 
 const STORE: &StoreProfile = &Profile::CIA301.store;
 

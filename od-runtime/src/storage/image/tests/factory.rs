@@ -2,7 +2,7 @@
 //! chapter 5.1.3.1; DECISIONS U-33).
 
 use super::*;
-use crate::{SavedCobIds, StoreProfile};
+use crate::profile::{SavedCobIds, StoreProfile};
 use od_model::Address;
 
 const FACTORY: &StoreProfile = &StoreProfile {

@@ -1,10 +1,12 @@
 //! SDO frames, client to server and back (CiA 301, chapter 7.2.4.3).
 
+mod crc;
 mod request;
 mod response;
 
 use od_model::Address;
 
+pub use crc::crc16;
 pub use request::Request;
 pub use response::{Response, expedited_upload};
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::CanId;
+use crate::frame::CanId;
 
 /// A node ID, 1–127 (CiA 301, chapter 6.2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

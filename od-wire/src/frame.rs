@@ -120,7 +120,7 @@ impl Frame {
 
     /// A data frame of the first `dlc` bytes of `data`, 8 at most; the rest have to be 0.
     #[inline]
-    pub(crate) const fn with_dlc(id: CanId, data: [u8; 8], dlc: u8) -> Self {
+    pub const fn with_dlc(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         Self {
             id,
             dlc: if dlc > 8 { 8 } else { dlc },

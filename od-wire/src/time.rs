@@ -50,7 +50,7 @@ impl Instant {
     /// The next moment of a period of `micros` that had one at `self`, after `now`.
     ///
     /// A caller that comes late gets one tick, not one for each that was missed.
-    pub(crate) const fn next_period(self, micros: u64, now: Self) -> Self {
+    pub const fn next_period(self, micros: u64, now: Self) -> Self {
         let next = self.plus_micros(micros);
         if next.0 > now.0 {
             return next;

@@ -1,0 +1,36 @@
+//! CANopen on the wire: what a frame means, for both ends of the bus.
+//!
+//! [`Frame`], [`CanId`], [`NodeId`] and [`CobId`] hold only values that exist; [`Instant`] and
+//! [`Duration`] are virtual time; [`AbortCode`] is the reason of an SDO abort. Each service has
+//! one module that turns bytes into a type and the type into the same bytes; nothing here has
+//! state.
+//!
+//! ```
+//! use od_wire::{AbortCode, Frame, NodeId, sdo};
+//!
+//! let response = Frame::standard(0x581, &[0x80, 0x00, 0x20, 0x00, 0x00, 0x00, 0x02, 0x06]);
+//! assert_eq!(response.id(), NodeId::ONE.plus(0x580));
+//! let Some(data) = response.data().first_chunk() else { unreachable!() };
+//! let sdo::Response::Abort { code, .. } = sdo::Response::parse(data) else { unreachable!() };
+//! assert_eq!(code, AbortCode::ObjectMissing as u32);
+//! ```
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod abort;
+pub mod emcy;
+mod frame;
+mod ids;
+pub mod lss;
+pub mod nmt;
+pub mod pdo;
+pub mod sdo;
+mod time;
+
+pub use abort::AbortCode;
+pub use frame::{CanId, Frame};
+pub use ids::{CobId, NodeId};
+pub use time::{Duration, Instant};
