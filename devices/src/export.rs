@@ -3,8 +3,6 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::eds;
-
 use crate::DeviceKind;
 
 /// The day of the facts; the texts of a device do not change by being written.
@@ -29,7 +27,7 @@ impl DeviceKind {
     /// ```
     pub fn eds(&self) -> String {
         let file = self.eds_name();
-        let about = eds::About {
+        let about = od_eds::About {
             file: &file,
             description: self.title,
             date: DATE,
@@ -39,6 +37,6 @@ impl DeviceKind {
             simple_boot_up: true,
             comments: COMMENTS,
         };
-        eds::canonical(&eds::describe(self.dictionary, &about))
+        od_eds::canonical(&od_eds::describe(self.dictionary, &about))
     }
 }

@@ -2,25 +2,25 @@
 #![cfg(feature = "sim")]
 
 use od_devices::DEVICES;
-use od_model::{Tables, check, eds};
+use od_eds::{Tables, check};
 
 #[test]
 fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
     for kind in DEVICES {
         let text = kind.eds();
-        let loaded = eds::load(&text);
+        let loaded = od_eds::load(&text);
         assert_eq!(loaded.diagnostics, [], "{}", kind.name);
         assert_eq!(check::check(&loaded.description), [], "{}", kind.name);
         let tables = Tables::new(&loaded.description);
         assert!(tables.dictionary() == kind.dictionary, "{}", kind.name);
-        assert_eq!(eds::write(&loaded.description), text, "{}", kind.name);
+        assert_eq!(od_eds::write(&loaded.description), text, "{}", kind.name);
     }
 }
 
 #[test]
 fn what_is_said_of_the_device_is_what_its_objects_say() {
     for kind in DEVICES {
-        let description = eds::parse(&kind.eds()).description;
+        let description = od_eds::parse(&kind.eds()).description;
         let info = description.section("DeviceInfo").unwrap();
         let value = |key| info.get(key).unwrap().value.clone();
         let number = |sub| {
@@ -56,11 +56,11 @@ fn the_files_of_the_project_say_what_an_export_says() {
         ("eam_mt", include_str!("../eds/EAM_MT.eds")),
         ("en580c", include_str!("../eds/EN580C.eds")),
     ] {
-        let exported = eds::parse(&od_devices::find(name).unwrap().eds()).description;
-        let written = eds::load(text);
+        let exported = od_eds::parse(&od_devices::find(name).unwrap().eds()).description;
+        let written = od_eds::load(text);
         assert_eq!(written.diagnostics, [], "{name}");
         for key in ["DeviceInfo", "DummyUsage"] {
-            let pairs = |d: &od_model::Description| {
+            let pairs = |d: &od_eds::Description| {
                 let section = d.section(key).unwrap();
                 let same = section
                     .pairs

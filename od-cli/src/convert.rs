@@ -7,7 +7,7 @@ mod json;
 use std::path::{Path, PathBuf};
 
 use od_devices::datasheet;
-use od_model::{Description, Tables, eds, xdd};
+use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
 use crate::Failure;
@@ -87,10 +87,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let mut description = description(&args.input)?;
     let text = match form {
-        Form::Eds => eds::canonical(&description),
+        Form::Eds => od_eds::canonical(&description),
         Form::Dcf => {
             dcf::configure(&mut description, args)?;
-            eds::canonical(&description)
+            od_eds::canonical(&description)
         }
         Form::Xdd => xdd::write(&description),
         Form::Md => match Source::find(&args.input)? {
@@ -129,7 +129,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// What is to be converted. What of a file cannot be used is told, and left out.
 fn description(name: &str) -> Result<Description, Failure> {
     let file = match Source::find(name)? {
-        Source::BuiltIn(kind) => return Ok(eds::parse(&kind.eds()).description),
+        Source::BuiltIn(kind) => return Ok(od_eds::parse(&kind.eds()).description),
         Source::File(file) => file,
     };
     let (description, findings) = file.parse()?;

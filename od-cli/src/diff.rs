@@ -3,8 +3,9 @@
 mod device;
 mod show;
 
-use od_model::diff::{Difference, Impact, compare};
-use od_model::{Dictionary, Tables};
+use od_eds::Tables;
+use od_eds::diff::{Difference, Impact, compare};
+use od_model::Dictionary;
 use od_runtime::NodeId;
 
 use crate::source::{self, Source};

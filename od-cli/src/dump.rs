@@ -1,7 +1,8 @@
 //! `odkit dump`: an object dictionary as a table, or a device's datasheet.
 
 use od_devices::datasheet::{self, HEAD};
-use od_model::{Description, Dictionary, Tables};
+use od_eds::{Description, Tables};
+use od_model::Dictionary;
 
 use crate::Failure;
 use crate::output::Output;

@@ -1,7 +1,7 @@
 //! `odkit explain`: what a code means, and what to do about it.
 
-use od_model::Severity;
-use od_model::check::{RULES, Rule, rule};
+use od_eds::Severity;
+use od_eds::check::{RULES, Rule, rule};
 
 use crate::Failure;
 use crate::output::Output;

@@ -1,7 +1,5 @@
 //! `odkit export`: the EDS of a device.
 
-use od_model::eds;
-
 use crate::Failure;
 use crate::output::{self, Output};
 use crate::source::{Source, Text};
@@ -41,5 +39,5 @@ fn canonical(file: &Text) -> Result<String, Failure> {
     let (description, findings) = file.parse()?;
     let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
     output::note_text(&file.render(&errors, output::error_colours()));
-    Ok(eds::canonical(&description))
+    Ok(od_eds::canonical(&description))
 }

@@ -6,7 +6,7 @@ mod mend;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_model::{Description, Diagnostic, eds};
+use od_eds::{Description, Diagnostic};
 
 use crate::output::{self, Output};
 use crate::source::Source;
@@ -98,7 +98,7 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
             (file.path, file.text, Some(bytes))
         }
     };
-    let loaded = eds::load(&text);
+    let loaded = od_eds::load(&text);
     let mut description = loaded.description;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
@@ -112,13 +112,13 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     if !loaded.diagnostics.iter().any(Diagnostic::is_error) {
         let device = DeviceFile {
             ending,
-            bytes: bytes.unwrap_or_else(|| eds::canonical(&description).into_bytes()),
+            bytes: bytes.unwrap_or_else(|| od_eds::canonical(&description).into_bytes()),
             description,
         };
         return Ok((device, Vec::new()));
     }
     let notes = mend::mend(&mut description).map_err(|left| {
-        let text = eds::canonical(&description);
+        let text = od_eds::canonical(&description);
         output::note_text(&report::render(
             &path,
             &text,
@@ -131,7 +131,7 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     })?;
     let device = DeviceFile {
         ending,
-        bytes: eds::canonical(&description).into_bytes(),
+        bytes: od_eds::canonical(&description).into_bytes(),
         description,
     };
     Ok((device, notes))

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use od_model::{Diagnostic, Severity, Span};
+use od_eds::{Diagnostic, Severity, Span};
 
 /// A file's diagnostics as text, an empty line behind each.
 pub(crate) fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours: bool) -> String {

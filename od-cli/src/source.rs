@@ -5,7 +5,6 @@ use std::path::Path;
 
 use od_devices::sim::{EdsOptions, VirtualDevice};
 use od_devices::{DEVICES, DeviceKind};
-use od_model::eds;
 use od_runtime::NodeId;
 
 use crate::{Failure, output};
@@ -38,7 +37,7 @@ impl Source {
         match fs::read(&path) {
             Ok(bytes) => Ok(Self::File(Text {
                 path: path.display().to_string(),
-                text: eds::decode(&bytes).into_owned(),
+                text: od_eds::decode(&bytes).into_owned(),
                 overlay: None,
             })),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -66,7 +65,10 @@ impl Source {
             },
             Self::File(text) => text,
         };
-        let overlay = (path.display().to_string(), eds::decode(&bytes).into_owned());
+        let overlay = (
+            path.display().to_string(),
+            od_eds::decode(&bytes).into_owned(),
+        );
         Ok(Self::File(base.with_overlay(overlay)?))
     }
 

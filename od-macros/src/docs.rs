@@ -1,9 +1,8 @@
 //! The words on every generated item: an IDE's hover is the datasheet.
 
-use od_model::patch::Action;
-use od_model::{
-    Access, Address, DataType, EntryDescription, Group, Kind, ObjectDescription, Span, Value,
-};
+use od_eds::patch::Action;
+use od_eds::{EntryDescription, ObjectDescription, Span, Value};
+use od_model::{Access, Address, DataType, Group, Kind};
 
 use crate::input::Statement;
 
@@ -91,7 +90,7 @@ pub(crate) fn object(index: u16, object: &ObjectDescription, files: Option<&File
 }
 
 fn place(text: &mut String, span: Span, files: Option<&Files>) {
-    let written = span.line != 0 && od_model::patch::token_of(span).is_none();
+    let written = span.line != 0 && od_eds::patch::token_of(span).is_none();
     if let Some(files) = files.filter(|_| written) {
         text.push_str(&format!("\n\n`{}`", files.line(span)));
     }
@@ -146,7 +145,7 @@ pub(crate) fn escape(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use od_model::Spanned;
+    use od_eds::Spanned;
 
     use super::*;
 

@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use od_model::Tables;
+use od_eds::Tables;
 use od_model::typed::emit::table;
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use od_model::patch;
-use od_model::{Description, Diagnostic, Tables};
+use od_eds::patch;
+use od_eds::{Description, Diagnostic, Tables};
 use proc_macro2::Span;
 
 use crate::files::Files;
@@ -186,7 +186,7 @@ impl Findings<'_> {
             self.tell(&findings, description, report);
             return Vec::new();
         }
-        let found = od_model::check::check(description);
+        let found = od_eds::check::check(description);
         if edits.is_empty() {
             return if context.is_empty() {
                 found
@@ -196,7 +196,7 @@ impl Findings<'_> {
         }
         let mut known = match before.objects.is_empty() {
             true => Vec::new(),
-            false => od_model::check::check(before),
+            false => od_eds::check::check(before),
         };
         known.retain(Diagnostic::is_error);
         let (old, new): (Vec<_>, Vec<_>) = found

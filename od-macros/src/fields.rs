@@ -1,6 +1,6 @@
 //! The fields between the braces of `add` and `modify`: `key = value;`.
 
-use od_model::patch::{Change, Raw};
+use od_eds::patch::{Change, Raw};
 use proc_macro2::{Delimiter, Ident, Span, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token, ext::IdentExt};

@@ -1,7 +1,7 @@
 //! The EDS file of a call, perhaps with an overlay: which of the two a place stands in.
 
-use od_model::Span;
-use od_model::eds::{Origin, Overlaid};
+use od_eds::Span;
+use od_eds::{Origin, Overlaid};
 
 /// The files as they are written in the call, for messages and pages.
 pub(crate) struct Files {

@@ -3,8 +3,9 @@
 
 use std::ops::Range;
 
-use od_model::patch::{Action, Edit, token_of};
-use od_model::{Address, Description, Diagnostic};
+use od_eds::patch::{Action, Edit, token_of};
+use od_eds::{Description, Diagnostic};
+use od_model::Address;
 use proc_macro2::Span;
 
 use crate::files::Files;

@@ -2,8 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_model::patch::{self, Target};
-use od_model::{Access, DataType, Description, Kind, Slot, Spanned, Tables};
+use od_eds::patch;
+use od_eds::patch::Target;
+use od_eds::{Description, Spanned, Tables};
+use od_model::{Access, DataType, Kind, Slot};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
@@ -281,7 +283,7 @@ pub(crate) fn check_renames(
     statements: &[Statement],
     description: &Description,
     report: &mut Report,
-) -> Vec<od_model::Diagnostic> {
+) -> Vec<od_eds::Diagnostic> {
     let mut findings = Vec::new();
     let mut seen = BTreeSet::new();
     for statement in statements {

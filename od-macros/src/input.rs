@@ -3,7 +3,7 @@
 //! Parsing goes on after a fault at the next statement, so that all faults of a
 //! call are told at once.
 
-use od_model::patch::{Action, Target};
+use od_eds::patch::{Action, Target};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Attribute, LitInt, LitStr, Token, Visibility, braced, ext::IdentExt};

@@ -6,7 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use od_model::{Address, Slot, Tables};
+use od_eds::Tables;
+use od_model::{Address, Slot};
 
 /// Gives every stored value of the family its place; strings get the room of the longest.
 pub(crate) fn lay_out(family: &mut [&mut Tables]) {

@@ -1,7 +1,7 @@
 //! The statements of a call as edits of the model, each knowing its token.
 
-use od_model::Spanned;
-use od_model::patch::Edit;
+use od_eds::Spanned;
+use od_eds::patch::Edit;
 
 use crate::input::Statement;
 use crate::report::Report;

@@ -1,6 +1,7 @@
 //! `profile = cia406;`: the device says the same of itself in 1000h.
 
-use od_model::{Address, Description, Value};
+use od_eds::{Description, Value};
+use od_model::Address;
 use proc_macro2::Ident;
 
 use crate::report::Report;

@@ -1,7 +1,7 @@
 //! All faults of a call, each at its token.
 
-use od_model::Diagnostic;
-use od_model::patch::token_of;
+use od_eds::Diagnostic;
+use od_eds::patch::token_of;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, TokenStreamExt};
 
@@ -53,8 +53,8 @@ impl Report {
     }
 
     /// A span for the model that leads back to this token.
-    pub(crate) fn number(&mut self, place: impl Into<Place>) -> od_model::Span {
-        let span = od_model::patch::token(self.numbers());
+    pub(crate) fn number(&mut self, place: impl Into<Place>) -> od_eds::Span {
+        let span = od_eds::patch::token(self.numbers());
         self.tokens.push(place.into());
         span
     }
@@ -71,7 +71,7 @@ impl Report {
     }
 
     /// The token behind a span of the model.
-    pub(crate) fn span(&self, span: od_model::Span) -> Option<Place> {
+    pub(crate) fn span(&self, span: od_eds::Span) -> Option<Place> {
         self.tokens.get(token_of(span)? as usize).copied()
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use od_model::{Description, eds};
+use od_eds::Description;
 use syn::LitStr;
 
 use crate::files::Files;
@@ -17,9 +17,9 @@ pub(crate) struct Source {
     /// The files for `include_bytes!`; empty where none was read.
     pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
-    pub(crate) findings: Vec<od_model::Diagnostic>,
+    pub(crate) findings: Vec<od_eds::Diagnostic>,
     /// What the file says is as it should be.
-    pub(crate) allows: od_model::check::Allows,
+    pub(crate) allows: od_eds::check::Allows,
     /// What the file describes; empty without one.
     pub(crate) description: Description,
 }
@@ -45,7 +45,7 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
                 return nothing(files);
             };
             paths.push(path);
-            match eds::overlay(&text, &over) {
+            match od_eds::overlay(&text, &over) {
                 Ok(made) => {
                     let text = made.text.clone();
                     (files.with_overlay(literal.value(), made), text)
@@ -60,12 +60,12 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
             }
         }
     };
-    let parsed = eds::parse(&text);
+    let parsed = od_eds::parse(&text);
     Source {
         files: Some(files),
         paths,
         findings: parsed.diagnostics,
-        allows: od_model::check::Allows::of(&text),
+        allows: od_eds::check::Allows::of(&text),
         description: parsed.description,
     }
 }
@@ -75,7 +75,7 @@ fn file(literal: &LitStr, report: &mut Report) -> Option<(PathBuf, String)> {
     let path = locate(literal);
     match std::fs::read(&path) {
         Ok(bytes) => {
-            let text = eds::decode(&bytes).into_owned();
+            let text = od_eds::decode(&bytes).into_owned();
             Some((path, text))
         }
         Err(error) => {

@@ -58,7 +58,8 @@ pub struct Slot {
 
 impl Slot {
     /// Nothing is stored.
-    pub(crate) const NONE: Self = Self { offset: 0, len: 0 };
+    #[doc(hidden)]
+    pub const NONE: Self = Self { offset: 0, len: 0 };
 }
 
 /// Why there is no entry at an address.
@@ -104,7 +105,7 @@ pub struct Dictionary<'a> {
 
 impl<'a> Dictionary<'a> {
     /// A view over tables that the macro made; owned tables lend theirs by
-    /// [`Tables::dictionary`](crate::Tables::dictionary). `buckets` and `places`
+    /// `od_eds::Tables::dictionary`. `buckets` and `places`
     /// come from the functions of these names.
     ///
     /// # Panics
@@ -158,7 +159,8 @@ impl<'a> Dictionary<'a> {
     }
 
     /// The same over tables that are sound by the way they were made.
-    pub(crate) const fn trusted(
+    #[doc(hidden)]
+    pub const fn trusted(
         buckets: &'a [u16],
         places: &'a [Place],
         objects: &'a [Object],
@@ -302,7 +304,7 @@ impl PartialEq for Dictionary<'_> {
 }
 
 /// Bytes that a store of these values needs.
-pub(crate) const fn store_len(entries: &[Entry]) -> usize {
+pub const fn store_len(entries: &[Entry]) -> usize {
     let mut len = 0;
     let mut i = 0;
     while i < entries.len() {

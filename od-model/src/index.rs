@@ -17,7 +17,8 @@ pub struct Place {
 
 impl Place {
     /// The place of an entry.
-    pub(crate) const fn of(entry: &Entry) -> Self {
+    #[doc(hidden)]
+    pub const fn of(entry: &Entry) -> Self {
         let is_plain = entry.access.readable() && !entry.is_variable();
         let key = entry.address.key();
         let plain = if is_plain { entry.slot } else { Slot::NONE };
@@ -32,7 +33,7 @@ impl Place {
 }
 
 /// The places of all entries. For generated code; those of owned tables are made by
-/// [`Tables`](crate::Tables), as are their buckets.
+/// `od_eds::Tables`, as are their buckets.
 #[must_use]
 pub const fn places<const N: usize>(entries: &[Entry; N]) -> [Place; N] {
     let empty = Place {
@@ -49,7 +50,7 @@ pub const fn places<const N: usize>(entries: &[Entry; N]) -> [Place; N] {
 }
 
 /// Stands in a bucket that is empty: no position of an entry.
-pub(crate) const EMPTY: u16 = u16::MAX;
+pub const EMPTY: u16 = u16::MAX;
 
 /// How many buckets [`buckets`] makes of so many places: two to four times as many,
 /// a power of two. None where their positions do not fit 16 bits.
@@ -75,7 +76,7 @@ pub const fn buckets<const N: usize>(places: &[Place]) -> [u16; N] {
 
 /// Puts each place's position into the first bucket from its own on that is empty.
 /// `buckets` are all empty, and as many as [`bucket_count`] says.
-pub(crate) const fn fill(buckets: &mut [u16], places: &[Place]) {
+pub const fn fill(buckets: &mut [u16], places: &[Place]) {
     if buckets.is_empty() {
         return;
     }

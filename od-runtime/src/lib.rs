@@ -17,7 +17,7 @@
 //! // In a device this is a constant that `od_macros::object_dictionary!` made of the EDS.
 //! let eds = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0x196\n\
 //!            [1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=100\n";
-//! let tables = od_model::Tables::new(&od_model::eds::parse(eds).description);
+//! let tables = od_eds::Tables::new(&od_eds::parse(eds).description);
 //!
 //! let mut values = vec![0; tables.dictionary().store_len()];
 //! let mut application = NoApplication;

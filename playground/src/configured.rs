@@ -1,6 +1,5 @@
 //! A device as it is set up, as a file.
 
-use od_model::eds;
 use wasm_bindgen::prelude::*;
 
 use crate::Bus;
@@ -27,10 +26,10 @@ impl Bus {
                 .eds(),
             (None, None) => return Err(JsError::new("say which device it is, or its text")),
         };
-        let mut description = eds::load(&text).description;
+        let mut description = od_eds::load(&text).description;
         self.bus
             .with(device, |device, _| device.configure(&mut description))
             .ok_or_else(|| JsError::new("there is no device with this number"))?;
-        Ok(eds::write(&description))
+        Ok(od_eds::write(&description))
     }
 }

@@ -1,7 +1,7 @@
 //! Fixes of findings, by places that JavaScript counts: UTF-16 units of the text.
 
-use od_model::Diagnostic;
-use od_model::fix::Applicability;
+use od_eds::Diagnostic;
+use od_eds::fix::Applicability;
 use wasm_bindgen::prelude::*;
 
 use crate::record::{self, Record};

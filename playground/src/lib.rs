@@ -32,9 +32,9 @@ mod values;
 
 use od_devices::sim::words::{self, Service, Words};
 use od_devices::sim::{self, VirtualDevice};
-use od_model::Address;
 #[cfg(feature = "eds")]
-use od_model::{Diagnostic, Severity};
+use od_eds::{Diagnostic, Severity};
+use od_model::Address;
 use od_runtime::{Instant, NodeId};
 use od_wire::nmt::State;
 use wasm_bindgen::prelude::*;
@@ -110,7 +110,7 @@ impl Bus {
         };
         let (device, found) = match VirtualDevice::from_eds(text, options) {
             Ok(device) => {
-                let found = od_model::eds::load(text).diagnostics;
+                let found = od_eds::load(text).diagnostics;
                 (JsValue::from_f64(self.put(device, place) as f64), found)
             }
             Err(found) => (JsValue::NULL, found),
@@ -384,7 +384,7 @@ pub fn builtin_devices() -> Vec<JsValue> {
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
 pub fn check_eds(text: &str) -> Vec<JsValue> {
     let places = Places::of(text);
-    od_model::eds::load(text)
+    od_eds::load(text)
         .diagnostics
         .iter()
         .map(|one| diagnostic(one, &places))
@@ -395,12 +395,12 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
 #[cfg(feature = "eds")]
 #[wasm_bindgen(js_name = mendEds)]
 pub fn mend_eds(text: &str, guess: bool) -> String {
-    use od_model::fix::{Applicability, mend};
+    use od_eds::fix::{Applicability, mend};
     let level = match guess {
         true => Applicability::Unsafe,
         false => Applicability::Safe,
     };
-    let document = od_model::eds::Document::new(text);
+    let document = od_eds::Document::new(text);
     let mended = mend(&document, level, |document| document.load().diagnostics);
     mended.document.text().into()
 }

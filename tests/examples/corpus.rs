@@ -15,9 +15,10 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-use od_model::check::{self, RULES};
-use od_model::eds::{Document, Parsed};
-use od_model::{Severity, Value};
+use od_eds::check;
+use od_eds::check::RULES;
+use od_eds::{Document, Parsed};
+use od_eds::{Severity, Value};
 
 fn main() -> ExitCode {
     let args: Vec<String> = env::args().skip(1).collect();
@@ -199,7 +200,7 @@ fn docs(files: &[File]) -> String {
     let loading = files.iter().filter(|file| file.loads()).count();
     let clean = |file: &&File| {
         let mut findings = file.loaded.diagnostics.iter();
-        !findings.any(od_model::Diagnostic::is_error)
+        !findings.any(od_eds::Diagnostic::is_error)
     };
     let _ = writeln!(
         text,

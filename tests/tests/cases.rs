@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-use od_model::eds::{self, Document, Parsed};
-use od_model::{Severity, Tables, check};
+use od_eds::{Document, Parsed};
+use od_eds::{Severity, Tables, check};
 
 #[test]
 fn diagnostics_are_as_accepted() {
@@ -162,8 +162,8 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
     if unedited.apply(&[]).is_err() || unedited != *document {
         return Err("an unedited document differs".into());
     }
-    let written = eds::write(&loaded.description);
-    let again = eds::parse(&written).description;
+    let written = od_eds::write(&loaded.description);
+    let again = od_eds::parse(&written).description;
     if again != loaded.description {
         return Err(format!(
             "read again, the text differs:\n{}",
@@ -173,8 +173,8 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
             )
         ));
     }
-    let canonical = eds::canonical(&again);
-    let twice = eds::canonical(&eds::parse(&canonical).description);
+    let canonical = od_eds::canonical(&again);
+    let twice = od_eds::canonical(&od_eds::parse(&canonical).description);
     if twice != canonical {
         return Err(format!(
             "written again, the canonical text differs:\n{}",

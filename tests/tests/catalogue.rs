@@ -9,10 +9,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_model::check::{Mending, RULES, Rule};
-use od_model::eds::Document;
-use od_model::fix::{Applicability, mend};
-use od_model::{Description, Diagnostic};
+use od_eds::Document;
+use od_eds::check::{Mending, RULES, Rule};
+use od_eds::fix::{Applicability, mend};
+use od_eds::{Description, Diagnostic};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rules")

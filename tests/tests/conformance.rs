@@ -11,7 +11,6 @@ use std::time::Instant;
 use od_devices::sim::candump::format_line;
 use od_devices::sim::script::{Bare, Host, Origin, Script, run};
 use od_devices::sim::{EdsOptions, VirtualDevice};
-use od_model::eds;
 use od_runtime::{Frame, NodeId};
 use od_tests::scripts::{self, Header};
 
@@ -38,7 +37,7 @@ impl Host for Bench<'_> {
             node_id,
             ..EdsOptions::default()
         };
-        VirtualDevice::from_eds(&eds::decode(&bytes), options)
+        VirtualDevice::from_eds(&od_eds::decode(&bytes), options)
             .map_err(|diagnostics| format!("{}: {:?}", path.display(), diagnostics.first()))
     }
 

@@ -6,8 +6,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use od_eds::Tables;
 use od_macros::object_dictionary;
-use od_model::{Dictionary, Tables, eds};
+use od_model::Dictionary;
 
 /// `module: "path from this folder"`, one line a file.
 macro_rules! files {
@@ -32,7 +33,7 @@ files! {
 
 #[track_caller]
 fn equal(compiled: Dictionary<'_>, file: &[u8]) {
-    let parsed = eds::parse(&eds::decode(file));
+    let parsed = od_eds::parse(&od_eds::decode(file));
     let tables = Tables::new(&parsed.description);
     let loaded = tables.dictionary();
     let count = parsed.description.objects.len();

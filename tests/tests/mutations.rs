@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-use od_model::eds::{self, Document};
-use od_model::{Tables, xdd};
+use od_eds::Document;
+use od_eds::{Tables, xdd};
 
 /// A device file of half a megabyte takes a tenth of this in a build without optimization.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -28,7 +28,7 @@ fn corrupted_files_are_read_to_the_end() {
         let document = Document::new(bytes);
         let loaded = document.load();
         let tables = Tables::new(&loaded.description);
-        let written = eds::write(&loaded.description);
+        let written = od_eds::write(&loaded.description);
         let taken = start.elapsed();
         assert!(taken < PATIENCE, "round {round}, {name}: {taken:?}");
         let dictionary = tables.dictionary();
@@ -38,7 +38,7 @@ fn corrupted_files_are_read_to_the_end() {
                 "round {round}, {name}"
             );
         }
-        let again = eds::parse(&written).description;
+        let again = od_eds::parse(&written).description;
         assert!(
             again == loaded.description,
             "round {round}, {name}: read again, the text differs"
@@ -68,7 +68,7 @@ fn an_illegal_value_never_goes_unnamed() {
         made += 1;
         let mut changed = lines.clone();
         changed[at] = &illegal;
-        let loaded = eds::load(&changed.join("\n"));
+        let loaded = od_eds::load(&changed.join("\n"));
         let line = at as u32 + 1;
         let named = loaded.diagnostics.iter().any(|finding| {
             finding.span.is_some_and(|span| span.line == line)

@@ -1,7 +1,7 @@
 //! A device of an EDS and an overlay, made by the macro, is what the two give at run time.
 
+use od_eds::Tables;
 use od_macros::object_dictionary;
-use od_model::{Tables, eds};
 
 object_dictionary! {
     mod device {
@@ -15,9 +15,9 @@ fn compiled_and_loaded_are_the_same() {
         &include_bytes!("../eds/small.eds")[..],
         include_bytes!("../eds/small.overlay"),
     ]
-    .map(|bytes| eds::decode(bytes).into_owned());
-    let made = eds::overlay(&base, &over).expect("what it removes is there");
-    let tables = Tables::new(&eds::parse(&made.text).description);
+    .map(|bytes| od_eds::decode(bytes).into_owned());
+    let made = od_eds::overlay(&base, &over).expect("what it removes is there");
+    let tables = Tables::new(&od_eds::parse(&made.text).description);
     assert!(tables.dictionary() == device::DICTIONARY);
     assert_eq!(device::LAMP.address().index, 0x5000);
     let kind = device::DICTIONARY.entry(0x1000, 0).expect("it is there");

@@ -4,8 +4,8 @@
 
 use std::fmt::Write;
 
-use od_model::Severity;
-use od_model::check::RULES;
+use od_eds::Severity;
+use od_eds::check::RULES;
 use od_tests::scripts::{cell, compare_page};
 
 const FOLDERS: [(&str, &str); 9] = [
@@ -38,7 +38,7 @@ fn page() -> String {
          more is taken as it is written. Decimal numbers are what they say: 255 is no INTEGER8.\n\n\
          **Exit codes** of `odkit check`: 0 no errors, 1 errors are left, a file could not be read or\n\
          written, or `--diff` shows something, 2 wrong usage. `--strict` counts warnings as errors.\n\n\
-         This page is generated from the catalogue in `od-model/src/check/rules`:\n\
+         This page is generated from the catalogue in `od-eds/src/rules`:\n\
          `ODKIT_ACCEPT=1 cargo test -p od-tests --test rules_eds`.\n",
     );
     for (number, title) in FOLDERS {

@@ -4,7 +4,8 @@ use std::prelude::v1::*;
 use std::string::ToString;
 use std::vec;
 
-use od_model::{Address, Description, Group, Spanned, Value};
+use od_eds::{Description, Spanned, Value};
+use od_model::{Address, Group};
 use od_runtime::Store;
 
 use super::VirtualDevice;

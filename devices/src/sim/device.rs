@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
-use od_model::{Address, Dictionary, Entry};
 #[cfg(feature = "sim")]
-use od_model::{Diagnostic, Tables, eds};
+use od_eds::{Diagnostic, Tables};
+use od_model::{Address, Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
@@ -150,7 +150,7 @@ impl VirtualDevice {
     /// The diagnostics, if one of them is an error and `options` is not lenient.
     #[cfg(feature = "sim")]
     pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Diagnostic>> {
-        let parsed = eds::load(text);
+        let parsed = od_eds::load(text);
         if !options.lenient && parsed.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(parsed.diagnostics);
         }

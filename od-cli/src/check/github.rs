@@ -1,6 +1,6 @@
 //! Workflow commands of GitHub Actions: an annotation at the line of each finding.
 
-use od_model::{Diagnostic, Severity};
+use od_eds::{Diagnostic, Severity};
 
 use super::Checked;
 
@@ -54,7 +54,8 @@ fn property(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use od_model::{Address, Diagnostic, Span};
+    use od_eds::{Diagnostic, Span};
+    use od_model::Address;
 
     use super::*;
 

@@ -1,6 +1,6 @@
 //! The report as one JSON object; `version` counts what breaks its readers.
 
-use od_model::Diagnostic;
+use od_eds::Diagnostic;
 use serde_json::{Value, json};
 
 use super::{Checked, Summary};

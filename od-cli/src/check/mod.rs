@@ -1,9 +1,10 @@
 //! `odkit check`: what is wrong with EDS and DCF files, and mending it.
 
-use od_model::check::parse_allow;
-use od_model::eds::Document;
-use od_model::fix::{self, Applicability};
-use od_model::{Diagnostic, Severity};
+use od_eds::Document;
+use od_eds::check::parse_allow;
+use od_eds::fix;
+use od_eds::fix::Applicability;
+use od_eds::{Diagnostic, Severity};
 
 use crate::output::{self, Output};
 use crate::source::Source;

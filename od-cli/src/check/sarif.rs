@@ -1,8 +1,8 @@
 //! SARIF 2.1.0: what code scanning services read.
 
-use od_model::check::RULES;
-use od_model::fix::TextEdit;
-use od_model::{Diagnostic, Severity, Span};
+use od_eds::check::RULES;
+use od_eds::fix::TextEdit;
+use od_eds::{Diagnostic, Severity, Span};
 use serde_json::{Value, json};
 
 use super::Checked;

@@ -1,6 +1,6 @@
 //! Differences as text, JSON and Markdown.
 
-use od_model::diff::{Difference, Field, Impact};
+use od_eds::diff::{Difference, Field, Impact};
 
 use crate::output::Output;
 use crate::{Failure, report};

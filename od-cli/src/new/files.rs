@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use od_model::{Address, Description, Kind, Literal, Tables};
+use od_eds::{Description, Tables};
+use od_model::{Address, Kind, Literal};
 use od_runtime::encoder::Encoder;
 
 use super::DeviceFile;

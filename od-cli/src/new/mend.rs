@@ -2,10 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use od_model::{
-    Access, Address, DataType, Description, Diagnostic, EntryDescription, Kind, ObjectCode,
-    ObjectDescription, Spanned, Value, eds,
-};
+use od_eds::{Description, Diagnostic, EntryDescription, ObjectDescription, Spanned, Value};
+use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// What was changed, a sentence each.
 pub(super) type Notes = Vec<String>;
@@ -22,7 +20,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnosti
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
-        let found = eds::load(&eds::canonical(description)).diagnostics;
+        let found = od_eds::load(&od_eds::canonical(description)).diagnostics;
         let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
         if errors.is_empty() {
             return Ok(notes);
@@ -40,7 +38,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnosti
             return Err(errors);
         }
     }
-    let left = eds::load(&eds::canonical(description)).diagnostics;
+    let left = od_eds::load(&od_eds::canonical(description)).diagnostics;
     Err(left.into_iter().filter(Diagnostic::is_error).collect())
 }
 

@@ -1,7 +1,7 @@
 //! The text of a description, perhaps of two files, and findings shown where they are.
 
-use od_model::eds::{self, Origin, Overlaid};
-use od_model::{Description, Diagnostic};
+use od_eds::{Description, Diagnostic};
+use od_eds::{Origin, Overlaid};
 
 use crate::{Failure, output, report};
 
@@ -24,7 +24,7 @@ pub(super) struct Laid {
 impl Text {
     /// This text with an overlay, of a path and a text.
     pub(super) fn with_overlay(self, overlay: (String, String)) -> Result<Self, Failure> {
-        let made = eds::overlay(&self.text, &overlay.1).map_err(|faults| {
+        let made = od_eds::overlay(&self.text, &overlay.1).map_err(|faults| {
             let path = &overlay.0;
             for (line, fault) in &faults {
                 output::note!("{path}:{line}: {fault}");
@@ -49,12 +49,12 @@ impl Text {
     /// The text as one file that any reader of an EDS takes: itself, unless it is an overlaid
     /// one or an XDD.
     pub(crate) fn is_plain(&self) -> bool {
-        self.overlay.is_none() && !od_model::xdd::is_xml(&self.text)
+        self.overlay.is_none() && !od_eds::xdd::is_xml(&self.text)
     }
 
     /// What it describes, and what was found; a text that describes nothing is a failure.
     pub(crate) fn parse(&self) -> Result<(Description, Vec<Diagnostic>), Failure> {
-        let parsed = eds::parse(&self.text);
+        let parsed = od_eds::parse(&self.text);
         if parsed.description.objects.is_empty() {
             return Err(Failure::Failed(format!(
                 "{} describes no object; is it an EDS, DCF or XDD file?",

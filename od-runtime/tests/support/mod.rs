@@ -1,10 +1,8 @@
 //! A node on a bench: frames in and out as candump writes them.
 #![allow(dead_code, unreachable_pub)] // each test file uses its own part
 
-use od_model::{
-    Access, Address, DataType, Description, EntryDescription, ObjectCode, ObjectDescription,
-    Spanned, Tables, Value,
-};
+use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
+use od_model::{Access, Address, DataType, ObjectCode};
 use od_runtime::storage::Memory;
 use od_runtime::{
     Application, BusEvent, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,

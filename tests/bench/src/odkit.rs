@@ -1,9 +1,7 @@
 //! We: a node over tables made at run time, as `odkit sim` makes them of an EDS file.
 
-use od_model::{
-    Access, DataType, Description, Dictionary, EntryDescription, ObjectCode, ObjectDescription,
-    Spanned, Tables, Value,
-};
+use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
+use od_model::{Access, DataType, Dictionary, ObjectCode};
 use od_runtime::storage::Memory;
 use od_runtime::{
     Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,

@@ -2,7 +2,7 @@
 //! far as it goes.
 
 use od_devices::sim::{Bus, EdsOptions, VirtualDevice};
-use od_model::{Tables, eds};
+use od_eds::Tables;
 use od_runtime::{Frame, Instant};
 
 use super::{Target, files};
@@ -66,10 +66,10 @@ pub(super) const TARGET: Target = Target {
 };
 
 fn run(input: &[u8]) {
-    let text = eds::decode(input);
-    let parsed = eds::load(&text);
-    let written = eds::write(&parsed.description);
-    let again = eds::parse(&written).description;
+    let text = od_eds::decode(input);
+    let parsed = od_eds::load(&text);
+    let written = od_eds::write(&parsed.description);
+    let again = od_eds::parse(&written).description;
     // Sections that every reader wants are added, and members are counted; the objects stay.
     let mut objects = parsed.description.objects.clone();
     for (index, object) in &mut objects {
@@ -79,7 +79,7 @@ fn run(input: &[u8]) {
         again.objects == objects,
         "read again, the objects differ:\n{written}"
     );
-    let twice = eds::write(&again);
+    let twice = od_eds::write(&again);
     assert!(
         twice == written,
         "written again, the text differs:\n{written}\n{twice}"

@@ -8,7 +8,7 @@ use crate::{Access, Address, DataType, Group, Literal, ObjectCode, Range, Slot};
 pub use crate::{Dictionary, Entry, Object, Place, bucket_count, buckets, places};
 
 /// Without the checks of [`Dictionary::new`], which thousands of entries would
-/// wait for: the macro takes its tables out of [`Tables`](crate::Tables).
+/// wait for: the macro takes its tables out of `od_eds::Tables`.
 pub const fn dictionary(
     buckets: &'static [u16],
     places: &'static [Place],

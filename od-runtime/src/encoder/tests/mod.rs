@@ -6,8 +6,10 @@ mod world;
 use std::vec;
 use std::vec::Vec;
 
-use od_model::patch::{self, Edit, Raw, Target};
-use od_model::{Access, Address, DataType, Description, ObjectCode, Tables};
+use od_eds::patch;
+use od_eds::patch::{Edit, Raw, Target};
+use od_eds::{Description, Tables};
+use od_model::{Access, Address, DataType, ObjectCode};
 
 use super::*;
 use crate::application::{Application, Context, Reset, Signals};

@@ -5,8 +5,10 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-use od_model::patch::{self, Edit, Raw, Target};
-use od_model::{Access, DataType, Description, Tables};
+use od_eds::patch;
+use od_eds::patch::{Edit, Raw, Target};
+use od_eds::{Description, Tables};
+use od_model::{Access, DataType};
 
 use super::*;
 use crate::storage::Memory;

@@ -1,0 +1,269 @@
+//! What a file allows: `;odkit-allow=W0311 reason` in a comment of its own.
+//!
+//! Before the first section and in `[FileInfo]` it holds for the whole file. In the
+//! section of an object or a member it holds for what is found there and for
+//! everything about that object; in any other section for what is found there.
+//! A reason is asked for, because the next reader of the file has to judge it.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::sort;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::fix::Fix;
+use crate::rules;
+use crate::rules::{Rule, rule};
+
+/// The word that makes a comment one of ours.
+const WORD: &str = "odkit-allow";
+
+/// One code that is allowed somewhere.
+#[derive(Clone, Debug)]
+struct Allow {
+    code: &'static str,
+    /// The code in the comment.
+    span: Span,
+    scope: Scope,
+    used: bool,
+}
+
+/// Where it is allowed.
+#[derive(Clone, Debug)]
+enum Scope {
+    File,
+    /// From this line up to the one before that, and all about this object.
+    Section(u32, u32, Option<u16>),
+}
+
+/// All that a text allows, and what is wrong with how it says so.
+#[derive(Clone, Debug, Default)]
+pub struct Allows {
+    allows: Vec<Allow>,
+    findings: Vec<Diagnostic>,
+}
+
+impl Allows {
+    /// Reads the comments of a text.
+    pub fn of(text: &str) -> Self {
+        let mut allows = Self::default();
+        // Most files have none, and this search is fast.
+        let bytes = text.as_bytes();
+        let starts = |at: &[u8]| at.eq_ignore_ascii_case(WORD.as_bytes());
+        if !bytes.windows(WORD.len()).any(starts) {
+            return allows;
+        }
+        let mut scope = Scope::File;
+        let mut open = 0;
+        for line in crate::scan::lines::lines(text) {
+            let trimmed = line.text.trim();
+            if let Some(inside) = trimmed.strip_prefix('[') {
+                allows.close(open, line.number);
+                open = allows.allows.len();
+                let name = inside.split(']').next().unwrap_or(inside).trim();
+                scope = match name.eq_ignore_ascii_case("FileInfo") {
+                    true => Scope::File,
+                    false => {
+                        let index = crate::scan::names::object_of(name);
+                        Scope::Section(line.number, u32::MAX, index)
+                    }
+                };
+            } else if let Some(body) = trimmed.strip_prefix([';', '#']) {
+                let body = body.trim_start();
+                let word = body.get(..WORD.len());
+                if word.is_some_and(|word| word.eq_ignore_ascii_case(WORD)) {
+                    let rest = body[WORD.len()..].trim_start();
+                    let rest = rest.strip_prefix(['=', ':']).unwrap_or(rest).trim_start();
+                    allows.comment(rest, |part| line.span(part), &scope);
+                }
+            }
+        }
+        allows
+    }
+
+    /// The section of the newest entries, from number `open` on, ends before this line.
+    fn close(&mut self, open: usize, number: u32) {
+        for allow in &mut self.allows[open..] {
+            if let Scope::Section(_, end, _) = &mut allow.scope {
+                *end = number;
+            }
+        }
+    }
+
+    /// `W0311,W0302 reason`
+    fn comment(&mut self, text: &str, span: impl Fn(&str) -> Span, scope: &Scope) {
+        let (codes, reason) = match text.split_once(char::is_whitespace) {
+            Some((codes, reason)) => (codes, reason.trim()),
+            None => (text, ""),
+        };
+        if reason.is_empty() {
+            self.findings.push(
+                rules::W0802
+                    .at(
+                        span(text),
+                        format!("`{text}` is to be allowed without a reason"),
+                    )
+                    .with_help(format!(
+                        "write `;{WORD}={codes} ` and why it is as it should be"
+                    )),
+            );
+            return;
+        }
+        for given in codes.split(',') {
+            match known(given) {
+                Some(rule) => self.allows.push(Allow {
+                    code: rule.code,
+                    span: span(given),
+                    scope: scope.clone(),
+                    used: false,
+                }),
+                None => self.findings.push(
+                    rules::W0801
+                        .at(span(given), format!("`{given}` is no code of a finding"))
+                        .with_help(
+                            "write a code such as `W0311`; `odkit explain --list` has them all",
+                        ),
+                ),
+            }
+        }
+    }
+
+    /// Takes out what is allowed, and adds what is to be said about the comments.
+    pub fn apply(mut self, findings: &mut Vec<Diagnostic>) {
+        self.filter(findings);
+        for allow in self.allows.iter().filter(|allow| !allow.used) {
+            self.findings.push(
+                rules::I0803
+                    .at(allow.span, format!("there is no {} to allow", allow.code))
+                    .with_help("leave it out")
+                    .with_fix(Fix::guess().remove_line(allow.span)),
+            );
+        }
+        if !self.findings.is_empty() {
+            findings.append(&mut self.findings);
+            sort(findings);
+        }
+    }
+
+    /// Takes out what is allowed.
+    pub fn filter(&mut self, findings: &mut Vec<Diagnostic>) {
+        if !self.allows.is_empty() {
+            findings.retain(|finding| !self.allowed(finding));
+        }
+    }
+
+    fn allowed(&mut self, finding: &Diagnostic) -> bool {
+        let mut allowed = false;
+        for allow in &mut self.allows {
+            let here = match allow.scope {
+                Scope::File => true,
+                Scope::Section(start, end, index) => {
+                    let about = finding.address.map(|address| address.index);
+                    let at = finding.span.map(|span| span.line);
+                    at.is_some_and(|line| (start..end).contains(&line))
+                        || (index.is_some() && about == index)
+                }
+            };
+            if here && allow.code == finding.code {
+                allow.used = true;
+                allowed = true;
+            }
+        }
+        allowed
+    }
+}
+
+/// The rule of a code that can be allowed: all but those about edits and about this.
+pub(super) fn known(code: &str) -> Option<&'static Rule> {
+    rule(code).filter(|rule| !matches!(&rule.code[1..3], "07" | "08"))
+}
+
+/// `E0310`, or `E0310:2000` for one object: what a command line allows.
+///
+/// # Errors
+///
+/// What is wrong with it, in words.
+pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), String> {
+    let (code, index) = match text.split_once(':') {
+        Some((code, index)) => (code, Some(index)),
+        None => (text, None),
+    };
+    let rule = known(code).ok_or_else(|| {
+        format!("`{code}` is no code of a finding; `odkit explain --list` has them all")
+    })?;
+    let Some(index) = index else {
+        return Ok((rule.code, None));
+    };
+    let digits = index
+        .strip_prefix("0x")
+        .or_else(|| index.strip_prefix("0X"))
+        .unwrap_or(index);
+    let digits = digits.strip_suffix(['h', 'H']).unwrap_or(digits);
+    match u16::from_str_radix(digits, 16) {
+        Ok(index) if !digits.starts_with('+') => Ok((rule.code, Some(index))),
+        _ => Err(format!(
+            "`{index}` is no index; write four hexadecimal digits such as `2000`"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn codes(text: &str) -> Vec<&'static str> {
+        let findings = crate::load::load(text).diagnostics;
+        findings
+            .iter()
+            .map(|finding| finding.code)
+            .filter(|code| !code.starts_with("E06") && !matches!(*code, "W0203" | "I0240"))
+            .collect()
+    }
+
+    const OBJECTS: &str = "[2000]\nParameterName=a\nDataType:5\nAccessType=ro\n\
+                           [2001]\nParameterName=b\nDataType:5\nAccessType=ro\n";
+
+    #[test]
+    fn a_file_an_object_or_a_section() {
+        assert_eq!(codes(OBJECTS), ["W0108", "W0108"]);
+        let file = format!("; Odkit-Allow = w0108 an old editor\n{OBJECTS}");
+        assert_eq!(codes(&file), [""; 0]);
+        let info = format!("[FileInfo]\n#odkit-allow W0108,W0101 an old editor\nx\n{OBJECTS}");
+        assert_eq!(codes(&info), [""; 0]);
+        let object = OBJECTS.replace("ParameterName=b", ";odkit-allow=W0108 so\nParameterName=b");
+        assert_eq!(codes(&object), ["W0108"]);
+        let other = format!("[Tools]\n;odkit-allow=W0108 x\nItems:1\n{OBJECTS}");
+        assert_eq!(codes(&other), ["W0108", "W0108"]);
+    }
+
+    #[test]
+    fn what_is_wrong_with_it_is_said() {
+        let file = format!(";odkit-allow=W0108\n{OBJECTS}");
+        assert_eq!(codes(&file), ["W0802", "W0108", "W0108"]);
+        let file = format!(";odkit-allow=W99,E0701 x y\n{OBJECTS}");
+        assert_eq!(codes(&file), ["W0801", "W0801", "W0108", "W0108"]);
+        let file = format!(";odkit-allow=W0101 none here\n{OBJECTS}");
+        assert_eq!(codes(&file), ["I0803", "W0108", "W0108"]);
+        assert_eq!(
+            codes(";odkit-allow=\n[2000]"),
+            ["W0802", "W0315", "W0404", "E0401"]
+        );
+    }
+
+    #[test]
+    fn on_the_command_line() {
+        assert_eq!(parse_allow("w0108"), Ok(("W0108", None)));
+        assert_eq!(parse_allow("E0310:2000"), Ok(("E0310", Some(0x2000))));
+        assert_eq!(parse_allow("E0310:0x20A0"), Ok(("E0310", Some(0x20A0))));
+        for wrong in [
+            "",
+            "W99",
+            "E0310:",
+            "E0310:2000sub1",
+            "E0310:12345",
+            "W0801",
+        ] {
+            assert!(parse_allow(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What must hold in a description before a device is made of it.
+//!
+//! One rule or one family of rules a file. [`RULES`] says what every code means,
+//! also those that the reader and the patches give. An error is what makes
+//! generated code unsound or a master fail; what many shipped files have is a
+//! warning.
+
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::description::{Description, EntryDescription, Value};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use od_model::Address;
+
+mod allow;
+mod cob_ids;
+mod data_types;
+mod entries;
+mod identity;
+mod limits;
+mod mandatory;
+mod members;
+mod modules;
+mod node_id;
+mod pdo_communication;
+mod pdo_counts;
+mod pdo_mapping;
+mod profile;
+mod sections;
+mod services;
+mod shape;
+mod standard;
+mod sub_index_0;
+pub(crate) mod text;
+mod values;
+
+pub use crate::rules::{Mending, RULES, Rule, rule};
+pub use allow::{Allows, parse_allow};
+
+/// All that is wrong with a description, in file order.
+///
+/// What the text was like is not seen here: [`parse`](crate::parse) names that.
+pub fn check(description: &Description) -> Vec<Diagnostic> {
+    let mut findings = Vec::new();
+    for check in [
+        mandatory::check,
+        standard::check,
+        services::check,
+        members::check,
+        shape::check,
+        sub_index_0::check,
+        data_types::check,
+        values::check,
+        node_id::check,
+        limits::check,
+        entries::check,
+        pdo_communication::check,
+        pdo_mapping::check,
+        pdo_counts::check,
+        cob_ids::check,
+        identity::check,
+        sections::check,
+        modules::check,
+        profile::check,
+    ] {
+        check(description, &mut findings);
+    }
+    once(description, &mut findings);
+    sort(&mut findings);
+    findings
+}
+
+/// Of members that one section stands for (CompactSubObj), the first is told about.
+fn once(description: &Description, findings: &mut Vec<Diagnostic>) {
+    let mut told = BTreeSet::new();
+    findings.retain(|finding| {
+        let (Some(address), Some(span)) = (finding.address, finding.span) else {
+            return true;
+        };
+        let own = description.entry(address).map(|entry| entry.span);
+        let object = description.objects.get(&address.index);
+        let copied = own.is_some() && own == object.map(|object| object.span) && address.sub > 0;
+        !copied || told.insert((finding.code, span, address.index))
+    });
+}
+/// File order; what stands nowhere comes last.
+pub(crate) fn sort(findings: &mut [Diagnostic]) {
+    findings.sort_by_key(|finding| match finding.span {
+        Some(span) => (0, span.line, span.column),
+        None => (1, 0, 0),
+    });
+}
+
+/// The first of these places that is one in a text.
+fn place(spans: &[Span]) -> Span {
+    spans
+        .iter()
+        .copied()
+        .find(|span| span.line != 0)
+        .unwrap_or_default()
+}
+
+/// An address in a message: without sub-index where the object has no members.
+fn named(description: &Description, address: Address) -> String {
+    match description.objects.get(&address.index) {
+        Some(object) if !object.code.has_members() && address.sub == 0 => {
+            format!("{:04X}h", address.index)
+        }
+        _ => format!("{address}"),
+    }
+}
+
+/// The value that an entry starts with: a DCF's ParameterValue, else the default.
+fn start_value(entry: &EntryDescription) -> Option<&Spanned<Value>> {
+    entry.parameter.as_ref().or(entry.default.as_ref())
+}
+
+/// The unsigned number that an entry starts with.
+fn start_number(description: &Description, address: Address) -> Option<Spanned<u64>> {
+    let value = start_value(description.entry(address)?)?;
+    match value.value.integer(0) {
+        Some(number) if !matches!(value.value, Value::NodeId(_)) => {
+            let number = u64::try_from(number).ok()?;
+            Some(Spanned::new(number, value.span))
+        }
+        _ => None,
+    }
+}

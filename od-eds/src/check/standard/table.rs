@@ -1,0 +1,234 @@
+//! What the standards say of 1000h to 1FFFh, as a table.
+
+use od_model::{Access, DataType, ObjectCode};
+
+/// One object, or a range of objects that are alike.
+pub(super) struct Standard {
+    first: u16,
+    last: u16,
+    /// The standard's name of it.
+    pub(super) name: &'static str,
+    pub(super) members: Members,
+}
+
+/// Its object code, and the values in it.
+pub(super) enum Members {
+    /// A VAR.
+    Var(Value),
+    /// An ARRAY; this is each of its members from sub-index 1 on.
+    Array(Value),
+    /// A RECORD: sub-index, value, and whether it must be there.
+    Record(&'static [(u8, Value, bool)]),
+}
+
+/// Type and access of a value.
+pub(super) struct Value {
+    pub(super) data_type: DataType,
+    pub(super) access: Access,
+}
+
+impl Standard {
+    pub(super) const fn code(&self) -> ObjectCode {
+        match self.members {
+            Members::Var(_) => ObjectCode::Var,
+            Members::Array(_) => ObjectCode::Array,
+            Members::Record(_) => ObjectCode::Record,
+        }
+    }
+
+    /// Which standard it is in.
+    pub(super) const fn source(&self) -> &'static str {
+        match self.first {
+            0x1F00..=0x1F9F => "CiA 302",
+            _ => "CiA 301",
+        }
+    }
+}
+
+/// The entry of an index.
+pub(super) fn of(index: u16) -> Option<&'static Standard> {
+    let at = TABLE.partition_point(|entry| entry.last < index);
+    TABLE.get(at).filter(|entry| entry.first <= index)
+}
+
+const fn value(data_type: DataType, access: Access) -> Value {
+    Value { data_type, access }
+}
+
+const fn var(index: u16, name: &'static str, data_type: DataType, access: Access) -> Standard {
+    Standard {
+        first: index,
+        last: index,
+        name,
+        members: Members::Var(value(data_type, access)),
+    }
+}
+
+const fn array(index: u16, name: &'static str, data_type: DataType, access: Access) -> Standard {
+    Standard {
+        first: index,
+        last: index,
+        name,
+        members: Members::Array(value(data_type, access)),
+    }
+}
+
+const fn record(
+    first: u16,
+    last: u16,
+    name: &'static str,
+    members: &'static [(u8, Value, bool)],
+) -> Standard {
+    Standard {
+        first,
+        last,
+        name,
+        members: Members::Record(members),
+    }
+}
+
+use Access::{Const, Ro, Rw, Wo};
+use DataType::{Domain, OctetString, Unsigned8, Unsigned16, Unsigned32, Unsigned64, VisibleString};
+
+const IDENTITY: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Ro), true),
+    (2, value(Unsigned32, Ro), false),
+    (3, value(Unsigned32, Ro), false),
+    (4, value(Unsigned32, Ro), false),
+];
+
+const OS_COMMAND: &[(u8, Value, bool)] = &[
+    (1, value(OctetString, Wo), true),
+    (2, value(Unsigned8, Ro), true),
+    (3, value(OctetString, Ro), true),
+];
+
+const SDO_SERVER: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Rw), true),
+    (2, value(Unsigned32, Rw), true),
+    (3, value(Unsigned8, Rw), false),
+];
+
+const SDO_CLIENT: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Rw), true),
+    (2, value(Unsigned32, Rw), true),
+    (3, value(Unsigned8, Rw), true),
+];
+
+const RPDO: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Rw), true),
+    (2, value(Unsigned8, Rw), true),
+    (3, value(Unsigned16, Rw), false),
+    (4, value(Unsigned8, Rw), false),
+    (5, value(Unsigned16, Rw), false),
+];
+
+const TPDO: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Rw), true),
+    (2, value(Unsigned8, Rw), true),
+    (3, value(Unsigned16, Rw), false),
+    (4, value(Unsigned8, Rw), false),
+    (5, value(Unsigned16, Rw), false),
+    (6, value(Unsigned8, Rw), false),
+];
+
+/// By ascending index.
+const TABLE: &[Standard] = &[
+    var(0x1000, "device type", Unsigned32, Ro),
+    var(0x1001, "error register", Unsigned8, Ro),
+    var(0x1002, "manufacturer status register", Unsigned32, Ro),
+    array(0x1003, "pre-defined error field", Unsigned32, Ro),
+    var(0x1005, "COB-ID SYNC", Unsigned32, Rw),
+    var(0x1006, "communication cycle period", Unsigned32, Rw),
+    var(0x1007, "synchronous window length", Unsigned32, Rw),
+    var(0x1008, "manufacturer device name", VisibleString, Const),
+    var(
+        0x1009,
+        "manufacturer hardware version",
+        VisibleString,
+        Const,
+    ),
+    var(
+        0x100A,
+        "manufacturer software version",
+        VisibleString,
+        Const,
+    ),
+    var(0x100C, "guard time", Unsigned16, Rw),
+    var(0x100D, "life time factor", Unsigned8, Rw),
+    array(0x1010, "store parameters", Unsigned32, Rw),
+    array(0x1011, "restore default parameters", Unsigned32, Rw),
+    var(0x1012, "COB-ID TIME", Unsigned32, Rw),
+    var(0x1013, "high resolution time stamp", Unsigned32, Rw),
+    var(0x1014, "COB-ID EMCY", Unsigned32, Rw),
+    var(0x1015, "inhibit time EMCY", Unsigned16, Rw),
+    array(0x1016, "consumer heartbeat time", Unsigned32, Rw),
+    var(0x1017, "producer heartbeat time", Unsigned16, Rw),
+    record(0x1018, 0x1018, "identity object", IDENTITY),
+    var(0x1019, "synchronous counter overflow value", Unsigned8, Rw),
+    array(0x1020, "verify configuration", Unsigned32, Rw),
+    var(0x1021, "store EDS", Domain, Ro),
+    record(0x1023, 0x1023, "OS command", OS_COMMAND),
+    var(0x1024, "OS command mode", Unsigned8, Wo),
+    record(0x1025, 0x1025, "OS debugger interface", OS_COMMAND),
+    array(0x1027, "module list", Unsigned16, Ro),
+    array(0x1028, "emergency consumer object", Unsigned32, Rw),
+    array(0x1029, "error behavior object", Unsigned8, Rw),
+    record(0x1200, 0x127F, "SDO server parameter", SDO_SERVER),
+    record(0x1280, 0x12FF, "SDO client parameter", SDO_CLIENT),
+    record(0x1400, 0x15FF, "RPDO communication parameter", RPDO),
+    record(0x1600, 0x17FF, "RPDO mapping parameter", &[]),
+    record(0x1800, 0x19FF, "TPDO communication parameter", TPDO),
+    record(0x1A00, 0x1BFF, "TPDO mapping parameter", &[]),
+    array(0x1F20, "store DCF", Domain, Rw),
+    array(0x1F22, "concise DCF", Domain, Rw),
+    array(0x1F26, "expected configuration date", Unsigned32, Rw),
+    array(0x1F27, "expected configuration time", Unsigned32, Rw),
+    array(0x1F50, "program data", Domain, Wo),
+    array(0x1F51, "program control", Unsigned8, Rw),
+    array(0x1F55, "expected software identification", Unsigned32, Rw),
+    array(0x1F56, "program software identification", Unsigned32, Ro),
+    array(0x1F57, "flash status identification", Unsigned32, Ro),
+    var(0x1F80, "NMT startup", Unsigned32, Rw),
+    array(0x1F81, "NMT slave assignment", Unsigned32, Rw),
+    array(0x1F82, "request NMT", Unsigned8, Rw),
+    array(0x1F83, "request node guarding", Unsigned8, Rw),
+    array(0x1F84, "device type identification", Unsigned32, Rw),
+    array(0x1F85, "vendor identification", Unsigned32, Rw),
+    array(0x1F86, "product code", Unsigned32, Rw),
+    array(0x1F87, "revision number", Unsigned32, Rw),
+    array(0x1F88, "serial number", Unsigned32, Rw),
+    var(0x1F89, "boot time", Unsigned32, Rw),
+    Standard {
+        first: 0x1FA0,
+        last: 0x1FCF,
+        name: "object scanner list",
+        members: Members::Array(value(Unsigned32, Rw)),
+    },
+    Standard {
+        first: 0x1FD0,
+        last: 0x1FFF,
+        name: "object dispatching list",
+        members: Members::Array(value(Unsigned64, Rw)),
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_sorted_and_found_in() {
+        for pair in TABLE.windows(2) {
+            assert!(pair[0].last < pair[1].first, "{:04X}", pair[1].first);
+        }
+        for entry in TABLE {
+            assert!(entry.first <= entry.last);
+            assert_eq!(of(entry.first).map(|found| found.name), Some(entry.name));
+            assert_eq!(of(entry.last).map(|found| found.name), Some(entry.name));
+        }
+        for index in [0x0FFF, 0x1004, 0x102A, 0x1300, 0x1C00, 0x2000] {
+            assert!(of(index).is_none(), "{index:04X}");
+        }
+    }
+}

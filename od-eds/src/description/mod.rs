@@ -1,0 +1,371 @@
+//! A device description as it was read: owned, editable, with the place of everything.
+//!
+//! [`Description`] is what the EDS reader, the macro's spec table and a variant's
+//! patches produce, what the checks read, and what the writer writes. The
+//! dictionary that runs is made from it by [`Tables`](crate::Tables).
+
+pub(crate) mod commission;
+pub(crate) mod tables;
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Span, Spanned};
+use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
+
+/// A default, a limit or a configured value, owned.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Value {
+    /// BOOLEAN, UNSIGNED, TIME_OF_DAY and TIME_DIFFERENCE.
+    Unsigned(u64),
+    /// INTEGER.
+    Signed(i64),
+    /// REAL32 and REAL64.
+    Real(f64),
+    /// `$NODEID+n`.
+    NodeId(u32),
+    /// VISIBLE_STRING.
+    Text(String),
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN.
+    Bytes(Vec<u8>),
+}
+
+impl Value {
+    /// The number that this is for a node with this ID; `None` for texts, bytes and reals.
+    pub fn integer(&self, node_id: u8) -> Option<i128> {
+        match self {
+            Self::Unsigned(v) => Some(i128::from(*v)),
+            Self::Signed(v) => Some(i128::from(*v)),
+            Self::NodeId(offset) => Some(i128::from(*offset) + i128::from(node_id)),
+            Self::Real(_) | Self::Text(_) | Self::Bytes(_) => None,
+        }
+    }
+
+    /// Is this a value of the type, whatever the node ID?
+    pub fn fits(&self, data_type: DataType) -> bool {
+        match (data_type.kind(), self) {
+            (Kind::Text, Self::Text(_)) | (Kind::Bytes, Self::Bytes(_)) => true,
+            (Kind::Real, Self::Real(value)) => match data_type {
+                DataType::Real32 => value.abs() <= f64::from(f32::MAX),
+                _ => true,
+            },
+            (Kind::Unsigned, Self::NodeId(offset)) => {
+                data_type.holds_node_id()
+                    && data_type
+                        .integer_range()
+                        .is_some_and(|(_, high)| i128::from(*offset) + 127 <= high)
+            }
+            (_, Self::NodeId(_)) => false,
+            (_, value) => match (value.integer(0), data_type.integer_range()) {
+                (Some(value), Some((low, high))) => (low..=high).contains(&value),
+                _ => false,
+            },
+        }
+    }
+}
+
+/// One value of an object: what an EDS section with a DataType says.
+///
+/// Two are equal if they say the same, wherever they stand.
+#[derive(Clone, Debug)]
+pub struct EntryDescription {
+    /// ParameterName.
+    pub name: Spanned<String>,
+    /// DataType; `None` where it is missing or unknown, which is an error.
+    pub data_type: Option<Spanned<DataType>>,
+    /// AccessType.
+    pub access: Spanned<Access>,
+    /// PDOMapping.
+    pub mappable: Spanned<bool>,
+    /// DefaultValue.
+    pub default: Option<Spanned<Value>>,
+    /// LowLimit.
+    pub low: Option<Spanned<Value>>,
+    /// HighLimit.
+    pub high: Option<Spanned<Value>>,
+    /// ParameterValue of a DCF.
+    pub parameter: Option<Spanned<Value>>,
+    /// Which sub-index of 1010h saves it; `None` where the text does not say,
+    /// which means the group of the index for what a master can write.
+    pub group: Option<Spanned<Group>>,
+    /// ObjFlags, 0 where missing.
+    pub flags: u32,
+    /// Keys that this version of odkit has no field for, in file order.
+    pub extra: Vec<(String, String)>,
+    /// The section header, or the token that made it.
+    pub span: Span,
+}
+
+impl PartialEq for EntryDescription {
+    fn eq(&self, other: &Self) -> bool {
+        // All fields by name, so that a new one is not forgotten.
+        let Self {
+            name,
+            data_type,
+            access,
+            mappable,
+            default,
+            low,
+            high,
+            parameter,
+            group,
+            flags,
+            extra,
+            span: _,
+        } = self;
+        *name == other.name
+            && *data_type == other.data_type
+            && *access == other.access
+            && *mappable == other.mappable
+            && *default == other.default
+            && *low == other.low
+            && *high == other.high
+            && *parameter == other.parameter
+            && *group == other.group
+            && *flags == other.flags
+            && *extra == other.extra
+    }
+}
+
+impl EntryDescription {
+    /// A read-only entry of this type and name, without limits; for tables and patches.
+    pub fn new(name: impl Into<String>, data_type: DataType) -> Self {
+        Self {
+            name: Spanned::from(name.into()),
+            data_type: Some(Spanned::from(data_type)),
+            access: Spanned::from(Access::Ro),
+            mappable: Spanned::from(false),
+            default: None,
+            low: None,
+            high: None,
+            parameter: None,
+            group: None,
+            flags: 0,
+            extra: Vec::new(),
+            span: Span::default(),
+        }
+    }
+
+    /// The name that a DCF gives this value in its application (Denotation).
+    pub fn denotation(&self) -> Option<&str> {
+        self.extra("Denotation")
+    }
+
+    /// The file from which a configuration tool reads the value of a DOMAIN (UploadFile of a DCF).
+    pub fn upload_file(&self) -> Option<&str> {
+        self.extra("UploadFile")
+    }
+
+    /// The file into which a configuration tool writes the value of a DOMAIN (DownloadFile of a DCF).
+    pub fn download_file(&self) -> Option<&str> {
+        self.extra("DownloadFile")
+    }
+
+    fn extra(&self, key: &str) -> Option<&str> {
+        let found = self.extra.iter().find(|(k, _)| k.eq_ignore_ascii_case(key));
+        found
+            .map(|(_, value)| value.as_str())
+            .filter(|value| !value.is_empty())
+    }
+
+    /// The group that saves this value when it stands at `address`.
+    pub fn group_at(&self, address: Address) -> Group {
+        match &self.group {
+            Some(group) => group.value,
+            // Commands and logs are written too, but hold nothing to save.
+            None if matches!(address.index, 0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F) => {
+                Group::None
+            }
+            None if self.access.writable() && *self.access != Access::Wo => {
+                Group::of_index(address.index)
+            }
+            None => Group::None,
+        }
+    }
+}
+
+/// One object: a VAR with its one entry, or an ARRAY or RECORD with its members.
+///
+/// Two are equal if they say the same, wherever they stand.
+#[derive(Clone, Debug)]
+pub struct ObjectDescription {
+    /// ObjectType; VAR where the text says nothing.
+    pub code: Spanned<ObjectCode>,
+    /// ParameterName of the object.
+    pub name: Spanned<String>,
+    /// SubNumber as given; counted where a text gives none for an object with members.
+    pub sub_number: Option<Spanned<u32>>,
+    /// The values by sub-index; a VAR has exactly sub-index 0.
+    pub entries: BTreeMap<u8, EntryDescription>,
+    /// ObjFlags, 0 where missing.
+    pub flags: u32,
+    /// Keys that this version of odkit has no field for, in file order.
+    pub extra: Vec<(String, String)>,
+    /// The section header, or the token that made it.
+    pub span: Span,
+}
+
+impl PartialEq for ObjectDescription {
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            code,
+            name,
+            sub_number,
+            entries,
+            flags,
+            extra,
+            span: _,
+        } = self;
+        *code == other.code
+            && *name == other.name
+            && *sub_number == other.sub_number
+            && *entries == other.entries
+            && *flags == other.flags
+            && *extra == other.extra
+    }
+}
+
+impl ObjectDescription {
+    /// A VAR.
+    pub fn var(entry: EntryDescription) -> Self {
+        Self {
+            code: Spanned::from(ObjectCode::Var),
+            name: entry.name.clone(),
+            sub_number: None,
+            flags: 0,
+            extra: Vec::new(),
+            span: entry.span,
+            entries: BTreeMap::from([(0, entry)]),
+        }
+    }
+}
+
+/// A section that describes no object: `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]` …
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Section {
+    /// The name between the brackets.
+    pub name: Spanned<String>,
+    /// Keys and values in file order.
+    pub pairs: Vec<(Spanned<String>, Spanned<String>)>,
+}
+
+impl Section {
+    /// The first value under `key`, in any case.
+    pub fn get(&self, key: &str) -> Option<&Spanned<String>> {
+        self.pairs
+            .iter()
+            .find(|(k, _)| k.eq_ignore_ascii_case(key))
+            .map(|(_, v)| v)
+    }
+}
+
+/// Everything that an EDS or DCF says.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Description {
+    /// The sections that describe no object, in file order.
+    pub sections: Vec<Section>,
+    /// The objects.
+    pub objects: BTreeMap<u16, ObjectDescription>,
+}
+
+impl Description {
+    /// The first section with this name, in any case.
+    pub fn section(&self, name: &str) -> Option<&Section> {
+        self.sections
+            .iter()
+            .find(|s| s.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The entry at an address.
+    pub fn entry(&self, address: Address) -> Option<&EntryDescription> {
+        self.objects.get(&address.index)?.entries.get(&address.sub)
+    }
+
+    /// Every entry with its address, in order.
+    pub fn entries(&self) -> impl Iterator<Item = (Address, &EntryDescription)> {
+        self.objects.iter().flat_map(|(index, object)| {
+            object
+                .entries
+                .iter()
+                .map(|(sub, entry)| (Address::new(*index, *sub), entry))
+        })
+    }
+
+    /// What a DCF's `[DeviceComissioning]` says of the node and its network, in either
+    /// spelling; what is empty or none of its kind is missing.
+    pub fn commissioning(&self) -> Option<Commissioning<'_>> {
+        let section = self
+            .section("DeviceComissioning")
+            .or_else(|| self.section("DeviceCommissioning"))?;
+        let text = |key| {
+            let value = section.get(key)?;
+            (!value.is_empty()).then_some(value.value.as_str())
+        };
+        let number = |key| crate::scan::number::number(section.get(key)?);
+        let node_id = number("NodeID").and_then(|id| u8::try_from(id).ok());
+        Some(Commissioning {
+            node_id: node_id.filter(|id| (1..=127).contains(id)),
+            node_name: text("NodeName"),
+            bit_rate: number("Baudrate").and_then(|rate| u16::try_from(rate).ok()),
+            network: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
+            network_name: text("NetworkName"),
+            is_manager: number("CANopenManager").map(|flag| flag != 0),
+            serial_number: number("LSS_SerialNumber").and_then(|n| u32::try_from(n).ok()),
+        })
+    }
+
+    /// The node ID that a DCF's `[DeviceComissioning]` gives (either spelling), if it is 1–127.
+    pub fn commissioned_node_id(&self) -> Option<u8> {
+        self.commissioning()?.node_id
+    }
+}
+
+/// What a DCF says of one node and its network (CiA 306-1, DeviceComissioning).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Commissioning<'a> {
+    /// Node ID, 1–127; `None` for 255, which is a node without one.
+    pub node_id: Option<u8>,
+    /// NodeName.
+    pub node_name: Option<&'a str>,
+    /// Bit rate in kbit/s.
+    pub bit_rate: Option<u16>,
+    /// NetNumber.
+    pub network: Option<u32>,
+    /// NetworkName.
+    pub network_name: Option<&'a str>,
+    /// Is the node the CANopen manager?
+    pub is_manager: Option<bool>,
+    /// LSS_SerialNumber.
+    pub serial_number: Option<u32>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_configuration_says_what_node_it_is_for() {
+        let text = "[DeviceCommissioning]\nNodeId=0x11\nNodeName=Left\nBaudrate=500\nNetNumber=\n\
+            CANopenManager=1\nLSS_SerialNumber=42\n\
+            [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\nUploadFile=a.bin\nDownloadFile=\n";
+        let description = crate::read::sorted::parse(text).description;
+        let expected = Commissioning {
+            node_id: Some(17),
+            node_name: Some("Left"),
+            bit_rate: Some(500),
+            is_manager: Some(true),
+            serial_number: Some(42),
+            ..Commissioning::default()
+        };
+        assert_eq!(description.commissioning(), Some(expected));
+        assert_eq!(description.commissioned_node_id(), Some(17));
+        let image = &description.objects[&0x2000].entries[&0];
+        assert_eq!(
+            (image.denotation(), image.upload_file()),
+            (Some("Image"), Some("a.bin"))
+        );
+        assert_eq!(image.download_file(), None);
+        assert_eq!(Description::default().commissioning(), None);
+    }
+}

@@ -1,0 +1,304 @@
+//! From a description to the tables that run: order, arenas, storage layout.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::description::{Description, EntryDescription, Value};
+use crate::diagnostic::Spanned;
+use od_model::owned::store_len;
+use od_model::owned::{EMPTY, fill};
+use od_model::{
+    Access, Address, DataType, Dictionary, Entry, Kind, Literal, Object, Place, Range, Slot,
+    bucket_count,
+};
+
+/// Capacity in bytes of a string that a master may write, where its default is shorter.
+const STRING_CAPACITY: usize = 64;
+/// Capacity in bytes of a DOMAIN that a master may write, where its default is shorter.
+const DOMAIN_CAPACITY: usize = 1024;
+
+/// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Tables {
+    buckets: Vec<u16>,
+    places: Vec<Place>,
+    objects: Vec<Object>,
+    entries: Vec<Entry>,
+    text: String,
+    blob: Vec<u8>,
+    store_len: usize,
+}
+
+impl Default for Tables {
+    /// The tables of an empty dictionary.
+    fn default() -> Self {
+        Self {
+            buckets: Vec::new(),
+            places: Vec::new(),
+            objects: Vec::new(),
+            entries: Vec::new(),
+            text: String::new(),
+            blob: Vec::new(),
+            store_len: 0,
+        }
+    }
+}
+
+impl Tables {
+    /// The tables of everything in `description` that can run.
+    ///
+    /// Total: an entry without a usable type, an object without entries and a value
+    /// that does not fit its type are left out; the checks have named them. Where a
+    /// DCF gives a ParameterValue, that is the default.
+    pub fn new(description: &Description) -> Self {
+        let mut tables = Self::default();
+        let mut names = BTreeMap::new();
+        let mut offset = 0u32;
+        for (&index, object) in &description.objects {
+            let first = tables.entries.len() as u32;
+            for (&sub, entry) in &object.entries {
+                let address = Address::new(index, sub);
+                if let Some(made) = tables.entry(address, entry, &mut names, &mut offset) {
+                    tables.entries.push(made);
+                }
+            }
+            let count = tables.entries.len() as u32 - first;
+            if count > 0 {
+                let name = tables.intern(&object.name, &mut names);
+                let code = object.code.value;
+                // At most 256 sub-indices: the count fits.
+                tables.objects.push(Object {
+                    index,
+                    code,
+                    name,
+                    first,
+                    count: count as u16,
+                });
+            }
+        }
+        tables.settle();
+        tables
+    }
+
+    /// The view that runs; it costs nothing to make.
+    pub fn dictionary(&self) -> Dictionary<'_> {
+        Dictionary::trusted(
+            &self.buckets,
+            &self.places,
+            &self.objects,
+            &self.entries,
+            &self.text,
+            &self.blob,
+            self.store_len,
+        )
+    }
+
+    /// Gives stored values another place: for variants that share one store layout.
+    /// Values that are not stored keep none.
+    pub fn place(&mut self, mut place: impl FnMut(&Entry) -> Slot) {
+        for entry in self.entries.iter_mut().filter(|entry| entry.slot.len > 0) {
+            entry.slot = place(entry);
+        }
+        self.settle();
+    }
+
+    /// Makes what follows from the entries.
+    fn settle(&mut self) {
+        self.places = self.entries.iter().map(Place::of).collect();
+        self.buckets = vec![EMPTY; bucket_count(self.entries.len())];
+        fill(&mut self.buckets, &self.places);
+        self.store_len = store_len(&self.entries);
+    }
+
+    /// The objects, by index.
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// The values, by address.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Names and VISIBLE_STRING defaults, each once.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// OCTET_STRING, UNICODE_STRING and DOMAIN defaults.
+    pub fn blob(&self) -> &[u8] {
+        &self.blob
+    }
+
+    fn entry(
+        &mut self,
+        address: Address,
+        from: &EntryDescription,
+        names: &mut BTreeMap<String, Range>,
+        offset: &mut u32,
+    ) -> Option<Entry> {
+        let data_type = from.data_type?.value;
+        if data_type.kind() == Kind::Record {
+            return None;
+        }
+        let value = fitting(&from.parameter, data_type).or(fitting(&from.default, data_type));
+        let default = self.literal(value, data_type, names);
+        let len = slot_len(data_type, *from.access, value);
+        let slot = Slot {
+            offset: if len == 0 { 0 } else { *offset },
+            len,
+        };
+        // Four gigabytes of values are no device; whoever makes one up gets no panic.
+        *offset = offset.saturating_add(u32::from(len));
+        Some(Entry {
+            address,
+            data_type,
+            access: *from.access,
+            mappable: *from.mappable,
+            group: from.group_at(address),
+            name: self.intern(&from.name, names),
+            default,
+            low: self.literal(fitting(&from.low, data_type), data_type, names),
+            high: self.literal(fitting(&from.high, data_type), data_type, names),
+            slot,
+        })
+    }
+
+    fn literal(
+        &mut self,
+        value: Option<&Value>,
+        data_type: DataType,
+        names: &mut BTreeMap<String, Range>,
+    ) -> Literal {
+        match value {
+            None => Literal::None,
+            // What fits a type fits its literal: neither cast changes the value.
+            Some(Value::Unsigned(v)) if data_type.kind() == Kind::Signed => {
+                Literal::Signed(*v as i64)
+            }
+            Some(Value::Signed(v)) if data_type.kind() != Kind::Signed => {
+                Literal::Unsigned(*v as u64)
+            }
+            Some(Value::Unsigned(v)) => Literal::Unsigned(*v),
+            Some(Value::Signed(v)) => Literal::Signed(*v),
+            Some(Value::Real(v)) => Literal::Real(*v),
+            Some(Value::NodeId(v)) => Literal::NodeId(*v),
+            Some(Value::Text(v)) => Literal::Text(self.intern(v, names)),
+            Some(Value::Bytes(v)) => {
+                let start = self.blob.len() as u32;
+                self.blob.extend_from_slice(v);
+                Literal::Bytes(Range::new(start, v.len() as u32))
+            }
+        }
+    }
+
+    fn intern(&mut self, text: &str, names: &mut BTreeMap<String, Range>) -> Range {
+        if let Some(range) = names.get(text) {
+            return *range;
+        }
+        let range = Range::new(self.text.len() as u32, text.len() as u32);
+        self.text.push_str(text);
+        names.insert(text.into(), range);
+        range
+    }
+}
+
+/// The value, if it is one of the type.
+fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value> {
+    value
+        .as_ref()
+        .map(|value| &value.value)
+        .filter(|value| value.fits(data_type))
+}
+
+/// Bytes that a value takes in the store; see [`Slot`].
+fn slot_len(data_type: DataType, access: Access, value: Option<&Value>) -> u16 {
+    if access == Access::Const {
+        return 0;
+    }
+    if let Some(size) = data_type.size() {
+        return size as u16;
+    }
+    let given = match value {
+        Some(Value::Text(text)) => text.len(),
+        Some(Value::Bytes(bytes)) => bytes.len(),
+        _ => 0,
+    };
+    let room = match (data_type, access.writable()) {
+        (DataType::Domain, true) => DOMAIN_CAPACITY,
+        (_, true) => STRING_CAPACITY,
+        (_, false) if given == 0 => STRING_CAPACITY,
+        (_, false) => 0,
+    };
+    (2 + given.max(room)).min(u16::MAX as usize) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::ObjectDescription;
+
+    fn entry(data_type: DataType, default: Value) -> EntryDescription {
+        EntryDescription {
+            default: Some(Spanned::from(default)),
+            ..EntryDescription::new("x", data_type)
+        }
+    }
+
+    #[track_caller]
+    fn check(data_type: DataType, default: Value, expected: Literal) {
+        let mut description = Description::default();
+        let object = ObjectDescription::var(entry(data_type, default));
+        description.objects.insert(0x2000, object);
+        let tables = Tables::new(&description);
+        let made = tables.dictionary().entry(0x2000, 0).map(|e| e.default);
+        assert_eq!(made, Some(expected));
+    }
+
+    #[test]
+    fn a_literal_is_one_of_its_entrys_type() {
+        use DataType::*;
+        check(Unsigned8, Value::Signed(5), Literal::Unsigned(5));
+        check(Integer8, Value::Unsigned(5), Literal::Signed(5));
+        check(Unsigned8, Value::Unsigned(256), Literal::None);
+        check(Integer8, Value::Signed(-129), Literal::None);
+        check(Unsigned32, Value::Text("x".into()), Literal::None);
+        check(VisibleString, Value::Unsigned(1), Literal::None);
+        check(Real32, Value::Real(1e39), Literal::None);
+        check(Unsigned8, Value::NodeId(0x80), Literal::NodeId(0x80));
+        check(Unsigned8, Value::NodeId(0x81), Literal::None);
+        check(Unsigned64, Value::NodeId(1), Literal::None);
+    }
+
+    #[test]
+    fn whatever_a_description_holds_there_are_tables() {
+        let mut description = Description::default();
+        let mut odd = ObjectDescription::var(entry(DataType::Identity, Value::Unsigned(1)));
+        odd.entries
+            .insert(255, entry(DataType::Unsigned8, Value::Unsigned(1)));
+        description.objects.insert(0, odd.clone());
+        odd.entries.clear();
+        description.objects.insert(0xFFFF, odd);
+        let tables = Tables::new(&description);
+        let dictionary = tables.dictionary();
+        assert_eq!(dictionary.objects().len(), 1);
+        assert_eq!(dictionary.entries().len(), 1);
+        assert!(dictionary.entry(0, 255).is_some());
+    }
+
+    #[test]
+    fn a_configured_value_is_the_default_if_it_is_one() {
+        let mut value = entry(DataType::Unsigned8, Value::Unsigned(1));
+        for (parameter, expected) in [(2, 2), (300, 1)] {
+            value.parameter = Some(Spanned::from(Value::Unsigned(parameter)));
+            let mut description = Description::default();
+            let object = ObjectDescription::var(value.clone());
+            description.objects.insert(0x2000, object);
+            let tables = Tables::new(&description);
+            let made = tables.dictionary().entry(0x2000, 0).map(|e| e.default);
+            assert_eq!(made, Some(Literal::Unsigned(expected)));
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Which differences break a master that was set up for the first device.
+
+use super::Impact;
+use od_model::{Access, Address, Dictionary, Entry, Group, Literal, ObjectCode};
+
+const fn breaking(if_so: bool) -> Impact {
+    if if_so {
+        Impact::Breaking
+    } else {
+        Impact::Compatible
+    }
+}
+
+/// ARRAY and RECORD are the same on the bus; a VAR is another thing than both.
+pub(super) fn object_code(before: ObjectCode, after: ObjectCode) -> Impact {
+    breaking(before.has_members() != after.has_members())
+}
+
+/// What could be read or written cannot any more.
+pub(super) fn access(before: Access, after: Access) -> Impact {
+    breaking(before.readable() && !after.readable() || before.writable() && !after.writable())
+}
+
+/// It cannot be mapped any more in a direction that it could.
+pub(super) fn mapping(before: &Entry, after: &Entry) -> Impact {
+    breaking(
+        before.maps_to_tpdo() && !after.maps_to_tpdo()
+            || before.maps_to_rpdo() && !after.maps_to_rpdo(),
+    )
+}
+
+/// What was saved is lost at power-off.
+pub(super) fn storage(after: Group) -> Impact {
+    breaking(after == Group::None)
+}
+
+/// The limits of what a master writes became narrower, at the lower and the upper end. A
+/// limit that is not there is the type's; values that a device gives out are its own.
+pub(super) fn limits(before: &Entry, after: &Entry) -> (Impact, Impact) {
+    if !before.access.writable() || before.data_type != after.data_type {
+        return (Impact::Compatible, Impact::Compatible);
+    }
+    let (low, high) = match (range(before), range(after)) {
+        (Some((low, high)), Some((new_low, new_high))) => (new_low > low, new_high < high),
+        _ => {
+            let ((low, high), (new_low, new_high)) = (reals(before), reals(after));
+            (new_low > low, new_high < high)
+        }
+    };
+    (breaking(low), breaking(high))
+}
+
+/// Smallest and largest value of an integer entry; node ID 1 stands for all.
+fn range(entry: &Entry) -> Option<(i128, i128)> {
+    let (low, high) = entry.data_type.integer_range()?;
+    Some((
+        entry.low.integer(1).unwrap_or(low),
+        entry.high.integer(1).unwrap_or(high),
+    ))
+}
+
+/// Smallest and largest value of a REAL.
+fn reals(entry: &Entry) -> (f64, f64) {
+    let number = |literal, or| match literal {
+        Literal::Real(value) => value,
+        _ => or,
+    };
+    (
+        number(entry.low, f64::NEG_INFINITY),
+        number(entry.high, f64::INFINITY),
+    )
+}
+
+/// A new default breaks a master where the bus depends on it: what the device is, which
+/// identifiers it uses, when it sends and what stands in its PDOs.
+pub(super) fn default(after: Dictionary<'_>, address: Address) -> Impact {
+    let is_record = after
+        .object(address.index)
+        .is_some_and(|object| object.code.has_members());
+    breaking(match (address.index, address.sub) {
+        // Device type; vendor and product. Revision and serial number may differ.
+        (0x1000, 0) | (0x1018, 1 | 2) => true,
+        (0x1018, _) => false,
+        (0x1005 | 0x1012 | 0x1014, 0) => true,
+        (0x1200..=0x12FF, 1 | 2) => true,
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 1 | 2) => true,
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => true,
+        // Bit rate and node ID of most devices are objects of their makers; a count says
+        // what additions and removals have said.
+        (_, 0) if is_record => false,
+        _ => false,
+    })
+}

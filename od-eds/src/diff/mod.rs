@@ -1,0 +1,232 @@
+//! What two dictionaries say differently, and whether a master would notice.
+//!
+//! [`compare`] reads two dictionaries entry by entry, whatever they were made from: a file, a
+//! compiled device, a variant. Order, spelling and comments of a text do not count.
+
+mod fields;
+mod impact;
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use od_model::{Address, Dictionary, Entry, Object};
+
+/// Would a master that was set up for the first device work with the second?
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
+pub enum Impact {
+    /// Yes.
+    Compatible,
+    /// It may fail, or read something else than it expects.
+    Breaking,
+}
+
+/// What of an object or entry is different.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "kebab-case")
+)]
+pub enum Field {
+    /// The whole object stands in the second alone.
+    ObjectAdded,
+    /// The whole object stands in the first alone.
+    ObjectRemoved,
+    /// The sub-index stands in the second alone.
+    EntryAdded,
+    /// The sub-index stands in the first alone.
+    EntryRemoved,
+    /// VAR, ARRAY, RECORD …
+    ObjectCode,
+    /// ParameterName.
+    Name,
+    /// DataType.
+    DataType,
+    /// AccessType.
+    Access,
+    /// PDOMapping: in which direction it can be mapped.
+    Mapping,
+    /// DefaultValue.
+    Default,
+    /// LowLimit.
+    LowLimit,
+    /// HighLimit.
+    HighLimit,
+    /// Which group of 1010h saves it.
+    Storage,
+}
+
+impl Field {
+    /// In words, for a table.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ObjectAdded | Self::EntryAdded => "added",
+            Self::ObjectRemoved | Self::EntryRemoved => "removed",
+            Self::ObjectCode => "object type",
+            Self::Name => "name",
+            Self::DataType => "data type",
+            Self::Access => "access",
+            Self::Mapping => "PDO mapping",
+            Self::Default => "default",
+            Self::LowLimit => "low limit",
+            Self::HighLimit => "high limit",
+            Self::Storage => "storage",
+        }
+    }
+}
+
+/// One thing that is different.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Difference {
+    /// Index.
+    pub index: u16,
+    /// Sub-index; `None` where it is about a whole object, as it always is for a VAR.
+    pub sub: Option<u8>,
+    /// Name of the entry or object; the second's, if it has one.
+    pub name: String,
+    /// What.
+    pub field: Field,
+    /// What the first says; empty where it says nothing.
+    pub before: String,
+    /// What the second says; empty where it says nothing.
+    pub after: String,
+    /// What it means for a master.
+    pub impact: Impact,
+}
+
+impl Difference {
+    /// `6001h`, or `1018h:02` where it is about one of several entries.
+    pub fn place(&self) -> String {
+        match self.sub {
+            Some(sub) => Address::new(self.index, sub).to_string(),
+            None => alloc::format!("{:04X}h", self.index),
+        }
+    }
+}
+
+/// Everything that is different, by address.
+pub fn compare(before: Dictionary<'_>, after: Dictionary<'_>) -> Vec<Difference> {
+    let mut found = Vec::new();
+    let pairs = merge(before.objects(), after.objects(), |object| object.index);
+    for pair in pairs {
+        match pair {
+            (Some(old), None) => found.push(whole(before, old, Field::ObjectRemoved)),
+            (None, Some(new)) => found.push(whole(after, new, Field::ObjectAdded)),
+            (Some(old), Some(new)) => object(&mut found, (before, old), (after, new)),
+            (None, None) => {}
+        }
+    }
+    found
+}
+
+fn object(
+    found: &mut Vec<Difference>,
+    (before, old): (Dictionary<'_>, &Object),
+    (after, new): (Dictionary<'_>, &Object),
+) {
+    let (old_name, new_name) = (before.text(old.name), after.text(new.name));
+    let about = |field, before: &str, after: &str, impact| Difference {
+        index: new.index,
+        sub: None,
+        name: new_name.into(),
+        field,
+        before: before.into(),
+        after: after.into(),
+        impact,
+    };
+    if old.code != new.code {
+        let impact = impact::object_code(old.code, new.code);
+        found.push(about(
+            Field::ObjectCode,
+            old.code.name(),
+            new.code.name(),
+            impact,
+        ));
+    }
+    // The name of a VAR is the name of its entry.
+    if old_name != new_name && (old.code.has_members() || new.code.has_members()) {
+        found.push(about(Field::Name, old_name, new_name, Impact::Compatible));
+    }
+    let members = merge(before.members(old), after.members(new), |e| e.address);
+    for pair in members {
+        match pair {
+            (Some(entry), None) => found.push(part(before, entry, Field::EntryRemoved)),
+            (None, Some(entry)) => found.push(part(after, entry, Field::EntryAdded)),
+            (Some(a), Some(b)) => {
+                let has_members = old.code.has_members() || new.code.has_members();
+                let sub = has_members.then_some(b.address.sub);
+                fields::compare(found, sub, (before, a), (after, b));
+            }
+            (None, None) => {}
+        }
+    }
+}
+
+fn whole(dictionary: Dictionary<'_>, object: &Object, field: Field) -> Difference {
+    let text = alloc::format!(
+        "{} of {}",
+        object.code.name(),
+        match object.count {
+            1 => "1 entry".into(),
+            count => alloc::format!("{count} entries"),
+        }
+    );
+    let name = dictionary.text(object.name);
+    gone_or_new(object.index, None, name, field, text)
+}
+
+fn part(dictionary: Dictionary<'_>, entry: &Entry, field: Field) -> Difference {
+    let text = alloc::format!("{} {}", entry.data_type.name(), entry.access.name());
+    let Address { index, sub } = entry.address;
+    gone_or_new(index, Some(sub), dictionary.text(entry.name), field, text)
+}
+
+fn gone_or_new(index: u16, sub: Option<u8>, name: &str, field: Field, text: String) -> Difference {
+    let is_new = matches!(field, Field::ObjectAdded | Field::EntryAdded);
+    let (before, after, impact) = if is_new {
+        (String::new(), text, Impact::Compatible)
+    } else {
+        (text, String::new(), Impact::Breaking)
+    };
+    Difference {
+        index,
+        sub,
+        name: name.into(),
+        field,
+        before,
+        after,
+        impact,
+    }
+}
+
+/// Two sorted lists side by side, those of one key together.
+fn merge<'a, 'b, T, K: Ord>(
+    left: &'a [T],
+    right: &'b [T],
+    key: impl Fn(&T) -> K,
+) -> Vec<(Option<&'a T>, Option<&'b T>)> {
+    let (mut left, mut right) = (left.iter().peekable(), right.iter().peekable());
+    let mut pairs = Vec::new();
+    loop {
+        let order = match (left.peek(), right.peek()) {
+            (Some(a), Some(b)) => key(a).cmp(&key(b)),
+            (Some(_), None) => core::cmp::Ordering::Less,
+            (None, Some(_)) => core::cmp::Ordering::Greater,
+            (None, None) => return pairs,
+        };
+        pairs.push(match order {
+            core::cmp::Ordering::Less => (left.next(), None),
+            core::cmp::Ordering::Greater => (None, right.next()),
+            core::cmp::Ordering::Equal => (left.next(), right.next()),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests;

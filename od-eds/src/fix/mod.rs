@@ -1,0 +1,155 @@
+//! How a finding is mended: edits of the text that touch no other line.
+//!
+//! A check says what to write and where ([`Fix`]); [`plan`] turns the fixes of a text
+//! into plain replacements that do not meet, and [`mend`] applies them to a
+//! document, round by round until there is nothing left to do. What no edit is about
+//! keeps its bytes, whatever the encoding and the line ends.
+//!
+//! ```
+//! use od_eds::Document;
+//! use od_eds::fix::{self, Applicability};
+//!
+//! let file = Document::new(b"[2000]\r\nParameterName=a\r\nDataType:5\r\n");
+//! let mended = fix::mend(&file, Applicability::Safe, |file| file.load().diagnostics);
+//! assert_eq!(mended.document.bytes(), b"[2000]\r\nParameterName=a\r\nDataType=5\r\n");
+//! ```
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::patch::token_of;
+
+mod mend;
+mod plan;
+
+pub use mend::{Mended, mend};
+pub use plan::{TextEdit, apply, plan};
+
+/// May a fix be applied without looking at it?
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
+pub enum Applicability {
+    /// It says to every reader what odkit read before.
+    Safe,
+    /// It changes what the file says, in the way that is most likely meant.
+    Unsafe,
+}
+
+/// What mends one finding: all of its edits together, or none.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Fix {
+    /// May it be applied without looking at it?
+    pub applicability: Applicability,
+    /// What to write, and where.
+    pub edits: Vec<Edit>,
+}
+
+/// One edit of a fix.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Edit {
+    /// The stretch of text that it is about.
+    pub span: Span,
+    /// What becomes of that.
+    pub action: Action,
+    /// What to write, `\n` for the line end of the file.
+    pub text: String,
+}
+
+/// What an edit does with its span.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "kebab-case")
+)]
+pub enum Action {
+    /// The text takes the place of the span.
+    Replace,
+    /// The text makes lines of its own above the line of the span.
+    InsertAbove,
+    /// The text makes lines of its own below the line of the span.
+    InsertBelow,
+    /// The line of the span goes, with its line end.
+    RemoveLine,
+}
+
+impl Fix {
+    /// A fix that needs no second look; edits are added to it.
+    pub const fn safe() -> Self {
+        Self::new(Applicability::Safe)
+    }
+
+    /// A fix that is a guess; edits are added to it.
+    pub const fn guess() -> Self {
+        Self::new(Applicability::Unsafe)
+    }
+
+    const fn new(applicability: Applicability) -> Self {
+        Self {
+            applicability,
+            edits: Vec::new(),
+        }
+    }
+
+    /// Writes `text` in place of `span`.
+    #[must_use]
+    pub fn replace(self, span: Span, text: impl Into<String>) -> Self {
+        self.edit(span, Action::Replace, text)
+    }
+
+    /// Writes lines below the line of `span`.
+    #[must_use]
+    pub fn below(self, span: Span, text: impl Into<String>) -> Self {
+        self.edit(span, Action::InsertBelow, text)
+    }
+
+    /// Writes lines above the line of `span`.
+    #[must_use]
+    pub fn above(self, span: Span, text: impl Into<String>) -> Self {
+        self.edit(span, Action::InsertAbove, text)
+    }
+
+    /// Removes the line of `span`.
+    #[must_use]
+    pub fn remove_line(self, span: Span) -> Self {
+        self.edit(span, Action::RemoveLine, "")
+    }
+
+    fn edit(mut self, span: Span, action: Action, text: impl Into<String>) -> Self {
+        let text = text.into();
+        self.edits.push(Edit { span, action, text });
+        self
+    }
+
+    /// The fix, unless one of its edits is about what stands in no text.
+    pub(crate) fn placed(self) -> Option<Self> {
+        let nowhere = |edit: &Edit| edit.span.line == 0 || token_of(edit.span).is_some();
+        let placed = !self.edits.is_empty() && !self.edits.iter().any(nowhere);
+        placed.then_some(self)
+    }
+
+    /// The plain replacements in `text`, which is the one that the finding is about.
+    ///
+    /// `None` if it is another.
+    pub fn text_edits(&self, text: &str) -> Option<Vec<TextEdit>> {
+        self.edits
+            .iter()
+            .map(|edit| plan::place(edit, text))
+            .collect()
+    }
+}
+
+/// Is the finding one that a run of this level mends?
+fn applies(finding: &Diagnostic, level: Applicability) -> Option<&Fix> {
+    finding
+        .fix
+        .as_ref()
+        .filter(|fix| fix.applicability <= level)
+}

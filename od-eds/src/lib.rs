@@ -1,0 +1,54 @@
+//! CANopen device descriptions as text (CiA 306-1, CiA 311): read, check, fix, patch, compare, write.
+//!
+//! [`parse`] never fails: it returns what it understood, and a diagnostic for
+//! everything else, each with its place in the text. What it cannot make a value
+//! of, it keeps as text in `extra`, so that [`write()`] loses nothing.
+//!
+//! ```
+//! use od_eds::Value;
+//! use od_model::Address;
+//!
+//! let loaded = od_eds::load("[2300]\nParameterName=Reset\nDataType=0x0005\nAccessType=rw\nDefaultValue=300\n");
+//! let fault = &loaded.diagnostics.iter().find(|d| d.code == "E0412").unwrap();
+//! assert_eq!(fault.span.unwrap().line, 5);
+//! let reset = loaded.description.entry(Address::new(0x2300, 0)).unwrap();
+//! assert_eq!(reset.default.as_ref().unwrap().value, Value::Unsigned(300));
+//! ```
+#![no_std]
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+extern crate alloc;
+extern crate std;
+
+pub mod check;
+mod description;
+mod diagnostic;
+pub mod diff;
+mod document;
+pub mod fix;
+mod load;
+mod overlay;
+pub mod patch;
+mod read;
+mod rules;
+mod scan;
+mod write;
+#[cfg(feature = "xdd")]
+pub mod xdd;
+
+pub use description::tables::Tables;
+pub use description::{
+    Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
+};
+pub use diagnostic::{Diagnostic, Label, Severity, Span, Spanned};
+pub use document::{Document, Edit, EditError};
+pub use load::load;
+pub use overlay::{Origin, Overlaid, overlay};
+pub use read::Parsed;
+pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
+pub use read::sorted::parse;
+pub use scan::encoding::{Encoding, decode};
+pub use write::canonical::{canonical, complete};
+pub use write::describe::{About, describe};
+pub use write::eds::write;

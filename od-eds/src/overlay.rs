@@ -1,0 +1,276 @@
+//! An overlay: an EDS with nothing in it but what a variant says otherwise.
+//!
+//! ```text
+//! [6001]                     ; what is there: these keys take the place of the base's
+//! DefaultValue=0x1000
+//! [2300]                     ; what is not to be there
+//! Remove=1
+//! [5000]                     ; what is new: a whole section, as in any EDS
+//! ParameterName=Mine
+//! DataType=0x0007
+//! AccessType=rw
+//! ```
+//! The two become one text, so every rule of the reader and of the checks holds for it, and
+//! every finding has the place in the file that it comes from.
+
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::scan::names::{List, object_of};
+
+/// Which of the two files a line comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Origin {
+    /// The EDS.
+    Base,
+    /// The overlay.
+    Overlay,
+}
+
+/// Base and overlay as one text.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Overlaid {
+    /// The text, for [`parse`](crate::parse()) or [`load`](crate::load).
+    pub text: String,
+    /// For each of its lines: the file, the line there from 1, and the byte where that begins.
+    lines: Vec<(Origin, u32, u32)>,
+    /// Byte where each line of `text` begins.
+    starts: Vec<u32>,
+}
+
+impl Overlaid {
+    /// Which file a place in the text comes from, and where it is there.
+    pub fn locate(&self, span: Span) -> (Origin, Span) {
+        let at = (span.line as usize).saturating_sub(1);
+        let (Some((origin, line, byte)), Some(start)) = (self.lines.get(at), self.starts.get(at))
+        else {
+            return (Origin::Base, span);
+        };
+        let moved = |position: u32| byte + position.saturating_sub(*start);
+        let span = Span {
+            start: moved(span.start),
+            end: moved(span.end),
+            line: *line,
+            column: span.column,
+        };
+        (*origin, span)
+    }
+
+    /// A finding of the text as one of the file that it is about. Second places in the other
+    /// file are left out, and so is a fix: it would have to change two files.
+    pub fn place(&self, mut finding: Diagnostic) -> (Origin, Diagnostic) {
+        let (origin, span) = match finding.span {
+            Some(span) => self.locate(span),
+            None => return (Origin::Base, finding),
+        };
+        finding.span = Some(span);
+        finding.fix = None;
+        finding.labels.retain_mut(|label| {
+            let (other, span) = self.locate(label.span);
+            label.span = span;
+            other == origin
+        });
+        (origin, finding)
+    }
+}
+
+/// Lays an overlay over a base.
+///
+/// # Errors
+/// What the overlay removes without its being there, a sentence each, with the line of the
+/// overlay.
+pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
+    let mut sections = read(base, Origin::Base);
+    let mut faults = Vec::new();
+    let (before, changed) = (objects(&sections), read(overlay, Origin::Overlay));
+    for section in changed.into_iter().skip(1) {
+        if section.has("Remove", "1") {
+            let count = sections.len();
+            sections.retain(|other| !section.removes(other));
+            if sections.len() == count {
+                let line = section.lines.first().map_or(0, |line| line.number);
+                faults.push((line, format!("there is no [{}] to remove", section.name)));
+            }
+            continue;
+        }
+        match sections.iter_mut().find(|other| other.is(&section.name)) {
+            Some(other) => other.take_over(section),
+            None => sections.push(section),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let after = objects(&sections);
+    if before != after {
+        list(&mut sections, &after);
+    }
+    Ok(join(&sections))
+}
+
+/// A line and where it comes from.
+#[derive(Clone, Debug)]
+struct Line<'t> {
+    text: alloc::borrow::Cow<'t, str>,
+    origin: Origin,
+    number: u32,
+    byte: u32,
+}
+
+impl Line<'_> {
+    /// The key of `key=value`; comments have none.
+    fn key(&self) -> Option<&str> {
+        let (key, _) = self.text.split_once('=')?;
+        let key = key.trim();
+        (!key.starts_with([';', '#', '[']) && !key.is_empty()).then_some(key)
+    }
+
+    fn is_key(&self, key: &str) -> bool {
+        self.key().is_some_and(|own| own.eq_ignore_ascii_case(key))
+    }
+}
+
+/// A header and what stands below it; the first one of a text has no header.
+#[derive(Clone, Debug)]
+struct Part<'t> {
+    name: String,
+    lines: Vec<Line<'t>>,
+}
+
+impl<'t> Part<'t> {
+    fn is(&self, name: &str) -> bool {
+        !self.name.is_empty() && self.name.eq_ignore_ascii_case(name)
+    }
+
+    fn has(&self, key: &str, value: &str) -> bool {
+        let mut lines = self.lines.iter().filter(|line| line.is_key(key));
+        lines.any(|line| {
+            let given = line.text.split_once('=').map(|(_, given)| given);
+            given.is_some_and(|given| given.split(';').next().unwrap_or("").trim() == value)
+        })
+    }
+
+    /// An object goes with its members and lists.
+    fn removes(&self, other: &Part<'_>) -> bool {
+        other.is(&self.name)
+            || self.name.len() == 4
+                && object_of(&self.name).is_some()
+                && object_of(&other.name) == object_of(&self.name)
+    }
+
+    /// Keys of the overlay take the place of the same keys; others stand at the end.
+    fn take_over(&mut self, overlay: Part<'t>) {
+        for line in overlay.lines.into_iter().skip(1) {
+            let key = line.key().map(ToString::to_string);
+            let same = key.and_then(|key| self.lines.iter().position(|own| own.is_key(&key)));
+            if let Some(at) = same {
+                self.lines[at] = line;
+                continue;
+            }
+            if line.text.trim().is_empty() {
+                continue;
+            }
+            let is_blank = |line: &Line<'_>| line.text.trim().is_empty();
+            let end = self.lines.iter().rposition(|own| !is_blank(own));
+            self.lines.insert(end.map_or(0, |end| end + 1), line);
+        }
+    }
+}
+
+fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
+    let mut parts = alloc::vec![Part {
+        name: String::new(),
+        lines: Vec::new()
+    }];
+    let mut byte = 0;
+    for (number, piece) in (1..).zip(text.split_inclusive('\n')) {
+        let line = Line {
+            text: piece.into(),
+            origin,
+            number,
+            byte,
+        };
+        byte += piece.len() as u32;
+        let trimmed = piece.trim().trim_start_matches('\u{FEFF}');
+        let name = trimmed
+            .strip_prefix('[')
+            .and_then(|rest| rest.split_once(']'));
+        if let Some((name, _)) = name {
+            parts.push(Part {
+                name: name.trim().into(),
+                lines: Vec::new(),
+            });
+        }
+        if let Some(part) = parts.last_mut() {
+            part.lines.push(line);
+        }
+    }
+    parts
+}
+
+/// The indices that have a section of their own.
+fn objects(parts: &[Part<'_>]) -> BTreeSet<u16> {
+    let whole = parts.iter().filter(|part| part.name.len() == 4);
+    whole.filter_map(|part| object_of(&part.name)).collect()
+}
+
+/// The three lists anew, where objects came or went; each line stands for the list's header.
+fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
+    for list in List::ALL {
+        let own: Vec<u16> = objects
+            .iter()
+            .copied()
+            .filter(|index| List::of(*index) == list)
+            .collect();
+        let at = parts.iter().position(|part| part.is(list.name()));
+        let header = match at.and_then(|at| parts.get(at)?.lines.first().cloned()) {
+            Some(header) => header,
+            None => Line {
+                text: format!("[{}]\n", list.name()).into(),
+                origin: Origin::Overlay,
+                number: 1,
+                byte: 0,
+            },
+        };
+        let count = format!("SupportedObjects={}\n", own.len());
+        let entries = (1..)
+            .zip(&own)
+            .map(|(number, index)| format!("{number}=0x{index:04X}\n"));
+        let lines = core::iter::once(header.text.to_string())
+            .chain(core::iter::once(count))
+            .chain(entries);
+        let lines: Vec<Line<'_>> = lines
+            .map(|text| Line {
+                text: text.into(),
+                ..header
+            })
+            .collect();
+        match at.and_then(|at| parts.get_mut(at)) {
+            Some(part) => part.lines = lines,
+            None => parts.push(Part {
+                name: list.name().into(),
+                lines,
+            }),
+        }
+    }
+}
+
+fn join(parts: &[Part<'_>]) -> Overlaid {
+    let mut made = Overlaid::default();
+    for line in parts.iter().flat_map(|part| &part.lines) {
+        // The last line of a file may have no end; another one follows now.
+        if !made.text.is_empty() && !made.text.ends_with('\n') {
+            made.text.push('\n');
+        }
+        made.starts.push(made.text.len() as u32);
+        made.lines.push((line.origin, line.number, line.byte));
+        made.text.push_str(&line.text);
+    }
+    made
+}
+
+#[cfg(test)]
+mod tests;

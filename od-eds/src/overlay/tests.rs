@@ -1,0 +1,126 @@
+use super::*;
+use crate::description::Value;
+use od_model::Address;
+
+const BASE: &str = "\
+; ours
+[DeviceInfo]
+ProductName=Base
+
+[MandatoryObjects]
+SupportedObjects=1
+1=0x1000
+
+[OptionalObjects]
+SupportedObjects=0
+
+[ManufacturerObjects]
+SupportedObjects=2
+1=0x2000
+2=0x2001
+
+[1000]
+ParameterName=Device type
+DataType=0x0007
+AccessType=ro
+DefaultValue=1
+
+[2000]
+ParameterName=Speed
+DataType=0x0005
+AccessType=rw
+DefaultValue=3
+HighLimit=9
+
+[2001]
+ParameterName=Pair
+ObjectType=0x9
+SubNumber=2
+[2001sub0]
+ParameterName=Highest
+DataType=0x0005
+AccessType=ro
+DefaultValue=1
+[2001sub1]
+ParameterName=One
+DataType=0x0005
+AccessType=rw";
+
+#[track_caller]
+fn laid(text: &str) -> Overlaid {
+    overlay(BASE, text).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+fn number(made: &Overlaid, index: u16, sub: u8) -> Option<i128> {
+    let description = crate::parse(&made.text).description;
+    let entry = description.entry(Address::new(index, sub))?;
+    entry.default.as_ref().and_then(|value| value.integer(1))
+}
+
+#[test]
+fn nothing_changes_nothing() {
+    assert_eq!(laid("").text, BASE);
+    assert_eq!(laid("; a comment\n").text, BASE);
+}
+
+#[test]
+fn keys_take_the_place_of_keys() {
+    let made = laid("[2000]\ndefaultvalue=5\nLowLimit=2\n[deviceinfo]\nProductName=Mine\n");
+    assert_eq!(number(&made, 0x2000, 0), Some(5));
+    let description = crate::parse(&made.text).description;
+    let entry = &description.objects[&0x2000].entries[&0];
+    assert_eq!(entry.low.as_deref(), Some(&Value::Unsigned(2)));
+    assert_eq!(entry.high.as_deref(), Some(&Value::Unsigned(9)));
+    let info = description
+        .section("DeviceInfo")
+        .and_then(|info| info.get("ProductName"));
+    assert_eq!(info.map(|name| name.value.as_str()), Some("Mine"));
+    assert_eq!(made.text.matches("DefaultValue=3").count(), 0);
+}
+
+#[test]
+fn objects_come_and_go_with_their_places_in_the_lists() {
+    let made = laid("[2001]\nRemove=1\n[1017]\nParameterName=Beat\nDataType=6\nAccessType=rw\n");
+    let loaded = crate::parse(&made.text);
+    let indices: Vec<u16> = loaded.description.objects.keys().copied().collect();
+    assert_eq!(indices, [0x1000, 0x1017, 0x2000]);
+    assert!(!made.text.contains("2001sub1"), "{}", made.text);
+    assert!(
+        made.text
+            .contains("[OptionalObjects]\nSupportedObjects=1\n1=0x1017\n")
+    );
+    let member = laid("[2001sub1]\nRemove=1\n");
+    assert!(!member.text.contains("2001sub1") && member.text.contains("2001sub0"));
+}
+
+#[test]
+fn what_is_not_there_cannot_go() {
+    let faults = overlay(BASE, "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n");
+    let faults = faults.expect_err("two faults");
+    assert_eq!(faults[0], (2, "there is no [2005] to remove".into()));
+    assert_eq!(faults[1].0, 4);
+}
+
+#[test]
+fn findings_are_told_where_they_come_from() {
+    let text = "; mine\n[2000]\nHighLimit=1\n\n[2002]\nParameterName=New\nAccessType=rw\n";
+    let made = laid(text);
+    let findings = crate::load(&made.text).diagnostics;
+    let placed: Vec<_> = findings
+        .into_iter()
+        .map(|finding| made.place(finding))
+        .collect();
+    let of = |code: &str| placed.iter().find(|(_, finding)| finding.code == code);
+    let (origin, missing) = of("E0401").expect("2002h has no DataType");
+    assert_eq!(*origin, Origin::Overlay);
+    assert_eq!(missing.span.map(|span| span.line), Some(5));
+    let (origin, limit) = of("W0452").expect("3 is above 1");
+    let span = limit.span.expect("it has a place");
+    let file = if *origin == Origin::Base { BASE } else { text };
+    let line = file.lines().nth(span.line as usize - 1).unwrap_or("");
+    assert!(line.contains('='), "{line}");
+    assert_eq!(
+        &file[span.start as usize..span.end as usize],
+        line.split('=').nth(1).unwrap_or("")
+    );
+}

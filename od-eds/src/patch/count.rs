@@ -1,0 +1,73 @@
+//! Sub-index 0 and SubNumber follow what a patch adds and removes.
+
+use alloc::collections::BTreeMap;
+
+use super::{Action, Edit};
+use crate::description::{Description, EntryDescription, ObjectDescription, Value};
+use crate::diagnostic::{Span, Spanned};
+use od_model::{Access, DataType};
+
+/// The objects that get or lose members and whose sub-index 0 follows, with the place
+/// of the last edit that makes it.
+pub(super) fn counted(description: &Description, edits: &[Edit]) -> BTreeMap<u16, Span> {
+    let mut counted = BTreeMap::new();
+    for edit in edits {
+        let index = edit.target.index;
+        let follows = match (edit.action, description.objects.get(&index)) {
+            (Action::Modify, _) => false,
+            (_, None) => true,
+            (_, Some(object)) => edit.target.sub.is_some() && is_counted(object),
+        };
+        if follows {
+            counted.insert(index, edit.target.span);
+        }
+    }
+    for edit in edits.iter().filter(|edit| edit.target.sub == Some(0)) {
+        counted.remove(&edit.target.index);
+    }
+    counted
+}
+
+/// Does sub-index 0 hold the highest sub-index?
+fn is_counted(object: &ObjectDescription) -> bool {
+    let highest = object.entries.keys().next_back().copied();
+    let count = object
+        .entries
+        .get(&0)
+        .and_then(|entry| entry.default.as_ref());
+    match (count.map(|count| &count.value), highest) {
+        (Some(Value::Unsigned(count)), Some(highest)) => *count == u64::from(highest),
+        _ => false,
+    }
+}
+
+/// Makes sub-index 0 hold the highest sub-index, and be there.
+pub(super) fn count_members(object: &mut ObjectDescription, span: Span) {
+    if !object.code.has_members() {
+        return;
+    }
+    let highest = object.entries.keys().next_back().copied().unwrap_or(0);
+    let entry = object.entries.entry(0).or_insert_with(|| {
+        let mut entry = EntryDescription::new("Highest sub-index supported", DataType::Unsigned8);
+        entry.access = Spanned::new(Access::Const, span);
+        entry.span = span;
+        entry
+    });
+    entry.default = Some(Spanned::new(Value::Unsigned(u64::from(highest)), span));
+}
+
+/// Is SubNumber the number of sub-indices?
+pub(super) fn counts_sections(object: &ObjectDescription) -> bool {
+    let number = object
+        .sub_number
+        .as_ref()
+        .map(|number| number.value as usize);
+    number == Some(object.entries.len())
+}
+
+pub(super) fn count_sections(object: &mut ObjectDescription, counted: bool) {
+    if let (Some(number), true) = (&mut object.sub_number, counted) {
+        // At most 256 sub-indices.
+        number.value = object.entries.len() as u32;
+    }
+}

@@ -1,0 +1,235 @@
+//! Edits to a description: how a spec table is built and how a variant differs.
+//!
+//! A patch is strict. Editing or removing what the base lacks is an error, and so
+//! is adding what is there already; a patch that says nothing false is the only
+//! one that applies without a word. Every finding is a [`Diagnostic`] whose span
+//! is the one that the edit carries, so the caller can point at its own token:
+//! see [`token`].
+//!
+//! ```
+//! use od_eds::patch::{self, Edit, Raw, Target};
+//! use od_eds::Description;
+//! use od_model::DataType;
+//!
+//! let mut device = Description::default();
+//! let gear = Edit::add(Target::object(0x2110))
+//!     .name("Gear")
+//!     .data_type(DataType::Unsigned16)
+//!     .default(Raw::Integer(4));
+//! assert!(patch::apply(&mut device, &[gear.clone()]).is_empty());
+//!
+//! let findings = patch::apply(&mut device, &[gear]);
+//! assert_eq!(findings[0].message, "2110h is there already");
+//! ```
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
+
+mod apply;
+mod count;
+mod find;
+mod raw;
+
+pub use apply::apply;
+pub use find::missing;
+pub use raw::Raw;
+
+/// A span that stands for the caller's token number `id`, not for a stretch of text.
+///
+/// The macro numbers its tokens, puts these spans into its edits and finds the
+/// token of a diagnostic again with [`token_of`].
+pub const fn token(id: u32) -> Span {
+    Span {
+        start: id,
+        end: id,
+        line: u32::MAX,
+        column: 0,
+    }
+}
+
+/// The number that [`token`] put into this span, if it is one of its.
+pub const fn token_of(span: Span) -> Option<u32> {
+    if span.line == u32::MAX {
+        Some(span.start)
+    } else {
+        None
+    }
+}
+
+/// What an edit is about: a whole object, or one of its members.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Target {
+    /// Index.
+    pub index: u16,
+    /// The member; `None` for the object, which is how the value of a VAR is named too.
+    pub sub: Option<u8>,
+}
+
+impl Target {
+    /// The object at `index`.
+    pub const fn object(index: u16) -> Self {
+        Self { index, sub: None }
+    }
+
+    /// The member at `index` and `sub`.
+    pub const fn member(index: u16, sub: u8) -> Self {
+        Self {
+            index,
+            sub: Some(sub),
+        }
+    }
+
+    /// The value it names, with sub-index 0 for an object.
+    pub const fn address(self) -> Address {
+        Address::new(
+            self.index,
+            match self.sub {
+                Some(sub) => sub,
+                None => 0,
+            },
+        )
+    }
+}
+
+/// As it is written in a macro call, `0x1018sub2`: the EDS section's own spelling behind `0x`.
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.sub {
+            Some(sub) => write!(f, "0x{:04X}sub{sub:X}", self.index),
+            None => write!(f, "0x{:04X}", self.index),
+        }
+    }
+}
+
+/// What an edit does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Action {
+    /// Makes an object or a member that is not there yet.
+    Add,
+    /// Changes some fields of one that is.
+    Modify,
+    /// Takes it away; an object goes with its members.
+    Remove,
+}
+
+/// One field of an edit, and what it becomes.
+#[derive(Clone, PartialEq, Debug)]
+#[allow(missing_docs)] // the variants are the fields' names
+pub enum Change {
+    Code(ObjectCode),
+    Name(String),
+    Type(DataType),
+    Access(Access),
+    Mappable(bool),
+    Save(Group),
+    /// `None` takes the default away.
+    Default(Option<Raw>),
+    /// `None` takes the limit away.
+    Low(Option<Raw>),
+    /// `None` takes the limit away.
+    High(Option<Raw>),
+}
+
+impl Change {
+    /// The field's name in a macro call.
+    pub const fn key(&self) -> &'static str {
+        match self {
+            Self::Code(_) => "code",
+            Self::Name(_) => "name",
+            Self::Type(_) => "type",
+            Self::Access(_) => "access",
+            Self::Mappable(_) => "mappable",
+            Self::Save(_) => "save",
+            Self::Default(_) => "default",
+            Self::Low(_) => "low",
+            Self::High(_) => "high",
+        }
+    }
+}
+
+/// One statement of a patch.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Edit {
+    /// Add, modify or remove.
+    pub action: Action,
+    /// What.
+    pub target: Spanned<Target>,
+    /// The fields given, in the order they were given; the span is the value's.
+    pub changes: Vec<Spanned<Change>>,
+}
+
+macro_rules! setters {
+    ($($(#[$doc:meta])* $name:ident($t:ty) => $variant:expr;)*) => {$(
+        $(#[$doc])*
+        #[must_use]
+        pub fn $name(mut self, value: $t) -> Self {
+            self.changes.push(Spanned::from($variant(value.into())));
+            self
+        }
+    )*};
+}
+
+impl Edit {
+    /// An edit without fields yet.
+    pub fn new(action: Action, target: Target) -> Self {
+        Self {
+            action,
+            target: Spanned::from(target),
+            changes: Vec::new(),
+        }
+    }
+
+    /// `add`, without fields yet.
+    pub fn add(target: Target) -> Self {
+        Self::new(Action::Add, target)
+    }
+
+    /// `modify`, without fields yet.
+    pub fn modify(target: Target) -> Self {
+        Self::new(Action::Modify, target)
+    }
+
+    /// `remove`.
+    pub fn remove(target: Target) -> Self {
+        Self::new(Action::Remove, target)
+    }
+
+    setters! {
+        /// Says the object code; VAR unless said.
+        code(ObjectCode) => Change::Code;
+        /// Says the name.
+        name(&str) => Change::Name;
+        /// Says the data type.
+        data_type(DataType) => Change::Type;
+        /// Says the access; `ro` unless said.
+        access(Access) => Change::Access;
+        /// Says whether a PDO can carry it; no unless said.
+        mappable(bool) => Change::Mappable;
+        /// Says which sub-index of 1010h saves it.
+        save(Group) => Change::Save;
+        /// Says the default.
+        default(Raw) => |raw: Raw| Change::Default(Some(raw));
+        /// Says the smallest value.
+        low(Raw) => |raw: Raw| Change::Low(Some(raw));
+        /// Says the largest value.
+        high(Raw) => |raw: Raw| Change::High(Some(raw));
+    }
+}
+
+fn finding(code: &'static str, at: Span, target: Target, message: String) -> Diagnostic {
+    Diagnostic::error(code, message)
+        .with_span(at)
+        .with_address(target.address())
+}
+
+/// Is this one of the types that only a record can have?
+fn is_record(data_type: DataType) -> bool {
+    data_type.kind() == Kind::Record
+}
+
+#[cfg(test)]
+mod tests;

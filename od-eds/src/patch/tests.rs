@@ -1,0 +1,232 @@
+use alloc::vec;
+
+use super::*;
+use crate::description::{Description, Value};
+
+fn base() -> Description {
+    let mut description = Description::default();
+    let edits = [
+        Edit::add(Target::object(0x1000))
+            .name("Device type")
+            .data_type(DataType::Unsigned32)
+            .default(Raw::Integer(0x196)),
+        Edit::add(Target::object(0x1018))
+            .code(ObjectCode::Record)
+            .name("Identity object"),
+        Edit::add(Target::member(0x1018, 1))
+            .name("Vendor-ID")
+            .data_type(DataType::Unsigned32)
+            .default(Raw::Integer(0x5F)),
+        Edit::add(Target::member(0x1018, 2))
+            .name("Product code")
+            .data_type(DataType::Unsigned32)
+            .default(Raw::Integer(10)),
+    ];
+    assert_eq!(apply(&mut description, &edits), vec![]);
+    description
+}
+
+/// The code, message and help of each finding of one edit against [`base`].
+#[track_caller]
+fn check(edit: Edit, expected: &[(&str, &str, &str)]) {
+    let findings = apply(&mut base(), &[edit]);
+    let findings: Vec<_> = findings
+        .iter()
+        .map(|f| (f.code, f.message.as_str(), f.help.as_str()))
+        .collect();
+    assert_eq!(findings, expected);
+}
+
+#[test]
+fn a_record_gets_the_sub_index_0_that_it_lacks() {
+    let base = base();
+    let count = base.entry(Address::new(0x1018, 0)).unwrap();
+    assert_eq!(count.default, Some(Spanned::from(Value::Unsigned(2))));
+    assert_eq!(*count.access, Access::Const);
+}
+
+#[test]
+fn sub_index_0_follows_unless_it_is_told() {
+    let count = |edits: &[Edit]| {
+        let mut edited = base();
+        edited.objects.get_mut(&0x1018).unwrap().sub_number = Some(Spanned::from(3));
+        assert_eq!(apply(&mut edited, edits), vec![]);
+        let object = &edited.objects[&0x1018];
+        let number = object.sub_number.as_ref().map(|number| number.value);
+        (object.entries[&0].default.clone(), number)
+    };
+    let holds = |value| Some(Spanned::from(Value::Unsigned(value)));
+    let serial = Edit::add(Target::member(0x1018, 4))
+        .name("Serial number")
+        .data_type(DataType::Unsigned32);
+    let told = Edit::modify(Target::member(0x1018, 0)).default(Raw::Integer(1));
+    let fewer = Edit::remove(Target::member(0x1018, 2));
+    assert_eq!(count(core::slice::from_ref(&serial)), (holds(4), Some(4)));
+    assert_eq!(count(&[serial, told.clone()]), (holds(1), Some(4)));
+    assert_eq!(count(&[fewer]), (holds(1), Some(2)));
+    assert_eq!(count(&[told]), (holds(1), Some(3)));
+}
+
+#[test]
+fn edits_change_what_they_name_and_nothing_else() {
+    let mut edited = base();
+    let edits = [
+        Edit::modify(Target::member(0x1018, 2))
+            .default(Raw::Integer(11))
+            .access(Access::Const),
+        Edit::remove(Target::object(0x1000)),
+    ];
+    assert_eq!(apply(&mut edited, &edits), vec![]);
+    assert!(!edited.objects.contains_key(&0x1000));
+    let product = edited.entry(Address::new(0x1018, 2)).unwrap();
+    assert_eq!(product.default, Some(Spanned::from(Value::Unsigned(11))));
+    assert_eq!(*product.access, Access::Const);
+    assert_eq!(*product.name, "Product code");
+    let mut vendor = base();
+    vendor.objects.remove(&0x1000);
+    let vendor = vendor.entry(Address::new(0x1018, 1)).cloned();
+    assert_eq!(edited.entry(Address::new(0x1018, 1)).cloned(), vendor);
+}
+
+#[test]
+fn what_is_not_there_is_not_edited() {
+    check(
+        Edit::modify(Target::member(0x1019, 2)),
+        &[(
+            "E0701",
+            "there is no object 1019h",
+            "did you mean `0x1018sub2`, \"Identity object\"?",
+        )],
+    );
+    check(
+        Edit::remove(Target::member(0x1018, 7)),
+        &[("E0701", "there is no 1018h:07", "1018h has sub0–sub2")],
+    );
+    check(
+        Edit::remove(Target::object(0x6502)),
+        &[(
+            "E0701",
+            "there is no object 6502h",
+            "`odkit dump` lists the objects of a file",
+        )],
+    );
+    check(
+        Edit::modify(Target::member(0x1000, 0)),
+        &[(
+            "E0704",
+            "1000h is a VAR: it has no members",
+            "its one value is `0x1000`",
+        )],
+    );
+}
+
+#[test]
+fn what_is_there_is_not_added() {
+    check(
+        Edit::add(Target::member(0x1018, 1)),
+        &[(
+            "E0702",
+            "1018h:01 is there already",
+            "to change it, write `modify 0x1018sub1 { … }`",
+        )],
+    );
+}
+
+#[test]
+fn a_value_is_one_of_its_type() {
+    check(
+        Edit::modify(Target::object(0x1000)).default(Raw::Integer(-1)),
+        &[(
+            "E0707",
+            "`default`: -1 does not fit UNSIGNED32",
+            "UNSIGNED32 holds 0 to 4294967295",
+        )],
+    );
+    check(
+        Edit::modify(Target::object(0x1000)).default(Raw::Text("x".into())),
+        &[(
+            "E0707",
+            "`default`: the text \"x\" is not a value of UNSIGNED32",
+            "write a number, or `$NODEID + 0x180`",
+        )],
+    );
+    check(
+        Edit::modify(Target::object(0x1000)).data_type(DataType::Unsigned8),
+        &[(
+            "E0708",
+            "the default of the base does not fit the new type: 406 does not fit UNSIGNED8",
+            "give `default` with the type, or `default = none`",
+        )],
+    );
+}
+
+#[test]
+fn a_type_that_changes_takes_its_values_along() {
+    let mut edited = base();
+    let edit = Edit::modify(Target::object(0x1000)).data_type(DataType::Integer16);
+    assert_eq!(apply(&mut edited, &[edit]), vec![]);
+    let entry = edited.entry(Address::new(0x1000, 0)).unwrap();
+    assert_eq!(entry.default, Some(Spanned::from(Value::Signed(0x196))));
+}
+
+#[test]
+fn fields_stand_where_they_belong() {
+    check(
+        Edit::modify(Target::object(0x1018)).default(Raw::Integer(1)),
+        &[(
+            "E0710",
+            "1018h has members: `default` belongs to one of them",
+            "name the member, for example `0x1018sub1`",
+        )],
+    );
+    check(
+        Edit::modify(Target::member(0x1018, 1)).code(ObjectCode::Array),
+        &[(
+            "E0709",
+            "0x1018sub1 is a member: it has no object code",
+            "`code` stands in the object: `0x1018 { code = record }`",
+        )],
+    );
+}
+
+#[test]
+fn an_add_says_name_and_type() {
+    check(
+        Edit::add(Target::object(0x2110)),
+        &[
+            (
+                "E0705",
+                "`add 0x2110` gives no name",
+                "say `name = \"…\"`: the handle is called after it",
+            ),
+            (
+                "E0706",
+                "`add 0x2110` gives no type",
+                "say `type = u16`, `type = str`, `type = UNSIGNED24` …",
+            ),
+        ],
+    );
+    check(
+        Edit::add(Target::member(0x2110, 1)).name("x"),
+        &[(
+            "E0703",
+            "0x2110sub1 has no object to stand in: 2110h does not exist",
+            "add the object first: `add 0x2110 { code = record; name = \"…\" }`",
+        )],
+    );
+}
+
+#[test]
+fn a_finding_leads_back_to_the_token() {
+    let mut edit = Edit::remove(Target::object(0x2110));
+    edit.target.span = token(7);
+    let findings = apply(&mut base(), &[edit]);
+    assert_eq!(findings[0].span.and_then(token_of), Some(7));
+    assert_eq!(
+        token_of(Span {
+            line: 3,
+            ..token(7)
+        }),
+        None
+    );
+}

@@ -1,0 +1,196 @@
+//! CompactSubObj: many members from one section.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use alloc::string::ToString;
+use alloc::vec::Vec;
+
+use crate::description::{EntryDescription, Value};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fix::Fix;
+use crate::read::entry::{Reader, Unread, extra};
+use crate::read::fields::Fields;
+use crate::rules;
+use crate::scan::names::Compact;
+use crate::scan::number;
+use crate::scan::placed;
+use crate::scan::placed::{Placed, Text};
+use od_model::{Access, Address, DataType};
+
+/// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
+pub(crate) type CompactSections<'a> = BTreeMap<Compact, Placed<'a>>;
+
+/// The highest sub-index that a member can have.
+const HIGHEST: u8 = 254;
+
+/// CompactSubObj, if the object has one that is not 0.
+pub(crate) fn count(
+    reader: &mut Reader<'_>,
+    fields: &mut Fields<'_>,
+    unread: &mut Unread,
+) -> Option<Spanned<u8>> {
+    let given = fields.take("CompactSubObj")?;
+    let number = reader.number("CompactSubObj", &given);
+    let count = match number {
+        Some(0) => return None,
+        Some(number) if (1..=i128::from(HIGHEST)).contains(&number) => {
+            return Some(Spanned::new(number as u8, given.span));
+        }
+        Some(number) if number > 0 => Some(Spanned::new(HIGHEST, given.span)),
+        _ => None,
+    };
+    reader.report(
+        rules::W0313
+            .at(
+                given.span,
+                format!(
+                    "CompactSubObj is a number from 1 to 254, not `{}`",
+                    given.value
+                ),
+            )
+            .with_help("write the number of members besides sub-index 0"),
+    );
+    if count.is_none() {
+        unread.push(("CompactSubObj".into(), given.value.into_owned()));
+    }
+    count
+}
+
+/// The members that CompactSubObj stands for, with the names and values given for some.
+pub(crate) fn expand(
+    address: Address,
+    template: (EntryDescription, Unread),
+    count: &Spanned<u8>,
+    sections: CompactSections<'_>,
+    log: &mut Vec<Diagnostic>,
+) -> BTreeMap<u8, EntryDescription> {
+    let (template, unread) = template;
+    let mut entries = BTreeMap::from([(0, highest(address.index, count))]);
+    for sub in 1..=count.value {
+        let name = format!("{}{sub}", template.name.value);
+        entries.insert(
+            sub,
+            EntryDescription {
+                name: Spanned::new(name, template.name.span),
+                extra: extra(Vec::new(), unread.clone()),
+                ..template.clone()
+            },
+        );
+    }
+    let mut given = BTreeSet::new();
+    for (compact, section) in sections {
+        entry_count(&section, address, log);
+        for (key, value) in &section.pairs {
+            if key.eq_ignore_ascii_case("NrOfEntries") || value.is_empty() {
+                continue;
+            }
+            let sub =
+                number::integer(key, &mut Vec::new()).and_then(|n| u8::try_from(n.value).ok());
+            let entry = sub.and_then(|sub| Some((sub, entries.get_mut(&sub)?)));
+            match entry {
+                // Of keys that stand twice, the first counts; that was named.
+                Some((sub, _)) if !given.insert((compact, sub)) => {}
+                Some((sub, entry)) => {
+                    let address = Address::new(address.index, sub);
+                    give(Reader { address, log }, entry, compact, value);
+                }
+                None => log.push(
+                    rules::W0314
+                        .at(
+                            key.span,
+                            format!("there is no member `{}` to give this to", key.value),
+                        )
+                        .with_address(address)
+                        .with_label(count.span, "members are counted here")
+                        .with_help(format!("the members are 1 to {}", count.value)),
+                ),
+            }
+        }
+    }
+    entries
+}
+
+/// Names an NrOfEntries that does not count the entries of its section.
+fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Diagnostic>) {
+    let entries = section
+        .pairs
+        .iter()
+        .filter(|(key, value)| !key.eq_ignore_ascii_case("NrOfEntries") && !value.is_empty())
+        .count();
+    let given = section.get("NrOfEntries");
+    if given.and_then(|given| crate::scan::number::number(given)) == i128::try_from(entries).ok() {
+        return;
+    }
+    let (span, message, fix) = match given {
+        Some(given) => (
+            given.span,
+            format!(
+                "NrOfEntries is {}, but the section has {entries}",
+                given.value
+            ),
+            Fix::safe().replace(given.span, format!("{entries}")),
+        ),
+        None => (
+            section.header,
+            "there is no NrOfEntries".into(),
+            Fix::safe().below(section.header, format!("NrOfEntries={entries}")),
+        ),
+    };
+    log.push(
+        rules::W0321
+            .at(span, message)
+            .with_address(address)
+            .with_help(format!("write `NrOfEntries={entries}`"))
+            .with_fix(fix),
+    );
+}
+
+fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {
+    match compact {
+        Compact::Name => entry.name = placed::owned(value.clone()),
+        Compact::Denotation => {
+            let unread = core::mem::take(&mut entry.extra);
+            entry.extra = extra(
+                alloc::vec![("Denotation".into(), value.to_string())],
+                unread,
+            );
+        }
+        Compact::Value => {
+            let mut unread = core::mem::take(&mut entry.extra);
+            unread.retain(|(key, _)| key != "ParameterValue");
+            entry.parameter = reader.typed("ParameterValue", value, entry.data_type, None);
+            if entry.parameter.is_none() {
+                unread.push(("ParameterValue".into(), value.to_string()));
+            }
+            entry.extra = extra(Vec::new(), unread);
+        }
+    }
+}
+
+/// Sub-index 0, which CompactSubObj implies. That of 1003h counts the errors that
+/// there are, not the room for them, and a master writes 0 to it.
+fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
+    let (number, access) = match index {
+        0x1003 => (0, Access::Rw),
+        _ => (count.value, Access::Ro),
+    };
+    EntryDescription {
+        default: Some(Spanned::new(Value::Unsigned(u64::from(number)), count.span)),
+        access: Spanned::new(access, count.span),
+        span: count.span,
+        ..EntryDescription::new("NrOfObjects", DataType::Unsigned8)
+    }
+}
+
+/// Names a compact section of an object that has no CompactSubObj.
+pub(crate) fn unclaimed(name: &str, header: Span, index: u16) -> Diagnostic {
+    rules::W0209
+        .at(
+            header,
+            format!("[{name}] belongs to an object with CompactSubObj"),
+        )
+        .with_address(Address::new(index, 0))
+        .with_help(format!(
+            "write `CompactSubObj=` and the number of members in [{index:04X}], or remove the section"
+        ))
+}

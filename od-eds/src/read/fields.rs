@@ -1,0 +1,163 @@
+//! The keys of one section, taken one by one; what nobody takes is left over.
+
+use alloc::borrow::Cow;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fix::Fix;
+use crate::read::other::unknown_object_keys;
+use crate::rules;
+use crate::scan::number::before_comment;
+use crate::scan::placed::{Placed, Text};
+use od_model::{Address, Group};
+
+/// Keys that say nothing when they are empty; an empty value or limit is none.
+const NOT_EMPTY: [&str; 7] = [
+    "ObjectType",
+    "SubNumber",
+    "DataType",
+    "AccessType",
+    "PDOMapping",
+    "ObjFlags",
+    "CompactSubObj",
+];
+
+/// The keys of a section that describes an object or a member.
+pub(crate) struct Fields<'a> {
+    pairs: Vec<(Text<'a>, Text<'a>)>,
+    /// The section header.
+    pub(crate) header: Span,
+    /// What the `;StorageLocation=` comment says, if it says something known.
+    pub(crate) group: Option<Spanned<Group>>,
+}
+
+impl<'a> Fields<'a> {
+    /// The fields of a section; of keys that stand twice, the first counts.
+    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Diagnostic>) -> Self {
+        let mut pairs = placed.pairs;
+        let mut twice = duplicates(&pairs, log).into_iter().peekable();
+        let mut at = 0;
+        pairs.retain(|_| {
+            let keep = twice.next_if_eq(&at).is_none();
+            at += 1;
+            keep
+        });
+        for (key, value) in &mut pairs {
+            let numeric = NOT_EMPTY.iter().any(|name| key.eq_ignore_ascii_case(name));
+            if numeric && before_comment(value).is_empty() {
+                log.push(
+                    rules::I0320
+                        .at(key.span, format!("`{}` is empty", key.value))
+                        .with_address(address)
+                        .with_help(format!(
+                            "give `{}` a value, or leave the line out",
+                            key.value
+                        ))
+                        .with_fix(Fix::safe().remove_line(key.span)),
+                );
+                value.value = Cow::Borrowed("");
+            }
+        }
+        let group = placed
+            .storage
+            .and_then(|storage| group(&storage).map(|group| Spanned::new(group, storage.span)));
+        Self {
+            pairs,
+            header: placed.header,
+            group,
+        }
+    }
+
+    /// Takes the value of a key; an empty one counts as none.
+    pub(crate) fn take(&mut self, key: &str) -> Option<Text<'a>> {
+        let at = self
+            .pairs
+            .iter()
+            .position(|(k, _)| k.eq_ignore_ascii_case(key))?;
+        let (_, value) = self.pairs.remove(at);
+        (!value.is_empty()).then_some(value)
+    }
+
+    /// Does the section give a value for this key?
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.pairs
+            .iter()
+            .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
+    }
+
+    /// What nobody has taken, in file order; what nobody knows is named.
+    pub(crate) fn rest(self, address: Address, log: &mut Vec<Diagnostic>) -> Vec<(String, String)> {
+        unknown_object_keys(&self.pairs, address, log);
+        self.pairs
+            .into_iter()
+            .map(|(key, value)| (key.value.into_owned(), value.value.into_owned()))
+            .collect()
+    }
+}
+
+/// CANopenEditor's words for where a value is stored; others are other tools' own.
+fn group(location: &str) -> Option<Group> {
+    [
+        ("RAM", Group::None),
+        ("ROM", Group::None),
+        ("PERSIST_COMM", Group::Communication),
+        ("PERSIST_APP", Group::Application),
+        ("PERSIST_MFR", Group::Manufacturer),
+    ]
+    .into_iter()
+    .find(|(word, _)| location.eq_ignore_ascii_case(word))
+    .map(|(_, group)| group)
+}
+
+/// The word for a group, the reverse of what [`Fields`] reads.
+pub(crate) const fn location(group: Group) -> &'static str {
+    match group {
+        Group::None => "RAM",
+        Group::Communication => "PERSIST_COMM",
+        Group::Application => "PERSIST_APP",
+        Group::Manufacturer => "PERSIST_MFR",
+    }
+}
+
+/// Names the keys that stand twice, and returns the positions of the later ones.
+pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Diagnostic>) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
+        let (key, value) = &pairs[at];
+        log.push(
+            rules::W0107
+                .at(key.span, format!("`{}` stands twice", key.value))
+                .with_label(first.span, "this one counts")
+                .with_help(format!("remove `{}={}`", key.value, value.value))
+                .with_fix(match value == same {
+                    true => Fix::safe().remove_line(key.span),
+                    // Whoever takes the last one reads something else then.
+                    false => Fix::guess().remove_line(key.span),
+                }),
+        );
+        found.push(at);
+    };
+    // Sections are short; a tree is for the text that was made to be slow.
+    if pairs.len() <= 24 {
+        for at in 1..pairs.len() {
+            let same = |(k, _): &&(Text<'_>, _)| k.eq_ignore_ascii_case(&pairs[at].0);
+            if let Some((first, value)) = pairs[..at].iter().find(same) {
+                report((first, value), at);
+            }
+        }
+    } else {
+        let mut seen = BTreeMap::new();
+        for (at, (key, value)) in pairs.iter().enumerate() {
+            match seen.entry(key.to_ascii_lowercase()) {
+                alloc::collections::btree_map::Entry::Vacant(entry) => {
+                    entry.insert((key, value));
+                }
+                alloc::collections::btree_map::Entry::Occupied(entry) => report(*entry.get(), at),
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,389 @@
+//! Modular devices: what a bus coupler's modules add to its dictionary (CiA 306-1, modular devices).
+//!
+//! `[SupportedModules]` names them; `[M1FixedObjects]` lists objects that come once a
+//! module of the kind is there, `[M1SubExtends]` objects that every module adds
+//! sub-indices to.
+
+use alloc::borrow::Cow;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::description::{Description, EntryDescription, ObjectDescription, Section};
+use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::read::sorted::sorted;
+use crate::rules;
+use crate::scan::known;
+use crate::scan::known::ModulePart;
+use crate::scan::names::Place;
+use crate::scan::number;
+use crate::scan::number::integer;
+use crate::scan::placed::{Placed, Text};
+
+/// One kind of module.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Module {
+    /// Its number in `[SupportedModules]`, from 1.
+    pub number: u16,
+    /// Its name there; empty where it is in no list.
+    pub name: String,
+    /// Objects that the device has when such a module is there.
+    pub fixed: BTreeMap<u16, ObjectDescription>,
+    /// Objects that each such module adds sub-indices to.
+    pub extensions: BTreeMap<u16, Extension>,
+}
+
+/// The sub-indices that a module adds to an object.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Extension {
+    /// What each of them is.
+    pub entry: EntryDescription,
+    /// How many there are.
+    pub count: Count,
+    /// ObjExtend as it stands in the file; 0 where it is missing.
+    pub extend: u8,
+}
+
+/// How a module's values fill sub-indices.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Count {
+    /// So many new sub-indices a module.
+    Each(u8),
+    /// So many bits a module; a new sub-index when the last one is full.
+    Bits(u8),
+}
+
+/// The modules that a description has sections for, by number.
+pub fn modules(description: &Description) -> Vec<Module> {
+    read(&description.sections, &mut Vec::new())
+}
+
+/// The numbers of the modules that a DCF's `[ConnectedModules]` lists, in their order.
+pub fn connected_modules(description: &Description) -> Vec<u16> {
+    let Some(section) = description.section("ConnectedModules") else {
+        return Vec::new();
+    };
+    let mut found: Vec<(i128, u16)> = section
+        .pairs
+        .iter()
+        .filter_map(|(key, value)| {
+            let module = u16::try_from(crate::scan::number::number(value)?).ok()?;
+            Some((crate::scan::number::number(key)?, module))
+        })
+        .collect();
+    found.sort_unstable();
+    found.into_iter().map(|(_, module)| module).collect()
+}
+
+/// The description of the device with these modules, in the order in which they are plugged in.
+///
+/// Fixed objects are added where the device lacks them; extended objects get their
+/// sub-indices behind those that they have, and sub-index 0 counts them. A number
+/// that is no module is passed over, and so is what would go beyond sub-index 254.
+pub fn with_modules(description: &Description, numbers: &[u16]) -> Description {
+    let known = modules(description);
+    let mut made = description.clone();
+    // Bits that are left in the last sub-index of an object.
+    let mut left: BTreeMap<u16, u8> = BTreeMap::new();
+    for number in numbers {
+        let Some(module) = known.iter().find(|module| module.number == *number) else {
+            continue;
+        };
+        for (index, object) in &module.fixed {
+            let object = || object.clone();
+            made.objects.entry(*index).or_insert_with(object);
+        }
+        for (index, extension) in &module.extensions {
+            if let Some(object) = made.objects.get_mut(index) {
+                extend(object, extension, left.entry(*index).or_default());
+            }
+        }
+    }
+    made
+}
+
+fn extend(object: &mut ObjectDescription, extension: &Extension, left: &mut u8) {
+    let count = match extension.count {
+        Count::Each(count) => count,
+        Count::Bits(bits) => {
+            let whole = extension
+                .entry
+                .data_type
+                .and_then(|t| t.bits())
+                .unwrap_or(8);
+            match left.checked_sub(bits) {
+                Some(rest) => {
+                    *left = rest;
+                    return;
+                }
+                None => {
+                    *left = whole.saturating_sub(bits);
+                    1
+                }
+            }
+        }
+    };
+    for _ in 0..count {
+        let last = object.entries.keys().next_back().copied().unwrap_or(0);
+        if last >= 254 {
+            return;
+        }
+        let sub = last + 1;
+        let mut entry = extension.entry.clone();
+        entry.name.value = format!("{} {sub}", entry.name.value);
+        object.entries.insert(sub, entry);
+        if let Some(highest) = object.entries.get_mut(&0) {
+            let value = crate::description::Value::Unsigned(u64::from(sub));
+            highest.default = Some(Spanned::from(value));
+        }
+    }
+    object.sub_number = Some(Spanned::from(object.entries.len() as u32));
+}
+
+/// Names what is wrong with the modules of a file.
+pub(crate) fn check(sections: &[Section], log: &mut Vec<Diagnostic>) {
+    if sections
+        .iter()
+        .any(|section| known::module_part(&section.name).is_some())
+    {
+        read(sections, log);
+    }
+}
+
+fn read(sections: &[Section], log: &mut Vec<Diagnostic>) -> Vec<Module> {
+    let mut modules: BTreeMap<u16, Module> = BTreeMap::new();
+    let list = sections
+        .iter()
+        .find(|s| s.name.eq_ignore_ascii_case("SupportedModules"));
+    for (key, value) in list.into_iter().flat_map(|list| &list.pairs) {
+        let number = crate::scan::number::number(key).and_then(|number| u16::try_from(number).ok());
+        if let Some(number) = number {
+            let module = modules.entry(number).or_default();
+            (module.number, module.name) = (number, value.value.clone());
+        }
+    }
+    let mut parts: BTreeMap<(u16, bool), Vec<(Place, &Section)>> = BTreeMap::new();
+    for section in sections {
+        if let Some(ModulePart {
+            module,
+            extends,
+            place,
+        }) = known::module_part(&section.name)
+        {
+            parts
+                .entry((module, extends))
+                .or_default()
+                .push((place, section));
+        }
+    }
+    for ((number, extends), found) in parts {
+        let module = modules.entry(number).or_default();
+        module.number = number;
+        let word = if extends {
+            "SubExtends"
+        } else {
+            "FixedObjects"
+        };
+        listed(sections, number, word, &found, log);
+        if extends {
+            for (place, section) in found {
+                if let Place::Object(index) = place {
+                    module
+                        .extensions
+                        .extend(extension(section, place, log).map(|e| (index, e)));
+                }
+            }
+        } else {
+            let placed = found
+                .into_iter()
+                .map(|(place, section)| placed(section, place, &[]));
+            let parsed = sorted(placed.collect(), Vec::new()).parsed();
+            log.extend(parsed.diagnostics);
+            module.fixed = parsed.description.objects;
+        }
+    }
+    modules.into_values().collect()
+}
+
+/// The section of an object of a module as that of an object.
+fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a> {
+    let borrow = |text: &'a Spanned<String>| -> Text<'a> {
+        Spanned::new(Cow::Borrowed(text.value.as_str()), text.span)
+    };
+    let name = place.name().unwrap_or_default();
+    Placed {
+        name: Spanned::new(Cow::Owned(name), section.name.span),
+        pairs: section
+            .pairs
+            .iter()
+            .filter(|(key, _)| !without.iter().any(|word| key.eq_ignore_ascii_case(word)))
+            .map(|(key, value)| (borrow(key), borrow(value)))
+            .collect(),
+        header: section.name.span,
+        storage: None,
+    }
+}
+
+fn extension(section: &Section, place: Place, log: &mut Vec<Diagnostic>) -> Option<Extension> {
+    let own = placed(section, place, &["Count", "ObjExtend"]);
+    let parsed = sorted(alloc::vec![own], Vec::new()).parsed();
+    log.extend(parsed.diagnostics);
+    let object = parsed.description.objects.into_values().next()?;
+    let entry = object.entries.into_values().next()?;
+    let given = section.get("Count");
+    let count = given.and_then(|given| count(given));
+    if count.is_none() {
+        let span = given.map_or(section.name.span, |given| given.span);
+        let message = match given {
+            Some(given) => format!("`{}` is no Count", given.value),
+            None => "there is no Count".into(),
+        };
+        log.push(
+            rules::W0323
+                .at(span, message)
+                .with_help("write how many sub-indices a module adds, or `0;` and its bits"),
+        );
+    }
+    let extend = section
+        .get("ObjExtend")
+        .and_then(|given| crate::scan::number::number(given));
+    Some(Extension {
+        entry,
+        count: count.unwrap_or(Count::Each(1)),
+        extend: extend.and_then(|n| u8::try_from(n).ok()).unwrap_or(0),
+    })
+}
+
+/// `4`, or `0;2` for two bits.
+fn count(text: &str) -> Option<Count> {
+    let number = |text: &str| {
+        let read = integer(text.trim(), &mut Vec::new())?;
+        u8::try_from(read.value).ok()
+    };
+    match text.split_once(';') {
+        None => number(text).map(Count::Each),
+        Some((subs, bits)) => match (number(subs)?, number(bits)?) {
+            (0, bits @ 1..) => Some(Count::Bits(bits)),
+            (subs @ 1.., _) => Some(Count::Each(subs)),
+            _ => None,
+        },
+    }
+}
+
+/// Compares the list of a module's objects with its sections.
+fn listed(
+    sections: &[Section],
+    module: u16,
+    word: &str,
+    found: &[(Place, &Section)],
+    log: &mut Vec<Diagnostic>,
+) {
+    let name = format!("M{module}{word}");
+    let list = sections
+        .iter()
+        .find(|section| section.name.eq_ignore_ascii_case(&name));
+    let listed: Vec<(u16, Span)> = list
+        .into_iter()
+        .flat_map(|list| &list.pairs)
+        .filter(|(key, _)| !key.eq_ignore_ascii_case("NrOfEntries"))
+        .filter_map(|(_, value)| {
+            let text = number::before_comment(value);
+            let index = u16::try_from(integer(text, &mut Vec::new())?.value).ok()?;
+            Some((index, value.span))
+        })
+        .collect();
+    let has = |index: u16| {
+        found
+            .iter()
+            .any(|(place, _)| *place == Place::Object(index))
+    };
+    for (index, span) in &listed {
+        if !has(*index) {
+            log.push(
+                rules::W0215
+                    .at(
+                        *span,
+                        format!("{index:04X}h is listed, but has no section in module {module}"),
+                    )
+                    .with_help("write the section, or remove the entry"),
+            );
+        }
+    }
+    for (place, section) in found {
+        let Place::Object(index) = place else {
+            continue;
+        };
+        if !listed.iter().any(|(listed, _)| listed == index) {
+            log.push(
+                rules::W0215
+                    .at(
+                        section.name.span,
+                        format!("{index:04X}h is not in [{name}]"),
+                    )
+                    .with_help(format!("add `0x{index:04X}` to [{name}]")),
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Value;
+    use od_model::Address;
+
+    const TEXT: &str = "[OptionalObjects]\nSupportedObjects=1\n1=0x6000\n\
+        [6000]\nParameterName=Inputs\nObjectType=8\nSubNumber=1\n\
+        [6000sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=0\n\
+        [SupportedModules]\nNrOfEntries=2\n1=Eight inputs\n2=Two inputs\n\
+        [M1FixedObjects]\nNrOfEntries=1\n1=0x2000\n\
+        [M1Fixed2000]\nParameterName=Filter\nDataType=5\nAccessType=rw\nDefaultValue=300\n\
+        [M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
+        [M1SubExt6000]\nParameterName=Input\nDataType=5\nAccessType=ro\nPDOMapping=1\nCount=2\n\
+        [M2SubExt6000]\nParameterName=Input\nDataType=5\nAccessType=ro\nPDOMapping=1\nCount=0; 2\n\
+        [ConnectedModules]\nNrOfEntries=2\n2=2\n1=1\n";
+
+    #[test]
+    fn modules_and_what_is_wrong_with_them() {
+        let parsed = crate::parse(TEXT);
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code).collect();
+        // The value of the fixed object is looked at by the checks; the second list is missing.
+        assert_eq!(codes, ["W0215"]);
+        let found = modules(&parsed.description);
+        assert_eq!((found.len(), found[0].name.as_str()), (2, "Eight inputs"));
+        assert!(found[0].fixed.contains_key(&0x2000));
+        assert_eq!(found[0].extensions[&0x6000].count, Count::Each(2));
+        assert_eq!(found[1].extensions[&0x6000].count, Count::Bits(2));
+        assert_eq!(connected_modules(&parsed.description), [1, 2]);
+        for (wrong, code) in [
+            ("Count=2", "Count=many"),
+            ("1=0x2000", "1=0x2001"),
+            ("AccessType=rw", "AccessType=rx"),
+        ]
+        .iter()
+        .zip(["W0323", "W0215", "E0405"])
+        .map(|((from, to), code)| (TEXT.replacen(from, to, 1), code))
+        {
+            let codes: Vec<_> = crate::parse(&wrong)
+                .diagnostics
+                .iter()
+                .map(|d| d.code)
+                .collect();
+            assert!(codes.contains(&code), "{code}: {codes:?}");
+        }
+    }
+
+    #[test]
+    fn modules_extend_a_device_in_their_order() {
+        let base = crate::parse(TEXT).description;
+        let made = with_modules(&base, &[1, 2, 2, 2, 2, 2, 9]);
+        assert!(made.objects.contains_key(&0x2000));
+        let subs: Vec<u8> = made.objects[&0x6000].entries.keys().copied().collect();
+        // Two of the first module, one that four of the second share, one of the fifth.
+        assert_eq!(subs, [0, 1, 2, 3, 4]);
+        let highest = made.entry(Address::new(0x6000, 0)).unwrap();
+        assert_eq!(highest.default.as_deref(), Some(&Value::Unsigned(4)));
+        assert_eq!(made.objects[&0x6000].entries[&4].name.value, "Input 4");
+    }
+}

@@ -1,0 +1,317 @@
+//! One object: its own section and those of its members.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::description::{EntryDescription, ObjectDescription};
+use crate::diagnostic::{Diagnostic, Spanned};
+use crate::fix::Fix;
+use crate::read::compact;
+use crate::read::compact::CompactSections;
+use crate::read::entry::{Reader, Unread, extra};
+use crate::read::fields::Fields;
+use crate::read::words;
+use crate::rules;
+use crate::scan::placed::Placed;
+use od_model::{Address, DataType, ObjectCode};
+
+/// The sections of one object.
+#[derive(Default)]
+pub(crate) struct Sections<'a> {
+    pub(crate) own: Option<Placed<'a>>,
+    pub(crate) members: BTreeMap<u8, Placed<'a>>,
+    pub(crate) compact: CompactSections<'a>,
+}
+
+/// The object that the sections describe; `None` if there is neither its own nor a member's.
+pub(crate) fn object(
+    index: u16,
+    sections: Sections<'_>,
+    log: &mut Vec<Diagnostic>,
+) -> Option<ObjectDescription> {
+    let Some(own) = sections.own else {
+        return orphan(index, sections.members, log);
+    };
+    let address = Address::new(index, 0);
+    let mut fields = Fields::new(own, address, log);
+    let mut reader = Reader { address, log };
+    let name = reader.name(&mut fields);
+    let mut unread = Vec::new();
+    let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
+    let count = compact::count(&mut reader, &mut fields, &mut unread);
+    let has_members = !sections.members.is_empty() || count.is_some();
+    let code = object_code(&mut reader, &mut fields, &mut unread, has_members);
+    let members = sections.members;
+    let mistaken = !code.has_members() && has_members;
+    let code = match mistaken {
+        true => contradiction(&mut reader, &fields, code, &members, count.as_ref()),
+        false => code,
+    };
+    if !code.has_members() {
+        return Some(var(reader, fields, name, code, sub_number.given(), unread));
+    }
+    let mut entries = BTreeMap::new();
+    let mut flags = 0;
+    if let Some(count) = &count {
+        let template = reader.entry(&mut fields, name.clone(), None);
+        flags = template.0.flags;
+        entries = compact::expand(
+            reader.address,
+            template,
+            count,
+            sections.compact,
+            reader.log,
+        );
+    } else if mistaken && fields.has("DataType") && !members.contains_key(&0) {
+        // What was said of the VAR is said of sub-index 0, where a VAR has its value.
+        let (mut entry, more) = reader.entry(&mut fields, name.clone(), None);
+        entry.extra = extra(Vec::new(), more);
+        entries.insert(0, entry);
+    } else {
+        flags = reader.flags(&mut fields, &mut unread).max(flags);
+    }
+    let group = fields.group;
+    for (sub, section) in members {
+        let mut entry = member(Address::new(index, sub), section, reader.log);
+        entry.group = entry.group.or(group);
+        entries.insert(sub, entry);
+    }
+    let counted = entries.len() as u32;
+    let sub_number = match (count, sub_number) {
+        // CompactSubObj takes its place.
+        (Some(count), _) => Spanned::new(counted, count.span),
+        (None, SubNumber::Given(given)) => given,
+        (None, SubNumber::Unread) => Spanned::from(counted),
+        (None, SubNumber::Missing) if counted == 0 => Spanned::from(counted),
+        (None, SubNumber::Missing) => {
+            let span = fields.header;
+            reader.report(
+                rules::W0317
+                    .at(span, "there is no SubNumber")
+                    .with_help(format!("write `SubNumber={counted}`"))
+                    .with_fix(Fix::safe().below(span, format!("SubNumber={counted}"))),
+            );
+            Spanned::from(counted)
+        }
+    };
+    let span = fields.header;
+    Some(ObjectDescription {
+        code,
+        name,
+        sub_number: Some(sub_number),
+        entries,
+        flags,
+        extra: extra(fields.rest(address, reader.log), unread),
+        span,
+    })
+}
+
+/// Members without the section of their object.
+fn orphan(
+    index: u16,
+    members: BTreeMap<u8, Placed<'_>>,
+    log: &mut Vec<Diagnostic>,
+) -> Option<ObjectDescription> {
+    let span = members.values().next()?.header;
+    log.push(
+        rules::E0208
+            .at(
+                span,
+                format!("there is no section [{index:04X}] for this member"),
+            )
+            .with_address(Address::new(index, 0))
+            .with_help(format!(
+                "write a section [{index:04X}] with `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"
+            )),
+    );
+    let entries: BTreeMap<_, _> = members
+        .into_iter()
+        .map(|(sub, section)| (sub, member(Address::new(index, sub), section, log)))
+        .collect();
+    Some(ObjectDescription {
+        code: Spanned::from(ObjectCode::Record),
+        name: Spanned::from(String::new()),
+        sub_number: Some(Spanned::from(entries.len() as u32)),
+        entries,
+        flags: 0,
+        extra: Vec::new(),
+        span,
+    })
+}
+
+fn member(address: Address, section: Placed<'_>, log: &mut Vec<Diagnostic>) -> EntryDescription {
+    let mut fields = Fields::new(section, address, log);
+    let mut reader = Reader { address, log };
+    let name = reader.name(&mut fields);
+    let mut unread = Vec::new();
+    let mut assumed = None;
+    if let Some(given) = fields.take("ObjectType") {
+        let code = reader
+            .number("ObjectType", &given)
+            .and_then(|code| u8::try_from(code).ok())
+            .and_then(ObjectCode::from_code);
+        let code = code.or_else(|| words::object_code(&mut reader, &given));
+        if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
+            reader.report(
+                rules::W0322
+                    .at(
+                        given.span,
+                        format!("a sub-index is a VAR, not `{}`", given.value),
+                    )
+                    .with_help("write `ObjectType=0x7`")
+                    .with_fix(Fix::guess().replace(given.span, "0x7")),
+            );
+        }
+        // A member is a VAR; what else is said is kept.
+        if code != Some(ObjectCode::Var) {
+            unread.push(("ObjectType".into(), given.value.into_owned()));
+        }
+        if code == Some(ObjectCode::Domain) {
+            assumed = Some(DataType::Domain);
+        }
+    }
+    let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
+    unread.append(&mut more);
+    entry.extra = extra(fields.rest(address, reader.log), unread);
+    entry
+}
+
+fn var(
+    mut reader: Reader<'_>,
+    mut fields: Fields<'_>,
+    name: Spanned<String>,
+    code: Spanned<ObjectCode>,
+    sub_number: Option<Spanned<u32>>,
+    mut unread: Unread,
+) -> ObjectDescription {
+    let assumed = match *code {
+        ObjectCode::Domain => Some(DataType::Domain),
+        _ => None,
+    };
+    let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
+    unread.append(&mut more);
+    entry.extra = extra(fields.rest(reader.address, reader.log), unread);
+    ObjectDescription {
+        code,
+        sub_number,
+        ..ObjectDescription::var(entry)
+    }
+}
+
+fn object_code(
+    reader: &mut Reader<'_>,
+    fields: &mut Fields<'_>,
+    unread: &mut Unread,
+    has_members: bool,
+) -> Spanned<ObjectCode> {
+    let guess = match has_members {
+        true => ObjectCode::Record,
+        false => ObjectCode::Var,
+    };
+    let Some(given) = fields.take("ObjectType") else {
+        if has_members {
+            reader.report(
+                rules::W0302
+                    .at(
+                        fields.header,
+                        "there is no ObjectType, but there are members",
+                    )
+                    .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
+                    .with_fix(Fix::guess().below(fields.header, "ObjectType=0x9")),
+            );
+        }
+        return Spanned::from(guess);
+    };
+    let code = reader
+        .number("ObjectType", &given)
+        .and_then(|code| u8::try_from(code).ok())
+        .and_then(ObjectCode::from_code);
+    let code = code.or_else(|| words::object_code(reader, &given));
+    match code {
+        Some(code) => Spanned::new(code, given.span),
+        None => {
+            reader.report(
+                rules::E0301
+                    .at(given.span, format!("`{}` is no object code", given.value))
+                    .with_help("write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD"),
+            );
+            let span = given.span;
+            unread.push(("ObjectType".into(), given.value.into_owned()));
+            Spanned::new(guess, span)
+        }
+    }
+}
+
+/// An object that can have no members, but has: a RECORD; an ARRAY where
+/// CompactSubObj counts them.
+fn contradiction(
+    reader: &mut Reader<'_>,
+    fields: &Fields<'_>,
+    code: Spanned<ObjectCode>,
+    members: &BTreeMap<u8, Placed<'_>>,
+    count: Option<&Spanned<u8>>,
+) -> Spanned<ObjectCode> {
+    let span = match (members.values().next(), count) {
+        (Some(member), _) => member.header,
+        (None, Some(count)) => count.span,
+        (None, None) => fields.header,
+    };
+    let finding = rules::E0305
+        .at(span, format!("a {} has no sub-indices", *code))
+        .with_label(code.span, "the object code is declared here");
+    if count.is_some() {
+        let fix = Fix::guess().replace(code.span, "0x8");
+        reader.report(
+            finding
+                .with_help("write `ObjectType=0x8` (ARRAY)")
+                .with_fix(fix),
+        );
+        return Spanned::new(ObjectCode::Array, code.span);
+    }
+    let fix = Fix::guess().replace(code.span, "0x9");
+    reader.report(
+        finding
+            .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
+            .with_fix(fix),
+    );
+    Spanned::new(ObjectCode::Record, code.span)
+}
+
+/// SubNumber, and whether there is one.
+enum SubNumber {
+    Given(Spanned<u32>),
+    Unread,
+    Missing,
+}
+
+impl SubNumber {
+    fn given(self) -> Option<Spanned<u32>> {
+        match self {
+            Self::Given(number) => Some(number),
+            Self::Unread | Self::Missing => None,
+        }
+    }
+}
+
+fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unread) -> SubNumber {
+    let Some(given) = fields.take("SubNumber") else {
+        return SubNumber::Missing;
+    };
+    let number = reader
+        .number("SubNumber", &given)
+        .and_then(|number| u32::try_from(number).ok());
+    match number {
+        Some(number) => SubNumber::Given(Spanned::new(number, given.span)),
+        None => {
+            reader.report(
+                rules::W0316
+                    .at(given.span, format!("`{}` is no number", given.value))
+                    .with_help("write how many sub-index sections there are"),
+            );
+            unread.push(("SubNumber".into(), given.value.into_owned()));
+            SubNumber::Unread
+        }
+    }
+}

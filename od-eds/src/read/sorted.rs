@@ -1,0 +1,355 @@
+//! From text to a description.
+
+use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::document::Document;
+use crate::fix::Fix;
+use crate::read::fields::duplicates;
+use crate::read::object;
+use crate::read::object::Sections;
+use crate::read::{Parsed, compact, compact_pdo, lists, modules, other, own_types};
+use crate::rules;
+use crate::scan::encoding::Encoding;
+use crate::scan::names::{List, Place, intended, place};
+use crate::scan::placed;
+use crate::scan::placed::Placed;
+use crate::scan::{lines, number::number};
+use od_model::Address;
+
+/// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
+///
+/// Never fails, never panics: what it cannot read is a diagnostic, and stands as
+/// text in the `extra` of where it was. It does not check: see
+/// [`check`](crate::check::check) and [`load`](crate::load).
+pub fn parse(text: &str) -> Parsed {
+    #[cfg(feature = "xdd")]
+    if crate::xdd::is_xml(text) {
+        return crate::xdd::parse(text);
+    }
+    let mut diagnostics = Vec::new();
+    let sections = placed::read(text, &mut diagnostics);
+    let mut sorted = sorted(sections, diagnostics);
+    sorted.has_lists = true;
+    sorted.parsed()
+}
+
+/// A description from the sections that an XDD has, in which no lists are.
+#[cfg(feature = "xdd")]
+pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Diagnostic>) -> Parsed {
+    sorted(sections, log).parsed()
+}
+
+pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sorted<'a> {
+    let mut sorted = Sorted {
+        log,
+        ..Sorted::default()
+    };
+    for section in sections {
+        sorted.add(section);
+    }
+    sorted
+}
+
+/// Reads a file; what there is to say of its encoding comes first.
+pub(crate) fn document(document: &Document) -> Parsed {
+    let mut parsed = parse(document.text());
+    parsed.diagnostics.extend(encoded(document));
+    crate::check::sort(&mut parsed.diagnostics);
+    parsed
+}
+
+/// What other readers may not expect of the characters.
+fn encoded(document: &Document) -> Vec<Diagnostic> {
+    let (text, encoding) = (document.text(), document.encoding());
+    let mut found = Vec::new();
+    let first = text.find(|c: char| !c.is_ascii());
+    let marked = match document.has_mark() {
+        true => ", with a byte order mark",
+        false => "",
+    };
+    // XML says how it is written, and every reader of XML knows these.
+    let is_xml = text.trim_start().starts_with('<');
+    if encoding != Encoding::Ascii && !is_xml {
+        found.push(
+            rules::I0111
+                .at(
+                    lines::span(text, first.unwrap_or(0)),
+                    format!("the file is {encoding}{marked}"),
+                )
+                .with_help("where another reader fails, save it as ASCII"),
+        );
+    }
+    if let Some(at) = document.first_wrong() {
+        found.push(
+            rules::W0112
+                .at(
+                    lines::span(text, at),
+                    format!("here is a byte that is no character of {encoding}"),
+                )
+                .with_help("write the character anew, or save the file in one encoding"),
+        );
+    }
+    found
+}
+
+/// The sections of a file by what they are about.
+#[derive(Default)]
+pub(crate) struct Sorted<'a> {
+    objects: BTreeMap<u16, Sections<'a>>,
+    lists: BTreeMap<List, Vec<Placed<'a>>>,
+    others: Vec<Placed<'a>>,
+    names: BTreeMap<String, Span>,
+    has_lists: bool,
+    log: Vec<Diagnostic>,
+}
+
+impl<'a> Sorted<'a> {
+    fn add(&mut self, section: Placed<'a>) {
+        let place = self.place(&section);
+        match place {
+            Place::Object(index) => {
+                let sections = self.objects.entry(index).or_default();
+                let address = Address::new(index, 0);
+                match &mut sections.own {
+                    None => sections.own = Some(section),
+                    Some(first) => self.log.push(twice(first, section, address)),
+                }
+            }
+            Place::Member(index, sub) => {
+                match self.objects.entry(index).or_default().members.entry(sub) {
+                    Entry::Vacant(entry) => {
+                        entry.insert(section);
+                    }
+                    Entry::Occupied(mut first) => {
+                        let finding = twice(first.get_mut(), section, Address::new(index, sub));
+                        self.log.push(finding);
+                    }
+                }
+            }
+            Place::Compact(index, compact) => {
+                match self
+                    .objects
+                    .entry(index)
+                    .or_default()
+                    .compact
+                    .entry(compact)
+                {
+                    Entry::Vacant(entry) => {
+                        duplicates(&section.pairs, &mut self.log);
+                        entry.insert(section);
+                    }
+                    Entry::Occupied(mut first) => {
+                        let finding = twice(first.get_mut(), section, Address::new(index, 0));
+                        self.log.push(finding);
+                    }
+                }
+            }
+            Place::List(list) => self.lists.entry(list).or_default().push(section),
+            Place::Other => self.other(section),
+        }
+    }
+
+    /// What a section is about, even if its name is not quite as it should be.
+    fn place(&mut self, section: &Placed<'_>) -> Place {
+        let name = &section.name;
+        let exact = place(name);
+        let meant = match exact {
+            Place::Other => intended(name, describes(section)),
+            Place::Member(_, sub) if name.len() > 7 + format!("{sub:X}").len() => Some(exact),
+            _ => None,
+        };
+        let (Some(meant), Some(right)) = (meant, meant.and_then(Place::name)) else {
+            return exact;
+        };
+        self.log.push(
+            rules::I0212
+                .at(
+                    section.header,
+                    format!("[{}] is read as [{right}]", name.value),
+                )
+                .with_help(format!("write `[{right}]`"))
+                .with_fix(Fix::safe().replace(section.header, format!("[{right}]"))),
+        );
+        meant
+    }
+
+    fn other(&mut self, section: Placed<'a>) {
+        duplicates(&section.pairs, &mut self.log);
+        other::check(&section, &mut self.log);
+        let name = &section.name;
+        match self.names.entry(name.to_ascii_lowercase()) {
+            Entry::Vacant(entry) => {
+                entry.insert(section.header);
+            }
+            Entry::Occupied(first) => self.log.push(
+                rules::W0106
+                    .at(section.header, format!("[{}] stands twice", name.value))
+                    .with_label(*first.get(), "this one counts")
+                    .with_help("put the keys of both into one section"),
+            ),
+        }
+        self.others.push(section);
+    }
+
+    pub(crate) fn parsed(mut self) -> Parsed {
+        let mut parsed = Parsed::default();
+        own_types::resolve(&mut self.objects, &mut self.log);
+        for (index, mut sections) in core::mem::take(&mut self.objects) {
+            let is_compact = sections.own.as_ref().is_some_and(counts_members);
+            if !is_compact {
+                for section in core::mem::take(&mut sections.compact).into_values() {
+                    let name = &section.name;
+                    self.log
+                        .push(compact::unclaimed(name, section.header, index));
+                    self.others.push(section);
+                }
+            }
+            if let Some(object) = object::object(index, sections, &mut self.log) {
+                parsed.description.objects.insert(index, object);
+            }
+        }
+        self.others.sort_by_key(|section| section.header.start);
+        parsed.description.sections = self.others.into_iter().map(Placed::into_section).collect();
+        modules::check(&parsed.description.sections, &mut self.log);
+        let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
+        if self.has_lists {
+            lists::check(&self.lists, &parsed.description, &made, &mut self.log);
+        }
+        parsed.description.objects.append(&mut made);
+        parsed.diagnostics = self.log;
+        crate::check::sort(&mut parsed.diagnostics);
+        parsed
+    }
+}
+
+/// Does a section say what an object says, whatever its name?
+fn describes(section: &Placed<'_>) -> bool {
+    ["ParameterName", "DataType", "SubNumber"]
+        .iter()
+        .any(|key| section.get(key).is_some())
+}
+
+/// Has the object a CompactSubObj that counts something?
+fn counts_members(own: &Placed<'_>) -> bool {
+    own.get("CompactSubObj")
+        .and_then(|count| number(count))
+        .is_some_and(|count| count > 0)
+}
+
+/// Names a second section; what the first lacks is taken from it.
+fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Diagnostic {
+    let name = second.name.value.clone();
+    let contradict = second.pairs.iter().any(|(key, value)| {
+        let same = first.get(key);
+        same.is_some_and(|first| first != value)
+    });
+    let (rule, message) = match contradict {
+        true => (
+            rules::E0303,
+            format!("[{name}] stands twice, and the two differ"),
+        ),
+        false => (rules::W0304, format!("[{name}] stands twice")),
+    };
+    let finding = rule
+        .at(second.header, message)
+        .with_address(address)
+        .with_label(first.header, "this one counts")
+        .with_help("remove one of the sections");
+    for (key, value) in second.pairs {
+        if first.get(&key).is_none() {
+            first.pairs.push((key, value));
+        }
+    }
+    finding
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Value;
+    use od_model::{DataType, Group, ObjectCode};
+
+    fn codes(parsed: &Parsed) -> Vec<&'static str> {
+        parsed.diagnostics.iter().map(|d| d.code).collect()
+    }
+
+    #[test]
+    fn an_object_with_members() {
+        let parsed = parse(
+            "[OptionalObjects]\nSupportedObjects=1\n1=0x1018\n\
+             [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\nObjFlags=1\n\
+             [1018sub0]\nParameterName=Count\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+             [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nOwn=kept\n",
+        );
+        assert_eq!(codes(&parsed), ["W0206", "I0319"]);
+        let object = &parsed.description.objects[&0x1018];
+        assert_eq!(*object.code, ObjectCode::Record);
+        assert_eq!((object.span.line, object.flags), (4, 1));
+        let vendor = &object.entries[&1];
+        assert_eq!(vendor.extra, [("Own".into(), "kept".into())]);
+        assert_eq!(vendor.data_type.unwrap().span.line, 16);
+        assert_eq!(vendor.span.line, 14);
+        assert_eq!(vendor.default, None);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_kept_as_text() {
+        let parsed =
+            parse("[2000]\nParameterName=x\nDataType=0x99\nAccessType=any\nDefaultValue=5");
+        assert_eq!(codes(&parsed), ["E0402", "E0405", "W0203"]);
+        let entry = &parsed.description.objects[&0x2000].entries[&0];
+        let kept = [
+            ("AccessType".into(), "any".into()),
+            ("DataType".into(), "0x99".into()),
+            ("DefaultValue".into(), "5".into()),
+        ];
+        assert_eq!(entry.extra, kept);
+        assert_eq!(entry.data_type, None);
+    }
+
+    #[test]
+    fn members_are_stored_where_their_object_is() {
+        let parsed = parse(
+            "[2000]\n;StorageLocation=PERSIST_APP\nObjectType=8\n[2000sub0]\nDataType=5\n\
+             [2000sub1]\n;StorageLocation=RAM\nDataType=5\n",
+        );
+        let entries = &parsed.description.objects[&0x2000].entries;
+        assert_eq!(entries[&0].group.map(|g| g.value), Some(Group::Application));
+        assert_eq!(entries[&1].group.map(|g| g.value), Some(Group::None));
+    }
+
+    #[test]
+    fn compact_members_get_names_and_values() {
+        let parsed = parse(
+            "\u{FEFF}[2000]\nParameterName=Gain\nObjectType=8\nDataType=5\nAccessType=rw\n\
+             CompactSubObj=3\n[2000Value]\n2=7\n[2000Name]\n3=Last\n[2000Denotation]\n1=D\n",
+        );
+        let entries = &parsed.description.objects[&0x2000].entries;
+        assert_eq!(entries.len(), 4);
+        assert_eq!(*entries[&1].name, "Gain1");
+        assert_eq!(*entries[&3].name, "Last");
+        let value = entries[&2].parameter.clone().unwrap();
+        assert_eq!((value.value, value.span.line), (Value::Unsigned(7), 8));
+        assert_eq!(entries[&1].extra, [("Denotation".into(), "D".into())]);
+        assert_eq!(*entries[&0].data_type.unwrap(), DataType::Unsigned8);
+    }
+
+    #[test]
+    fn sections_without_objects_are_kept_as_they_are() {
+        let parsed = parse("[FileInfo]\nA=1\n[2000Name]\n1=x\n[Mine]\na=2\nA=3\n");
+        let names: Vec<_> = parsed
+            .description
+            .sections
+            .iter()
+            .map(|s| &s.name.value)
+            .collect();
+        assert_eq!(names, ["FileInfo", "2000Name", "Mine"]);
+        assert_eq!(parsed.description.sections[2].pairs.len(), 2);
+        assert_eq!(codes(&parsed), ["I0319", "W0209", "I0211", "W0107"]);
+    }
+}

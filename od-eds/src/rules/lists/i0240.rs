@@ -1,0 +1,23 @@
+//! I0240: [FileInfo] or [DeviceInfo] is missing.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0240",
+    severity: Info,
+    title: "[FileInfo] or [DeviceInfo] is missing",
+    why: "Tools read there what the file is, and which device it is for.",
+    source: "CiA 306-1, FileInfo and DeviceInfo",
+    mending: Mending::None,
+    before: "",
+    after: "\
+        [FileInfo]\n\
+        FileName=case.eds\n\
+        FileVersion=1\n\
+        FileRevision=0\n\
+        EDSVersion=4.0\n\
+        Description=A case\n\
+        CreationTime=09:30AM\n\
+        CreationDate=11-21-2026",
+};

@@ -1,0 +1,22 @@
+//! W0201: listed object has no section.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0201",
+    severity: Warning,
+    title: "listed object has no section",
+    why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::Unsafe,
+    before: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=2\n\
+        1=0x2000\n\
+        2=0x2001",
+    after: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=1\n\
+        1=0x2000",
+};

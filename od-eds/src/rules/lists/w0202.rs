@@ -1,0 +1,20 @@
+//! W0202: object is in no list.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0202",
+    severity: Warning,
+    title: "object is in no list",
+    why: "A reader that follows the lists does not see the object. It is taken to exist.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=0",
+    after: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=1\n\
+        1=0x2000",
+};

@@ -1,0 +1,20 @@
+//! W0205: list entry is no index.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0205",
+    severity: Warning,
+    title: "list entry is no index",
+    why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::None,
+    before: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        2=none",
+    after: "\
+        [ManufacturerObjects]\n\
+        1=0x2000",
+};

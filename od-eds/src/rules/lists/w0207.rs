@@ -1,0 +1,22 @@
+//! W0207: object is listed twice.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0207",
+    severity: Warning,
+    title: "object is listed twice",
+    why: "One entry is enough; some editors make two objects of two.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::Safe,
+    before: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=2\n\
+        1=0x2000\n\
+        2=0x2000",
+    after: "\
+        [ManufacturerObjects]\n\
+        SupportedObjects=1\n\
+        1=0x2000",
+};

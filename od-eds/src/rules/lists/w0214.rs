@@ -1,0 +1,21 @@
+//! W0214: number of a list stands twice.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0214",
+    severity: Warning,
+    title: "number of a list stands twice",
+    why: "Readers that ask for each number miss one of the two. Both entries are read.",
+    source: "CiA 306-1, object lists",
+    mending: Mending::Safe,
+    before: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        1=0x2001",
+    after: "\
+        [ManufacturerObjects]\n\
+        1=0x2000\n\
+        2=0x2001",
+};

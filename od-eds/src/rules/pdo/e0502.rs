@@ -1,0 +1,23 @@
+//! E0502: PDO maps an object that is not mappable.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0502",
+    severity: Error,
+    title: "PDO maps an object that is not mappable",
+    why: "PDOMapping=0 forbids it.",
+    source: "CiA 301, PDO mapping parameter",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000]\n\
+        DataType=0x0007\n\
+        DefaultValue=0\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0007\n\
+        DefaultValue=0\n\
+        PDOMapping=1",
+};

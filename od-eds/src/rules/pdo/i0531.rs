@@ -1,0 +1,25 @@
+//! I0531: COB-ID does not follow the node ID.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0531",
+    severity: Info,
+    title: "COB-ID does not follow the node ID",
+    why: "Two such devices in one network send on one identifier. The first four PDOs usually have $NODEID in their COB-IDs.",
+    source: "CiA 301, predefined connection set",
+    mending: Mending::None,
+    before: "\
+        [1800sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x181\n\
+        PDOMapping=0",
+    after: "\
+        [1800sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0x180\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,23 @@
+//! W0506: RPDO maps a dummy that [DummyUsage] does not allow.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0506",
+    severity: Warning,
+    title: "RPDO maps a dummy that [DummyUsage] does not allow",
+    why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
+    source: "CiA 306-1, DummyUsage",
+    mending: Mending::Unsafe,
+    before: "\
+        [DummyUsage]\n\
+        Dummy0004=0\n\
+        Dummy0005=0\n\
+        Dummy0006=1",
+    after: "\
+        [DummyUsage]\n\
+        Dummy0004=0\n\
+        Dummy0005=1\n\
+        Dummy0006=1",
+};

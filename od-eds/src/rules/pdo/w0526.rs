@@ -1,0 +1,23 @@
+//! W0526: mapping is finer than the granularity.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0526",
+    severity: Warning,
+    title: "mapping is finer than the granularity",
+    why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
+    source: "CiA 306-1, DeviceInfo",
+    mending: Mending::None,
+    before: "\
+        [DeviceInfo]\n\
+        SimpleBootUpSlave=0\n\
+        Granularity=64\n\
+        NrOfRxPDO=0",
+    after: "\
+        [DeviceInfo]\n\
+        SimpleBootUpSlave=0\n\
+        Granularity=8\n\
+        NrOfRxPDO=0",
+};

@@ -1,0 +1,23 @@
+//! W0906: profile object has another access.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0906",
+    severity: Warning,
+    title: "profile object has another access",
+    why: "What a profile has as read only is not to be written; what is written by masters must be writable.",
+    source: "CiA 401 and CiA 402, object overview",
+    mending: Mending::Unsafe,
+    before: "\
+        [6041]\n\
+        DataType=0x0006\n\
+        AccessType=rw\n\
+        DefaultValue=0",
+    after: "\
+        [6041]\n\
+        DataType=0x0006\n\
+        AccessType=ro\n\
+        DefaultValue=0",
+};

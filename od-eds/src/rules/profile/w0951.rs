@@ -1,0 +1,23 @@
+//! W0951: encoder object has another access.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0951",
+    severity: Warning,
+    title: "encoder object has another access",
+    why: "What CiA 406 has as read only is not to be written; what is written by masters must be writable.",
+    source: "CiA 406, object overview",
+    mending: Mending::Unsafe,
+    before: "\
+        [6004]\n\
+        DataType=0x0007\n\
+        AccessType=rwr\n\
+        DefaultValue=0",
+    after: "\
+        [6004]\n\
+        DataType=0x0007\n\
+        AccessType=ro\n\
+        DefaultValue=0",
+};

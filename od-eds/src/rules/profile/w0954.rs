@@ -1,0 +1,25 @@
+//! W0954: operating status differs from the operating parameters.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0954",
+    severity: Warning,
+    title: "operating status differs from the operating parameters",
+    why: "6500h shows what is set in 6000h: code sequence, commissioning diagnosis, scaling.",
+    source: "CiA 406, objects 6000h and 6500h",
+    mending: Mending::Unsafe,
+    before: "\
+        [6500]\n\
+        DataType=0x0006\n\
+        AccessType=ro\n\
+        DefaultValue=0\n\
+        PDOMapping=0",
+    after: "\
+        [6500]\n\
+        DataType=0x0006\n\
+        AccessType=ro\n\
+        DefaultValue=4\n\
+        PDOMapping=0",
+};

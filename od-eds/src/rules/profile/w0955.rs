@@ -1,0 +1,25 @@
+//! W0955: preset is outside the range.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0955",
+    severity: Warning,
+    title: "preset is outside the range",
+    why: "6003h is a position, and positions go from 0 to one below 6002h.",
+    source: "CiA 406, object 6003h",
+    mending: Mending::None,
+    before: "\
+        [6003]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=33554432\n\
+        PDOMapping=0",
+    after: "\
+        [6003]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0\n\
+        PDOMapping=0",
+};

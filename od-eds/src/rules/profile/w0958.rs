@@ -1,0 +1,25 @@
+//! W0958: cyclic timer differs from the event timer.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0958",
+    severity: Warning,
+    title: "cyclic timer differs from the event timer",
+    why: "6200h and 1800h:05 are one timer.",
+    source: "CiA 406, object 6200h",
+    mending: Mending::Unsafe,
+    before: "\
+        [6200]\n\
+        DataType=0x0006\n\
+        AccessType=rw\n\
+        DefaultValue=100\n\
+        PDOMapping=0",
+    after: "\
+        [6200]\n\
+        DataType=0x0006\n\
+        AccessType=rw\n\
+        DefaultValue=10\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,23 @@
+//! E0604: object 1000h is not as CiA 301 says.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0604",
+    severity: Error,
+    title: "object 1000h is not as CiA 301 says",
+    why: "A VAR, UNSIGNED32, read only.",
+    source: "CiA 301, object 1000h",
+    mending: Mending::Unsafe,
+    before: "\
+        [1000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=ro",
+    after: "\
+        [1000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0007\n\
+        AccessType=ro",
+};

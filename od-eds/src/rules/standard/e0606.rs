@@ -1,0 +1,23 @@
+//! E0606: object 1018h is not as CiA 301 says.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0606",
+    severity: Error,
+    title: "object 1018h is not as CiA 301 says",
+    why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
+    source: "CiA 301, object 1018h",
+    mending: Mending::Unsafe,
+    before: "\
+        [1018sub2]\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=ro",
+    after: "\
+        [1018sub2]\n\
+        ObjectType=0x7\n\
+        DataType=0x0007\n\
+        AccessType=ro",
+};

@@ -1,0 +1,21 @@
+//! I0610: date or time is not written as CiA 306 writes it.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0610",
+    severity: Info,
+    title: "date or time is not written as CiA 306 writes it",
+    why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
+    source: "CiA 306-1, FileInfo",
+    mending: Mending::None,
+    before: "\
+        [FileInfo]\n\
+        CreationTime=09:30AM\n\
+        CreationDate=21.11.2026",
+    after: "\
+        [FileInfo]\n\
+        CreationTime=09:30AM\n\
+        CreationDate=11-21-2026",
+};

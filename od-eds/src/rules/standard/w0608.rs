@@ -1,0 +1,23 @@
+//! W0608: number of PDOs differs from [DeviceInfo].
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0608",
+    severity: Warning,
+    title: "number of PDOs differs from [DeviceInfo]",
+    why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
+    source: "CiA 306-1, DeviceInfo",
+    mending: Mending::Safe,
+    before: "\
+        [DeviceInfo]\n\
+        NrOfRxPDO=0\n\
+        NrOfTxPDO=4\n\
+        LSS_Supported=0",
+    after: "\
+        [DeviceInfo]\n\
+        NrOfRxPDO=0\n\
+        NrOfTxPDO=1\n\
+        LSS_Supported=0",
+};

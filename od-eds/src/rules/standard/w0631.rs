@@ -1,0 +1,23 @@
+//! W0631: standard object has another type.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0631",
+    severity: Warning,
+    title: "standard object has another type",
+    why: "A master that knows the object from the standard reads and writes it with another length.",
+    source: "CiA 301, chapter 7.5; CiA 302",
+    mending: Mending::Unsafe,
+    before: "\
+        [1017]\n\
+        ObjectType=0x7\n\
+        DataType=0x0007\n\
+        AccessType=rw",
+    after: "\
+        [1017]\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=rw",
+};

@@ -1,0 +1,23 @@
+//! W0632: standard object has another access.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0632",
+    severity: Warning,
+    title: "standard object has another access",
+    why: "What the standard has as read only is not to be written; what is written by masters must be writable.",
+    source: "CiA 301, chapter 7.5; CiA 302",
+    mending: Mending::Unsafe,
+    before: "\
+        [1018sub1]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x5F",
+    after: "\
+        [1018sub1]\n\
+        DataType=0x0007\n\
+        AccessType=ro\n\
+        DefaultValue=0x5F",
+};

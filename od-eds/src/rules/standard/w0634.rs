@@ -1,0 +1,21 @@
+//! W0634: LSS without an LSS address.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0634",
+    severity: Warning,
+    title: "LSS without an LSS address",
+    why: "A device is selected by vendor, product, revision and serial number: 1018h needs all four.",
+    source: "CiA 305, LSS address",
+    mending: Mending::None,
+    before: "\
+        [DeviceInfo]\n\
+        NrOfTxPDO=0\n\
+        LSS_Supported=1",
+    after: "\
+        [DeviceInfo]\n\
+        NrOfTxPDO=0\n\
+        LSS_Supported=0",
+};

@@ -1,0 +1,23 @@
+//! E0301: ObjectType is no object code.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0301",
+    severity: Error,
+    title: "ObjectType is no object code",
+    why: "The object code says what kind of object it is. It is guessed from what the object has.",
+    source: "CiA 301, object codes",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x70\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+};

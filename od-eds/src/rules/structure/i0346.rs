@@ -1,0 +1,23 @@
+//! I0346: two objects have one name.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0346",
+    severity: Info,
+    title: "two objects have one name",
+    why: "Masters that find objects by their names find only one of them.",
+    source: "odkit; python-canopen and others look up by name",
+    mending: Mending::None,
+    before: "\
+        [2001]\n\
+        ParameterName=Gain\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+    after: "\
+        [2001]\n\
+        ParameterName=Offset\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+};

@@ -1,0 +1,21 @@
+//! W0308: SubNumber does not count the sub-indices.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0308",
+    severity: Warning,
+    title: "SubNumber does not count the sub-indices",
+    why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=2",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
+};

@@ -1,0 +1,23 @@
+//! W0312: members of an ARRAY differ in type.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0312",
+    severity: Warning,
+    title: "members of an ARRAY differ in type",
+    why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
+    source: "CiA 301, object codes",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000sub2]\n\
+        ObjectType=0x7\n\
+        DataType=0x0006\n\
+        AccessType=rw",
+    after: "\
+        [2000sub2]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005\n\
+        AccessType=rw",
+};

@@ -1,0 +1,21 @@
+//! W0316: SubNumber is no number.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0316",
+    severity: Warning,
+    title: "SubNumber is no number",
+    why: "SubNumber is the number of sub-index sections. They are counted instead.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=three",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
+};

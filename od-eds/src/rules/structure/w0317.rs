@@ -1,0 +1,20 @@
+//! W0317: SubNumber is missing.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0317",
+    severity: Warning,
+    title: "SubNumber is missing",
+    why: "An object with members says how many. They are counted instead.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        ObjectType=0x9",
+    after: "\
+        [2000]\n\
+        ObjectType=0x9\n\
+        SubNumber=3",
+};

@@ -1,0 +1,25 @@
+//! W0318: key is nearly one of CiA 306.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0318",
+    severity: Warning,
+    title: "key is nearly one of CiA 306",
+    why: "It looks like a slip. The key is kept, and nothing reads it.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefualtValue=5\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5\n\
+        PDOMapping=0",
+};

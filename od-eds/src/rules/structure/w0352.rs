@@ -1,0 +1,22 @@
+//! W0352: SubNumber of an object without members.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0352",
+    severity: Warning,
+    title: "SubNumber of an object without members",
+    why: "Only an ARRAY or a RECORD has sub-indices to count.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        SubNumber=3\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ObjectType=0x7\n\
+        DataType=0x0005",
+};

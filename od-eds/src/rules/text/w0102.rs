@@ -1,0 +1,25 @@
+//! W0102: line has no key before the `=`.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0102",
+    severity: Warning,
+    title: "line has no key before the `=`",
+    why: "Nothing can ask for a value without a key. The line is ignored.",
+    source: "CiA 306-1, file format",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        =7\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ;=7\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,22 @@
+//! W0104: text behind a section header.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0104",
+    severity: Warning,
+    title: "text behind a section header",
+    why: "Most readers stop at such a line. The text is ignored.",
+    source: "CiA 306-1, file format",
+    mending: Mending::Safe,
+    before: "\
+        [2000] ; the gain\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
+    after: "\
+        [2000]\n\
+        ; the gain\n\
+        ParameterName=Gain\n\
+        DataType=0x0005",
+};

@@ -1,0 +1,23 @@
+//! W0106: section stands twice.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0106",
+    severity: Warning,
+    title: "section stands twice",
+    why: "Readers differ in which one they take. The first counts; both are kept.",
+    source: "CiA 306-1, file format",
+    mending: Mending::None,
+    before: "\
+        [Comments]\n\
+        Line1=A case\n\
+        \n\
+        [Comments]\n\
+        Line2=of comments",
+    after: "\
+        [Comments]\n\
+        Line1=A case\n\
+        Line2=of comments",
+};

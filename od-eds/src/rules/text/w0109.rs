@@ -1,0 +1,26 @@
+//! W0109: comment behind a value.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0109",
+    severity: Warning,
+    title: "comment behind a value",
+    why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
+    source: "CiA 306-1, file format",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5 ; per cent\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5\n\
+        ; per cent\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,23 @@
+//! E0405: AccessType is none.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0405",
+    severity: Error,
+    title: "AccessType is none",
+    why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=any\n\
+        DefaultValue=5",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=5",
+};

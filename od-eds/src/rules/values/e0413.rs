@@ -1,0 +1,25 @@
+//! E0413: ParameterValue is no value of its type.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0413",
+    severity: Error,
+    title: "ParameterValue is no value of its type",
+    why: "The value cannot be what the configuration says it is. The dictionary has the default there.",
+    source: "CiA 306-1, DCF; CiA 301, data types",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ParameterValue=fast\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        ParameterValue=7\n\
+        PDOMapping=0",
+};

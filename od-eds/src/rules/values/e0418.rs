@@ -1,0 +1,25 @@
+//! E0418: $NODEID formula does not fit its type for every node ID.
+
+use crate::diagnostic::Severity::Error;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "E0418",
+    severity: Error,
+    title: "$NODEID formula does not fit its type for every node ID",
+    why: "The sum with the highest node ID, 127, must fit.",
+    source: "CiA 306-1, $NODEID",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0xF0\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0x80\n\
+        PDOMapping=0",
+};

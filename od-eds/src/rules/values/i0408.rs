@@ -1,0 +1,25 @@
+//! I0408: number with a leading 0 is octal.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0408",
+    severity: Info,
+    title: "number with a leading 0 is octal",
+    why: "`010` is 8. It is read so, as C reads it; not every reader does.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=010\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=rw\n\
+        DefaultValue=8\n\
+        PDOMapping=0",
+};

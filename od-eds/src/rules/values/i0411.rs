@@ -1,0 +1,25 @@
+//! I0411: $NODEID is not written as `$NODEID+n`.
+
+use crate::diagnostic::Severity::Info;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "I0411",
+    severity: Info,
+    title: "$NODEID is not written as `$NODEID+n`",
+    why: "Another order, other case or blanks are read the same; not every reader does.",
+    source: "CiA 306-1, $NODEID",
+    mending: Mending::Safe,
+    before: "\
+        [1014]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=0x80 + $nodeid\n\
+        PDOMapping=0",
+    after: "\
+        [1014]\n\
+        DataType=0x0007\n\
+        AccessType=rw\n\
+        DefaultValue=$NODEID+0x80\n\
+        PDOMapping=0",
+};

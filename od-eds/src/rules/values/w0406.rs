@@ -1,0 +1,23 @@
+//! W0406: PDOMapping is neither 0 nor 1.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0406",
+    severity: Warning,
+    title: "PDOMapping is neither 0 nor 1",
+    why: "0 is taken.",
+    source: "CiA 306-1, object sections",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        PDOMapping=maybe",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        DefaultValue=5\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,25 @@
+//! W0423: decimal comma.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0423",
+    severity: Warning,
+    title: "decimal comma",
+    why: "It is read as a decimal point; many readers refuse it.",
+    source: "CiA 306-1, numbers",
+    mending: Mending::Safe,
+    before: "\
+        [2000]\n\
+        DataType=0x0008\n\
+        AccessType=rw\n\
+        DefaultValue=1,5\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0008\n\
+        AccessType=rw\n\
+        DefaultValue=1.5\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,25 @@
+//! W0446: text is not ASCII.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0446",
+    severity: Warning,
+    title: "text is not ASCII",
+    why: "A VISIBLE_STRING has the characters of ISO 646; on the bus others become whatever the reader takes them for.",
+    source: "CiA 301, data types",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        DataType=0x0009\n\
+        AccessType=rw\n\
+        DefaultValue=5 µm\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0009\n\
+        AccessType=rw\n\
+        DefaultValue=5 um\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,25 @@
+//! W0453: constant has no value.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0453",
+    severity: Warning,
+    title: "constant has no value",
+    why: "What is const never changes; without a DefaultValue nobody knows what it is. 0 is taken.",
+    source: "CiA 306-1, AccessType",
+    mending: Mending::None,
+    before: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=const\n\
+        DefaultValue=\n\
+        PDOMapping=0",
+    after: "\
+        [2000]\n\
+        DataType=0x0005\n\
+        AccessType=const\n\
+        DefaultValue=4\n\
+        PDOMapping=0",
+};

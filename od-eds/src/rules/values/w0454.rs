@@ -1,0 +1,23 @@
+//! W0454: mappable, but of no fixed length.
+
+use crate::diagnostic::Severity::Warning;
+use crate::rules::{Mending, Rule};
+
+pub(crate) const RULE: Rule = Rule {
+    code: "W0454",
+    severity: Warning,
+    title: "mappable, but of no fixed length",
+    why: "A string or a DOMAIN has no place in a PDO.",
+    source: "CiA 301, data types and PDO mapping parameter",
+    mending: Mending::Unsafe,
+    before: "\
+        [2000]\n\
+        DataType=0x0009\n\
+        DefaultValue=hello\n\
+        PDOMapping=1",
+    after: "\
+        [2000]\n\
+        DataType=0x0009\n\
+        DefaultValue=hello\n\
+        PDOMapping=0",
+};

@@ -1,0 +1,214 @@
+//! What a section is about, by its name.
+
+use alloc::format;
+use alloc::string::String;
+
+/// The three lists of objects.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum List {
+    Mandatory,
+    Optional,
+    Manufacturer,
+}
+
+impl List {
+    pub(crate) const ALL: [List; 3] = [List::Mandatory, List::Optional, List::Manufacturer];
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Mandatory => "MandatoryObjects",
+            Self::Optional => "OptionalObjects",
+            Self::Manufacturer => "ManufacturerObjects",
+        }
+    }
+
+    /// The list that an object belongs to.
+    pub(crate) const fn of(index: u16) -> Self {
+        match index {
+            0x1000 | 0x1001 | 0x1018 => Self::Mandatory,
+            0x2000..=0x5FFF => Self::Manufacturer,
+            _ => Self::Optional,
+        }
+    }
+}
+
+/// The three sections that an object with CompactSubObj may have besides its own,
+/// in the order in which they are taken.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Compact {
+    Name,
+    Value,
+    Denotation,
+}
+
+/// What a section is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Place {
+    Object(u16),
+    Member(u16, u8),
+    Compact(u16, Compact),
+    List(List),
+    Other,
+}
+
+impl Place {
+    /// The name of the section of an object or a member.
+    pub(crate) fn name(self) -> Option<String> {
+        match self {
+            Self::Object(index) => Some(format!("{index:04X}")),
+            Self::Member(index, sub) => Some(format!("{index:04X}sub{sub:X}")),
+            Self::Compact(..) | Self::List(_) | Self::Other => None,
+        }
+    }
+}
+
+/// What the section of this name is about: `1018`, `1018sub2`, `1600Name` …
+pub(crate) fn place(name: &str) -> Place {
+    for list in List::ALL {
+        if name.eq_ignore_ascii_case(list.name()) {
+            return Place::List(list);
+        }
+    }
+    let Some((digits, rest)) = name.split_at_checked(4) else {
+        return Place::Other;
+    };
+    let Some(index) = hex(digits).and_then(|index| u16::try_from(index).ok()) else {
+        return Place::Other;
+    };
+    if rest.is_empty() {
+        return Place::Object(index);
+    }
+    for (word, compact) in [
+        ("Name", Compact::Name),
+        ("Value", Compact::Value),
+        ("Denotation", Compact::Denotation),
+    ] {
+        if rest.eq_ignore_ascii_case(word) {
+            return Place::Compact(index, compact);
+        }
+    }
+    match rest.split_at_checked(3) {
+        Some((word, sub)) if word.eq_ignore_ascii_case("sub") && sub.len() <= 2 => {
+            match hex(sub).and_then(|sub| u8::try_from(sub).ok()) {
+                Some(sub) => Place::Member(index, sub),
+                None => Place::Other,
+            }
+        }
+        _ => Place::Other,
+    }
+}
+
+/// What a section is meant to be about whose name is not quite right: `0x1018`,
+/// `1018 sub 2`, `1018_sub2`, `1018h`, `5`; `A0` only if the section describes something.
+pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
+    let plain: String = name
+        .chars()
+        .filter(|c| !c.is_whitespace() && !matches!(c, '_' | '.' | '-'))
+        .map(|c| c.to_ascii_lowercase())
+        .collect();
+    let number = |text: &str| {
+        let text = text.strip_prefix("0x").unwrap_or(text);
+        let text = text.strip_suffix('h').unwrap_or(text);
+        let starts = text.bytes().next()?;
+        // `[add]` is somebody's own section; `[5]` is an object.
+        match text.len() {
+            4 => hex(text),
+            1..=3 if describes || starts.is_ascii_digit() => hex(text),
+            _ => None,
+        }
+    };
+    let (index, rest) = match plain.find("sub") {
+        Some(at) => (&plain[..at], Some(&plain[at + 3..])),
+        None => (&plain[..], None),
+    };
+    let index = u16::try_from(number(index)?).ok()?;
+    let Some(sub) = rest else {
+        return Some(Place::Object(index));
+    };
+    let sub = sub.strip_prefix("0x").unwrap_or(sub);
+    let sub = sub.strip_suffix('h').unwrap_or(sub);
+    let sub = hex(sub).and_then(|sub| u8::try_from(sub).ok())?;
+    Some(Place::Member(index, sub))
+}
+
+fn hex(digits: &str) -> Option<u32> {
+    // from_str_radix would take a sign.
+    match digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        true => u32::from_str_radix(digits, 16).ok(),
+        false => None,
+    }
+}
+
+/// The object that the section of this name is about.
+pub(crate) fn object_of(name: &str) -> Option<u16> {
+    match place(name) {
+        Place::Object(index) | Place::Member(index, _) | Place::Compact(index, _) => Some(index),
+        Place::List(_) | Place::Other => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_say_what_a_section_is_about() {
+        for (name, expected) in [
+            ("1018", Place::Object(0x1018)),
+            ("6aBc", Place::Object(0x6ABC)),
+            ("1018sub2", Place::Member(0x1018, 2)),
+            ("1018SUB0A", Place::Member(0x1018, 10)),
+            ("1600name", Place::Compact(0x1600, Compact::Name)),
+            ("1600Value", Place::Compact(0x1600, Compact::Value)),
+            ("mandatoryobjects", Place::List(List::Mandatory)),
+        ] {
+            assert_eq!(place(name), expected, "{name}");
+        }
+        for name in [
+            "",
+            "101",
+            "10180",
+            "1018sub",
+            "1018sub100",
+            "+018",
+            "1018sub+1",
+            "FileInfo",
+            "é€x",
+            "abc€",
+        ] {
+            assert_eq!(place(name), Place::Other, "{name}");
+        }
+    }
+
+    #[test]
+    fn names_that_are_not_quite_right() {
+        for (name, expected) in [
+            ("0x1018", Place::Object(0x1018)),
+            ("1018h", Place::Object(0x1018)),
+            ("5", Place::Object(5)),
+            ("1018 Sub 2", Place::Member(0x1018, 2)),
+            ("1018_sub_0x0a", Place::Member(0x1018, 10)),
+            ("1018sub002", Place::Member(0x1018, 2)),
+            ("0x1018sub2h", Place::Member(0x1018, 2)),
+        ] {
+            assert_eq!(intended(name, false), Some(expected), "{name}");
+            let name = expected.name().unwrap();
+            assert_eq!(place(&name), expected);
+        }
+        assert_eq!(intended("A0sub1", true), Some(Place::Member(0xA0, 1)));
+        for name in [
+            "",
+            "add",
+            "sub1",
+            "1018sub",
+            "1018sub100",
+            "10180",
+            "FileInfo",
+            "x1",
+            "1Fixed",
+            "é",
+        ] {
+            assert_eq!(intended(name, false), None, "{name}");
+        }
+    }
+}

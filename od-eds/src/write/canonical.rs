@@ -1,0 +1,192 @@
+//! The sections that describe no object, in the form that every reader takes.
+//!
+//! python-canopen asks for all seven dummies, for as many comment lines as are
+//! announced, and for numbers where numbers belong; Lely's checker for the spelling
+//! `DeviceComissioning`; CANopenEditor for the standard's capitals and dates, and for
+//! [FileInfo] and [DeviceInfo].
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::description::{Description, Section};
+use crate::diagnostic::Spanned;
+use crate::scan::known;
+use crate::scan::known::{Form, Known};
+use crate::scan::number;
+
+/// The text of a description as other readers take it: [`write`](crate::write()) of what
+/// [`complete`] makes of it.
+pub fn canonical(description: &Description) -> String {
+    crate::write::eds::write(&complete(description))
+}
+
+/// The description with all that a generated file needs, in the form that every reader takes.
+///
+/// The standard's capitals and order, no octal numbers, all dummies, `[FileInfo]` and
+/// `[DeviceInfo]`, SubNumber and comments counted. Sections and keys of other tools are
+/// kept, and what the objects say is the same.
+pub fn complete(description: &Description) -> Description {
+    let made = sections(description).into_iter();
+    let mut completed = Description {
+        sections: made.map(Canonical::into_section).collect(),
+        objects: description.objects.clone(),
+    };
+    for object in completed.objects.values_mut() {
+        let count = object.entries.len() as u32;
+        object.sub_number = object.code.has_members().then(|| Spanned::from(count));
+    }
+    completed
+}
+
+/// A section as it is written: its name, and its keys with their values.
+struct Canonical {
+    name: String,
+    pairs: Vec<(String, String)>,
+}
+
+impl Canonical {
+    fn into_section(self) -> Section {
+        let pairs = self.pairs.into_iter();
+        Section {
+            name: Spanned::from(self.name),
+            pairs: pairs
+                .map(|(key, value)| (Spanned::from(key), Spanned::from(value)))
+                .collect(),
+        }
+    }
+}
+
+/// The sections of a description, those that every file has included.
+fn sections(description: &Description) -> Vec<Canonical> {
+    let mut made: Vec<(usize, Canonical)> = Vec::new();
+    for section in &description.sections {
+        let (order, name) = name(section);
+        let at = made
+            .iter()
+            .position(|(_, m)| m.name.eq_ignore_ascii_case(&name));
+        let at = at.unwrap_or_else(|| {
+            let pairs = Vec::new();
+            made.push((order, Canonical { name, pairs }));
+            made.len() - 1
+        });
+        take(&mut made[at].1, section);
+    }
+    for name in ["FileInfo", "DeviceInfo", "DummyUsage"] {
+        if !made.iter().any(|(_, made)| made.name == name) {
+            let order = known::section(name).map_or(0, |(order, _)| order);
+            let (name, pairs) = (name.to_string(), Vec::new());
+            made.push((order, Canonical { name, pairs }));
+        }
+    }
+    // Stable: what nobody knows keeps its order, behind all others.
+    made.sort_by_key(|(order, _)| *order);
+    let mut made: Vec<Canonical> = made.into_iter().map(|(_, made)| made).collect();
+    for section in &mut made {
+        fill(section, description);
+    }
+    made
+}
+
+fn name(section: &Section) -> (usize, String) {
+    match known::section(&section.name) {
+        Some((_, known)) if known.name == "DeviceCommissioning" => {
+            let name = "DeviceComissioning";
+            let order = known::section(name).map_or(0, |(order, _)| order);
+            (order, name.into())
+        }
+        Some((order, known)) if !known.name.contains('#') => (order, known.name.into()),
+        _ => (usize::MAX, section.name.value.clone()),
+    }
+}
+
+/// Adds the keys that the section lacks yet.
+fn take(made: &mut Canonical, section: &Section) {
+    let known = known::section(&made.name).map(|(_, known)| known);
+    for (key, value) in &section.pairs {
+        let (key, value) = match known.and_then(|known| pair(known, key, value)) {
+            Some(Some(canonical)) => canonical,
+            Some(None) => continue,
+            None => (key.value.clone(), value.value.clone()),
+        };
+        if !made
+            .pairs
+            .iter()
+            .any(|(there, _)| there.eq_ignore_ascii_case(&key))
+        {
+            made.pairs.push((key, value));
+        }
+    }
+}
+
+/// A key that is known, with its value; `Some(None)` where it says nothing.
+fn pair(known: &Known, key: &str, value: &str) -> Option<Option<(String, String)>> {
+    let (name, form) = known::key(known, key)?;
+    let name = match name.split_once('#') {
+        // The number of the key, in capitals where it is hexadecimal.
+        Some((before, _)) => format!("{before}{}", key[before.len()..].to_ascii_uppercase()),
+        None => name.into(),
+    };
+    let text = match form {
+        Form::Text => return Some(Some((name, value.into()))),
+        Form::Date => known::date(value),
+        Form::Time => known::time(value),
+        Form::Version => number::before_comment(value).into(),
+        Form::Flag | Form::Number(_) => numeric(value, form),
+    };
+    Some((!text.is_empty()).then_some((name, text)))
+}
+
+fn numeric(value: &str, form: Form) -> String {
+    let text = number::before_comment(value);
+    let Some(read) = number::integer(text, &mut Vec::new()) else {
+        return value.into();
+    };
+    match form {
+        Form::Number(u32::MAX) if read.value >= 0 => format!("0x{:08X}", read.value),
+        _ => read.value.to_string(),
+    }
+}
+
+/// Puts in what every file has, and makes counts right.
+fn fill(section: &mut Canonical, description: &Description) {
+    let pairs = &mut section.pairs;
+    let lacks = |pairs: &[(String, String)], key: &str| !pairs.iter().any(|(k, _)| k == key);
+    match section.name.as_str() {
+        "FileInfo" if lacks(pairs, "EDSVersion") => {
+            pairs.push(("EDSVersion".into(), "4.0".into()));
+        }
+        "DeviceInfo" => {
+            for (key, first) in [("NrOfRXPDO", 0x1400), ("NrOfTXPDO", 0x1800)] {
+                if lacks(pairs, key) {
+                    let count = description.objects.range(first..first + 0x200).count();
+                    pairs.push((key.into(), count.to_string()));
+                }
+            }
+            // What it stands for has sections now.
+            for (_, value) in pairs.iter_mut().filter(|(key, _)| key == "CompactPDO") {
+                *value = "0".into();
+            }
+        }
+        "DummyUsage" => {
+            for dummy in 1..=7 {
+                let key = format!("Dummy{dummy:04}");
+                if lacks(pairs, &key) {
+                    pairs.push((key, "0".into()));
+                }
+            }
+            pairs.sort();
+        }
+        "Comments" => {
+            let lines = core::mem::take(pairs).into_iter();
+            let lines = lines.filter(|(key, _)| key != "Lines");
+            let lines: Vec<_> = (1..)
+                .zip(lines)
+                .map(|(number, (_, text))| (format!("Line{number}"), text))
+                .collect();
+            pairs.push(("Lines".into(), lines.len().to_string()));
+            pairs.extend(lines);
+        }
+        _ => {}
+    }
+}

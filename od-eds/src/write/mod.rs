@@ -1,0 +1,5 @@
+//! From a description to the text of an EDS or a DCF.
+
+pub(crate) mod canonical;
+pub(crate) mod describe;
+pub(crate) mod eds;

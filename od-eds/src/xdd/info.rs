@@ -1,0 +1,176 @@
+//! What an XDD says besides its objects, as the sections that an EDS has for it.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use roxmltree::Node;
+
+use super::{Made, Reader, below, children};
+use crate::diagnostic::{Span, Spanned};
+use crate::scan::known;
+use crate::scan::placed::Placed;
+
+/// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
+    let mut made = Vec::new();
+    let mut bodies = below(root, "ProfileBody");
+    if let Some(body) = bodies.next() {
+        made.push(file_info(root, body, reader));
+    }
+    made.extend(device_info(root, reader));
+    made.extend(dummies(root, reader));
+    made.extend(commissioning(root, reader));
+    made
+}
+
+fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Placed<'static> {
+    let mut made = Made::new("FileInfo", reader.tag(body));
+    let take = |name| {
+        reader
+            .attribute(body, name)
+            .filter(|value| !value.is_empty())
+    };
+    made.put("FileName", take("fileName"));
+    // A version may be a text here; an EDS has a number.
+    let version = take("fileVersion");
+    made.put(
+        "FileVersion",
+        version.filter(|text| text.parse::<u8>().is_ok()),
+    );
+    made.put(
+        "EDSVersion",
+        Some(Spanned::new("4.0".into(), reader.tag(body))),
+    );
+    let description = below(root, "productText")
+        .flat_map(|text| children(text, "description"))
+        .find_map(|description| reader.text(description));
+    made.put("Description", description);
+    made.put("CreationTime", take("fileCreationTime").map(time));
+    made.put("CreationDate", take("fileCreationDate").map(date));
+    made.put("CreatedBy", take("fileCreator"));
+    made.put("ModificationTime", take("fileModificationTime").map(time));
+    made.put("ModificationDate", take("fileModificationDate").map(date));
+    made.put("ModifiedBy", take("fileModifiedBy"));
+    made.placed
+}
+
+fn date(given: Spanned<String>) -> Spanned<String> {
+    Spanned::new(known::date(&given), given.span)
+}
+
+fn time(given: Spanned<String>) -> Spanned<String> {
+    Spanned::new(known::time(&given), given.span)
+}
+
+fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+    let identity = below(root, "DeviceIdentity").next();
+    let general = below(root, "CANopenGeneralFeatures").next();
+    let master = below(root, "CANopenMasterFeatures").next();
+    let header = reader.tag(identity.or(general)?);
+    let mut made = Made::new("DeviceInfo", header);
+    let text = |name| {
+        let element = children(identity?, name).next()?;
+        reader.text(element).filter(|text| !text.is_empty())
+    };
+    made.put("VendorName", text("vendorName"));
+    made.put("VendorNumber", text("vendorID"));
+    made.put("ProductName", text("productName"));
+    made.put("ProductNumber", text("productID"));
+    made.put("RevisionNumber", text("revisionNumber"));
+    made.put(
+        "OrderCode",
+        text("orderCode").or_else(|| text("orderNumber")),
+    );
+    bit_rates(&mut made, root, reader);
+    let flag = |node: Option<Node<'_, '_>>, name| reader.attribute(node?, name).map(flag);
+    let number = |name| reader.attribute(general?, name);
+    made.put("SimpleBootUpMaster", flag(master, "bootUpMaster"));
+    made.put("SimpleBootUpSlave", flag(general, "bootUpSlave"));
+    made.put("Granularity", number("granularity"));
+    made.put("DynamicChannelsSupported", number("dynamicChannels"));
+    made.put("GroupMessaging", flag(general, "groupMessaging"));
+    made.put("NrOfRXPDO", number("nrOfRxPDO"));
+    made.put("NrOfTXPDO", number("nrOfTxPDO"));
+    made.put("LSS_Supported", flag(general, "layerSettingServiceSlave"));
+    Some(made.placed)
+}
+
+/// The supported bit rates as flags: `500 Kbps` is BaudRate_500.
+fn bit_rates(made: &mut Made, root: Node<'_, '_>, reader: &Reader<'_>) {
+    let Some(rates) = below(root, "baudRate").next() else {
+        return;
+    };
+    let header = reader.tag(rates);
+    let given: Vec<Spanned<String>> = children(rates, "supportedBaudRate")
+        .filter_map(|rate| reader.attribute(rate, "value"))
+        .collect();
+    for rate in [10, 20, 50, 100, 125, 250, 500, 800, 1000] {
+        let found = given.iter().find(|given| {
+            let digits = given.split(|c: char| !c.is_ascii_digit()).next();
+            digits.and_then(|digits| digits.parse().ok()) == Some(rate)
+        });
+        // CiA 306 has no key for 100 kbit/s.
+        if found.is_some() || rate != 100 {
+            let flag = if found.is_some() { "1" } else { "0" };
+            let span = found.map_or(header, |found| found.span);
+            made.put(
+                &format!("BaudRate_{rate}"),
+                Some(Spanned::new(flag.into(), span)),
+            );
+        }
+    }
+}
+
+/// `true` as `1`.
+fn flag(given: Spanned<String>) -> Spanned<String> {
+    let value = match given.as_str() {
+        "true" => "1".to_string(),
+        "false" => "0".to_string(),
+        _ => given.value,
+    };
+    Spanned::new(value, given.span)
+}
+
+/// `<dummy entry="Dummy0005=1"/>`
+fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+    let usage = below(root, "dummyUsage").next()?;
+    let mut made = Made::new("DummyUsage", reader.tag(usage));
+    for dummy in children(usage, "dummy") {
+        let Some(entry) = reader.attribute(dummy, "entry") else {
+            continue;
+        };
+        if let Some((key, value)) = entry.split_once('=') {
+            let value = Spanned::new(value.trim().to_string(), entry.span);
+            made.put(key.trim(), Some(value));
+        }
+    }
+    Some(made.placed)
+}
+
+fn commissioning(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+    let element = below(root, "deviceCommissioning").next()?;
+    let mut made = Made::new("DeviceComissioning", reader.tag(element));
+    let take = |name| {
+        reader
+            .attribute(element, name)
+            .filter(|value| !value.is_empty())
+    };
+    made.put("NodeID", take("nodeID"));
+    made.put("NodeName", take("nodeName"));
+    made.put("Baudrate", take("actualBaudRate").map(rate));
+    made.put("NetNumber", take("networkNumber"));
+    made.put("NetworkName", take("networkName"));
+    made.put("CANopenManager", take("CANopenManager").map(flag));
+    Some(made.placed)
+}
+
+/// `500 Kbps` as `500`.
+fn rate(given: Spanned<String>) -> Spanned<String> {
+    let digits = given.bytes().take_while(u8::is_ascii_digit).count();
+    let span: Span = given.span;
+    match digits {
+        0 => given,
+        _ => Spanned::new(given[..digits].to_string(), span),
+    }
+}

@@ -1,0 +1,254 @@
+//! Objects and members: attributes of the object list, with what their parameters say.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use roxmltree::Node;
+
+use super::parameters::Parameter;
+use super::types::{self, Found};
+use super::{Ids, Made, Reader, below, children};
+use crate::diagnostic::{Span, Spanned};
+use crate::rules;
+use crate::scan::placed::Placed;
+use od_model::{DataType, ObjectCode};
+
+/// The sections of all objects.
+pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
+    let ids = Ids::new(root);
+    let mut made = Vec::new();
+    for object in below(root, "CANopenObject") {
+        let header = reader.tag(object);
+        let Some(index) = hex(object, "index", 4, reader, header) else {
+            continue;
+        };
+        let parameter = parameter(object, &ids, reader);
+        let members: Vec<_> = children(object, "CANopenSubObject").collect();
+        let mut own = Made::new(format!("{index:04X}"), header);
+        own.put("ParameterName", name(object, parameter, reader));
+        own.put("ObjectType", reader.attribute(object, "objectType"));
+        let code = object.attribute("objectType").and_then(object_code);
+        let has_members = !members.is_empty() || code.is_some_and(ObjectCode::has_members);
+        if has_members {
+            let count = Spanned::new(members.len().to_string(), header);
+            own.put(
+                "SubNumber",
+                reader.attribute(object, "subNumber").or(Some(count)),
+            );
+            own.put("ObjFlags", flags(object, reader));
+            own.put("Denotation", denotation(object, parameter, reader));
+            storage(&mut own, parameter, reader);
+            made.push(own.placed);
+        } else {
+            let found = parameter.and_then(|parameter| parameter.data_type(&ids));
+            value(&mut own, object, parameter, found, reader);
+            made.push(own.placed);
+        }
+        for element in members {
+            let header = reader.tag(element);
+            let Some(sub) = hex(element, "subIndex", 2, reader, header) else {
+                continue;
+            };
+            let own = self::parameter(element, &ids, reader);
+            let found = own.and_then(|own| own.data_type(&ids)).or_else(|| {
+                let whole = parameter?.element();
+                types::member(whole, u8::try_from(sub).ok()?, &ids)
+            });
+            let mut member = Made::new(format!("{index:04X}sub{sub:X}"), header);
+            member.put("ParameterName", name(element, own, reader));
+            member.put("ObjectType", reader.attribute(element, "objectType"));
+            value(&mut member, element, own, found, reader);
+            made.push(member.placed);
+        }
+    }
+    made
+}
+
+/// An attribute of hexadecimal digits: an index or a sub-index.
+fn hex(
+    node: Node<'_, '_>,
+    key: &str,
+    digits: usize,
+    reader: &mut Reader<'_>,
+    header: Span,
+) -> Option<u16> {
+    let given = reader.attribute(node, key);
+    let text = given.as_ref().map_or("", |given| given.as_str());
+    let text = text.strip_prefix("0x").unwrap_or(text);
+    let fits = (1..=digits).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_hexdigit());
+    if let Some(number) = fits.then(|| u16::from_str_radix(text, 16).ok()).flatten() {
+        return Some(number);
+    }
+    let message = match &given {
+        Some(given) => format!("`{}` is no {key}", given.value),
+        None => format!("there is no {key}"),
+    };
+    let span = given.map_or(header, |given| given.span);
+    reader
+        .log
+        .push(rules::E0114.at(span, message).with_help(format!(
+            "write {digits} hexadecimal digits; the element is left out"
+        )));
+    None
+}
+
+fn object_code(text: &str) -> Option<ObjectCode> {
+    ObjectCode::from_code(text.trim().parse().ok()?)
+}
+
+/// The parameter that an object refers to.
+fn parameter<'a, 'i>(
+    node: Node<'a, 'i>,
+    ids: &Ids<'a, 'i>,
+    reader: &mut Reader<'_>,
+) -> Option<Parameter<'a, 'i>> {
+    let id = node.attribute("uniqueIDRef")?;
+    match ids.get(id) {
+        Some(own) => Some(Parameter::new(own, ids)),
+        None => {
+            let span = reader.attribute(node, "uniqueIDRef")?.span;
+            reader.log.push(
+                rules::E0115
+                    .at(
+                        span,
+                        format!("there is no parameter with the uniqueID `{id}`"),
+                    )
+                    .with_help("write the parameter, or the attributes of the object itself"),
+            );
+            None
+        }
+    }
+}
+
+fn name(
+    node: Node<'_, '_>,
+    parameter: Option<Parameter<'_, '_>>,
+    reader: &Reader<'_>,
+) -> Option<Spanned<String>> {
+    reader
+        .attribute(node, "name")
+        .or_else(|| parameter?.label(None, reader))
+}
+
+fn denotation(
+    node: Node<'_, '_>,
+    parameter: Option<Parameter<'_, '_>>,
+    reader: &Reader<'_>,
+) -> Option<Spanned<String>> {
+    reader
+        .attribute(node, "denotation")
+        .or_else(|| parameter?.label(Some("denotation"), reader))
+}
+
+/// objFlags are hexadecimal digits without `0x`.
+fn flags(node: Node<'_, '_>, reader: &Reader<'_>) -> Option<Spanned<String>> {
+    let given = reader.attribute(node, "objFlags")?;
+    let is_hex = !given.is_empty() && given.bytes().all(|b| b.is_ascii_hexdigit());
+    Some(match is_hex {
+        true => Spanned::new(format!("0x{}", given.value), given.span),
+        false => given,
+    })
+}
+
+fn storage(made: &mut Made, parameter: Option<Parameter<'_, '_>>, reader: &Reader<'_>) {
+    let group = parameter.and_then(|own| own.property("CO_storageGroup", reader));
+    made.placed.storage = group.map(|group| Spanned::new(group.value.into(), group.span));
+}
+
+/// The fields of a value: what the object says, else what its parameter says.
+fn value(
+    made: &mut Made,
+    node: Node<'_, '_>,
+    parameter: Option<Parameter<'_, '_>>,
+    found: Option<Found>,
+    reader: &Reader<'_>,
+) {
+    let default = reader
+        .attribute(node, "defaultValue")
+        .or_else(|| parameter?.value("defaultValue", reader));
+    let header = made.placed.header;
+    let data_type = data_type(node, found, default.as_deref(), reader, header);
+    let code = node.attribute("objectType").and_then(object_code);
+    let is_domain = code == Some(ObjectCode::Domain);
+    made.put(
+        "DataType",
+        data_type.filter(|_| !is_domain || found.is_some()),
+    );
+    let (access, mappable) = access(node, parameter, reader, header);
+    made.put("AccessType", Some(access));
+    made.put("DefaultValue", default);
+    for (key, attribute, limit) in [
+        ("LowLimit", "lowLimit", "minValue"),
+        ("HighLimit", "highLimit", "maxValue"),
+    ] {
+        let given = reader.attribute(node, attribute);
+        made.put(key, given.or_else(|| parameter?.limit(limit, reader)));
+    }
+    made.put("PDOMapping", mappable);
+    let actual = reader.attribute(node, "actualValue");
+    let actual = actual.or_else(|| parameter?.value("actualValue", reader));
+    made.put("ParameterValue", actual);
+    made.put("ObjFlags", flags(node, reader));
+    made.put("Denotation", denotation(node, parameter, reader));
+    storage(made, parameter, reader);
+}
+
+/// The attribute dataType, which is hexadecimal, else the parameter's type.
+fn data_type(
+    node: Node<'_, '_>,
+    found: Option<Found>,
+    default: Option<&String>,
+    reader: &Reader<'_>,
+    header: Span,
+) -> Option<Spanned<String>> {
+    if let Some(given) = reader.attribute(node, "dataType") {
+        let digits = !given.is_empty() && given.bytes().all(|b| b.is_ascii_hexdigit());
+        return Some(match digits {
+            true => Spanned::new(format!("0x{}", given.value), given.span),
+            false => given,
+        });
+    }
+    let data_type = match found? {
+        Found::Type(data_type) => data_type,
+        Found::Bits if default.is_none_or(|text| text.is_empty()) => DataType::Domain,
+        Found::Bits => DataType::OctetString,
+    };
+    Some(Spanned::new(format!("0x{:04X}", data_type.code()), header))
+}
+
+/// AccessType and PDOMapping. An object that is for one direction only is rwr or rww
+/// where a master can write it too.
+fn access(
+    node: Node<'_, '_>,
+    parameter: Option<Parameter<'_, '_>>,
+    reader: &Reader<'_>,
+    header: Span,
+) -> (Spanned<String>, Option<Spanned<String>>) {
+    let mapping = reader.attribute(node, "PDOmapping");
+    let direction = mapping.as_ref().map_or("", |mapping| mapping.as_str());
+    let given = reader
+        .attribute(node, "accessType")
+        .or_else(|| parameter?.access(reader))
+        .unwrap_or_else(|| Spanned::new("read".into(), header));
+    let word = match given.as_str() {
+        "read" => "ro",
+        "write" => "wo",
+        "readWrite" | "rw" if direction.eq_ignore_ascii_case("TPDO") => "rwr",
+        "readWrite" | "rw" if direction.eq_ignore_ascii_case("RPDO") => "rww",
+        "readWrite" => "rw",
+        "readWriteInput" => "rwr",
+        "readWriteOutput" => "rww",
+        other => other,
+    };
+    let access = Spanned::new(word.to_string(), given.span);
+    let mappable = mapping.map(|mapping| {
+        let flag = match mapping.to_ascii_lowercase().as_str() {
+            "no" => "0".into(),
+            "default" | "optional" | "tpdo" | "rpdo" => "1".into(),
+            _ => mapping.value,
+        };
+        Spanned::new(flag, mapping.span)
+    });
+    (access, mappable)
+}

@@ -1,0 +1,196 @@
+//! Small files of every way in which CiA 311 says something.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::*;
+use crate::description::Value;
+use od_model::{Access, Address, DataType, Group, ObjectCode};
+
+fn file(device: &str, network: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\">\n\
+         <ISO15745Profile><ProfileBody fileName=\"x.xdd\" fileCreationDate=\"2026-07-14\" \
+         fileCreationTime=\"14:05:00\" fileVersion=\"3\">{device}</ProfileBody></ISO15745Profile>\n\
+         <ISO15745Profile><ProfileBody>{network}</ProfileBody></ISO15745Profile>\n\
+         </ISO15745ProfileContainer>\n"
+    )
+}
+
+fn codes(parsed: &Parsed) -> Vec<&'static str> {
+    parsed.diagnostics.iter().map(|d| d.code).collect()
+}
+
+#[test]
+fn what_objects_say_themselves() {
+    let text = file(
+        "",
+        "<CANopenObjectList>\n\
+         <CANopenObject index=\"1017\" name=\"Heartbeat &amp; more\" objectType=\"7\" dataType=\"0006\" \
+          accessType=\"rw\" PDOmapping=\"no\" defaultValue=\"0x10\" lowLimit=\"0\" highLimit=\"1000\" objFlags=\"0001\"/>\n\
+         <CANopenObject index=\"2000\" name=\"Array\" objectType=\"8\" subNumber=\"2\">\n\
+          <CANopenSubObject subIndex=\"00\" name=\"n\" objectType=\"7\" dataType=\"0005\" accessType=\"const\" defaultValue=\"1\"/>\n\
+          <CANopenSubObject subIndex=\"0A\" name=\"Speed\" objectType=\"7\" dataType=\"0004\" accessType=\"rw\" \
+           PDOmapping=\"RPDO\" actualValue=\"-5\" denotation=\"Left\"/>\n\
+         </CANopenObject></CANopenObjectList>",
+    );
+    let parsed = parse(&text);
+    assert!(codes(&parsed).is_empty(), "{:?}", parsed.diagnostics);
+    let description = &parsed.description;
+    let heartbeat = &description.objects[&0x1017].entries[&0];
+    assert_eq!(heartbeat.name.value, "Heartbeat & more");
+    assert_eq!(heartbeat.default.as_deref(), Some(&Value::Unsigned(16)));
+    assert_eq!(heartbeat.high.as_deref(), Some(&Value::Unsigned(1000)));
+    assert_eq!(heartbeat.flags, 1);
+    let span = heartbeat
+        .default
+        .as_ref()
+        .map(|default| default.span)
+        .unwrap_or_default();
+    assert_eq!(&text[span.start as usize..span.end as usize], "0x10");
+    let speed = description
+        .entry(Address::new(0x2000, 10))
+        .expect("it is there");
+    assert_eq!((*speed.access, *speed.mappable), (Access::Rww, true));
+    assert_eq!(speed.parameter.as_deref(), Some(&Value::Signed(-5)));
+    assert_eq!(speed.extra, [("Denotation".into(), "Left".into())]);
+}
+
+#[test]
+fn what_parameters_templates_and_types_say() {
+    let parsed = parse(&file(
+        "<dataTypeList>\
+          <array uniqueID=\"A\"><subrange lowerLimit=\"0\" upperLimit=\"1\"/><INT/></array>\
+          <struct uniqueID=\"S\"><varDeclaration name=\"n\"><USINT/></varDeclaration>\
+           <varDeclaration name=\"b\"><BOOL/></varDeclaration></struct>\
+          <derived uniqueID=\"D\"><baseType><dataTypeIDRef uniqueIDRef=\"E\"/></baseType></derived>\
+          <enum uniqueID=\"E\"><enumValue/><UINT/></enum>\
+          <derived uniqueID=\"R\"><baseType><dataTypeIDRef uniqueIDRef=\"R\"/></baseType></derived>\
+         </dataTypeList>\
+         <templateList><parameterTemplate uniqueID=\"T\" access=\"readWrite\"><ULINT/>\
+          <defaultValue value=\"7\"/></parameterTemplate></templateList>\
+         <parameterList>\
+          <parameter uniqueID=\"P1\" templateIDRef=\"T\"><label lang=\"en\">From its label</label>\
+           <allowedValues><range><minValue value=\"1\"/><maxValue value=\"9\"/></range></allowedValues>\
+           <property name=\"CO_storageGroup\" value=\"PERSIST_COMM\"/></parameter>\
+          <parameter uniqueID=\"P2\" access=\"const\"><dataTypeIDRef uniqueIDRef=\"D\"/></parameter>\
+          <parameter uniqueID=\"P3\" access=\"readWrite\"><dataTypeIDRef uniqueIDRef=\"A\"/></parameter>\
+          <parameter uniqueID=\"P4\"><dataTypeIDRef uniqueIDRef=\"S\"/></parameter>\
+          <parameter uniqueID=\"P5\"><BITSTRING/></parameter>\
+          <parameter uniqueID=\"P6\"><BITSTRING/><defaultValue value=\"12 AB\"/></parameter>\
+          <parameter uniqueID=\"P7\"><dataTypeIDRef uniqueIDRef=\"R\"/></parameter>\
+         </parameterList>",
+        "<CANopenObjectList>\
+          <CANopenObject index=\"2001\" objectType=\"7\" uniqueIDRef=\"P1\" PDOmapping=\"TPDO\"/>\
+          <CANopenObject index=\"2002\" name=\"a\" objectType=\"7\" uniqueIDRef=\"P2\"/>\
+          <CANopenObject index=\"2003\" name=\"a\" objectType=\"8\" uniqueIDRef=\"P3\">\
+           <CANopenSubObject subIndex=\"00\" name=\"n\" objectType=\"7\"/>\
+           <CANopenSubObject subIndex=\"01\" name=\"v\" objectType=\"7\"/></CANopenObject>\
+          <CANopenObject index=\"2004\" name=\"a\" objectType=\"9\" uniqueIDRef=\"P4\">\
+           <CANopenSubObject subIndex=\"01\" name=\"v\" objectType=\"7\"/></CANopenObject>\
+          <CANopenObject index=\"2005\" name=\"a\" objectType=\"7\" uniqueIDRef=\"P5\"/>\
+          <CANopenObject index=\"2006\" name=\"a\" objectType=\"7\" uniqueIDRef=\"P6\"/>\
+          <CANopenObject index=\"2007\" name=\"a\" objectType=\"7\" uniqueIDRef=\"P7\"/>\
+         </CANopenObjectList>",
+    ));
+    let entry = |index, sub| {
+        parsed
+            .description
+            .entry(Address::new(index, sub))
+            .expect("it is there")
+    };
+    let data_type = |index, sub| entry(index, sub).data_type.map(|t| t.value);
+    let first = entry(0x2001, 0);
+    assert_eq!(first.name.value, "From its label");
+    assert_eq!(
+        (data_type(0x2001, 0), *first.access),
+        (Some(DataType::Unsigned64), Access::Rwr)
+    );
+    assert_eq!(first.default.as_deref(), Some(&Value::Unsigned(7)));
+    assert_eq!(first.low.as_deref(), Some(&Value::Unsigned(1)));
+    assert_eq!(
+        first.group.map(|group| group.value),
+        Some(Group::Communication)
+    );
+    assert_eq!(data_type(0x2002, 0), Some(DataType::Unsigned16));
+    assert_eq!(*entry(0x2002, 0).access, Access::Const);
+    assert_eq!(data_type(0x2003, 0), Some(DataType::Unsigned8));
+    assert_eq!(data_type(0x2003, 1), Some(DataType::Integer16));
+    assert_eq!(data_type(0x2004, 1), Some(DataType::Boolean));
+    assert_eq!(data_type(0x2005, 0), Some(DataType::Domain));
+    assert_eq!(
+        entry(0x2006, 0).default.as_deref(),
+        Some(&Value::Bytes([0x12, 0xAB].into()))
+    );
+    // A type that refers to itself is none.
+    assert_eq!(data_type(0x2007, 0), None);
+    assert_eq!(
+        *parsed.description.objects[&0x2004].code,
+        ObjectCode::Record
+    );
+}
+
+#[test]
+fn what_is_said_besides_objects() {
+    let parsed = parse(&file(
+        "<DeviceIdentity><vendorName>odkit</vendorName><vendorID>0x5F</vendorID>\
+         <productText><description lang=\"en\">Two\n lines</description></productText></DeviceIdentity>",
+        "<PhysicalLayer><baudRate><supportedBaudRate value=\"500 Kbps\"/></baudRate></PhysicalLayer>\
+         <dummyUsage><dummy entry=\"Dummy0005=1\"/></dummyUsage>\
+         <CANopenGeneralFeatures granularity=\"8\" nrOfRxPDO=\"0\" bootUpSlave=\"true\"/>\
+         <deviceCommissioning nodeID=\"17\" nodeName=\"n\" actualBaudRate=\"250 Kbps\" CANopenManager=\"false\"/>",
+    ));
+    let get = |section: &str, key: &str| {
+        let section = parsed.description.section(section)?;
+        section.get(key).map(|value| value.value.clone())
+    };
+    for (section, key, value) in [
+        ("FileInfo", "FileName", "x.xdd"),
+        ("FileInfo", "CreationDate", "07-14-2026"),
+        ("FileInfo", "CreationTime", "02:05PM"),
+        ("FileInfo", "Description", "Two lines"),
+        ("DeviceInfo", "VendorNumber", "0x5F"),
+        ("DeviceInfo", "BaudRate_500", "1"),
+        ("DeviceInfo", "BaudRate_125", "0"),
+        ("DeviceInfo", "SimpleBootUpSlave", "1"),
+        ("DummyUsage", "Dummy0005", "1"),
+        ("DeviceComissioning", "Baudrate", "250"),
+        ("DeviceComissioning", "CANopenManager", "0"),
+    ] {
+        assert_eq!(get(section, key).as_deref(), Some(value), "{section} {key}");
+    }
+    assert_eq!(parsed.description.commissioned_node_id(), Some(17));
+}
+
+#[test]
+fn what_is_wrong_has_a_place() {
+    let text = file(
+        "",
+        "<CANopenObjectList><CANopenObject index=\"10G0\" name=\"a\"/><CANopenObject name=\"a\"/>\
+         <CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" uniqueIDRef=\"nowhere\"/>\
+         <CANopenObject index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"0005\" accessType=\"rx\" defaultValue=\"300\"/>\
+         </CANopenObjectList>",
+    );
+    let loaded = crate::load(&text);
+    for code in ["E0114", "E0115", "E0401", "E0405", "E0412"] {
+        let found = loaded.diagnostics.iter().find(|d| d.code == code);
+        assert!(
+            found.is_some_and(|d| d.span.is_some() && d.fix.is_none()),
+            "{code}"
+        );
+    }
+    let broken = parse("<a>\n <b é></b>\n</a>");
+    assert_eq!(codes(&broken), ["E0113"]);
+    let span = broken.diagnostics[0].span.expect("it has a place");
+    assert_eq!(span.line, 2);
+    for text in [
+        "<",
+        "<a",
+        "<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>",
+        "<a></b>",
+        "<?xml",
+    ] {
+        assert!(parse(text).description.objects.is_empty());
+    }
+}

@@ -1,0 +1,365 @@
+//! From a description to XDD or XDC text (CiA 311 1.1).
+
+mod xml;
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use xml::{Attributes, Xml, escape, vec_of};
+
+use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
+use crate::diagnostic::Spanned;
+use crate::read::values::text as value_text;
+use od_model::{Access, Address, DataType};
+
+/// What stands around the objects.
+const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745ProfileContainer \
+    xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
+    xmlns=\"http://www.canopen.org/xml/1.1\">\n";
+
+/// The XDD of a description; an XDC, with actual values and commissioning, where it is that of
+/// a configured device (a DCF).
+///
+/// Reading the text again gives the same objects. Objects say everything themselves; those
+/// that 1010h saves have a parameter besides, which holds the group.
+pub fn write(description: &Description) -> String {
+    let mut out = Xml::new(HEAD);
+    let info = |key: &str| value(description, "FileInfo", key);
+    let body = |kind: &str| {
+        let date = |key| date(&info(key));
+        vec_of([
+            ("xsi:type", format!("ProfileBody_{kind}_CANopen")),
+            ("formatName", "CANopen".into()),
+            ("formatVersion", "1.0".into()),
+            ("fileName", info("FileName")),
+            ("fileCreator", info("CreatedBy")),
+            (
+                "fileCreationDate",
+                date("CreationDate").unwrap_or_else(|| "1970-01-01".into()),
+            ),
+            (
+                "fileModificationDate",
+                date("ModificationDate").unwrap_or_default(),
+            ),
+            ("fileModifiedBy", info("ModifiedBy")),
+            (
+                "fileVersion",
+                Some(info("FileVersion"))
+                    .filter(|version| !version.is_empty())
+                    .unwrap_or_else(|| "1".into()),
+            ),
+            ("supportedLanguages", "en".into()),
+        ])
+    };
+    out.profile("CANopen device profile", "Device", |out| {
+        out.element("ProfileBody", &body("Device"), |out| {
+            device(out, description);
+        });
+    });
+    out.profile(
+        "CANopen communication network profile",
+        "CommunicationNetwork",
+        |out| {
+            out.element("ProfileBody", &body("CommunicationNetwork"), |out| {
+                network(out, description);
+            });
+        },
+    );
+    out.0.push_str("</ISO15745ProfileContainer>\n");
+    out.0
+}
+
+fn device(out: &mut Xml, description: &Description) {
+    let info = |key: &str| value(description, "DeviceInfo", key);
+    out.element("DeviceIdentity", &[], |out| {
+        for (name, key) in [
+            ("vendorName", "VendorName"),
+            ("vendorID", "VendorNumber"),
+            ("productName", "ProductName"),
+            ("productID", "ProductNumber"),
+        ] {
+            out.text(name, &info(key));
+        }
+        let text = value(description, "FileInfo", "Description");
+        if !text.is_empty() {
+            out.element("productText", &[], |out| {
+                out.0.push_str(&format!(
+                    "{}<description lang=\"en\">{}</description>\n",
+                    out.indent(),
+                    escape(&text)
+                ));
+            });
+        }
+        for (name, key) in [
+            ("orderNumber", "OrderCode"),
+            ("revisionNumber", "RevisionNumber"),
+        ] {
+            let text = info(key);
+            if !text.is_empty() {
+                out.text(name, &text);
+            }
+        }
+    });
+    let saved: Vec<_> = description
+        .entries()
+        .filter(|(_, entry)| has_parameter(entry))
+        .collect();
+    if saved.is_empty() {
+        return;
+    }
+    out.element("ApplicationProcess", &[], |out| {
+        out.element("parameterList", &[], |out| {
+            for (address, entry) in saved {
+                parameter(out, address, entry);
+            }
+        });
+    });
+}
+
+/// Does an entry have something to say that the list of objects has no place for?
+fn has_parameter(entry: &EntryDescription) -> bool {
+    entry.group.is_some() || matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable
+}
+
+/// The parameter of an entry: its name, its type, and which group saves it.
+fn parameter(out: &mut Xml, address: Address, entry: &EntryDescription) {
+    let access = match *entry.access {
+        Access::Const => "const",
+        Access::Ro => "read",
+        Access::Wo => "write",
+        Access::Rw => "readWrite",
+        Access::Rwr => "readWriteInput",
+        Access::Rww => "readWriteOutput",
+    };
+    let attributes = vec_of([("uniqueID", id(address)), ("access", access.into())]);
+    out.element("parameter", &attributes, |out| {
+        out.0.push_str(&format!(
+            "{}<label lang=\"en\">{}</label>\n",
+            out.indent(),
+            escape(&entry.name)
+        ));
+        let data_type = entry.data_type.map(|data_type| data_type.value);
+        out.empty(elementary(data_type), &[]);
+        if let Some(group) = &entry.group {
+            let storage = crate::read::fields::location(**group).into();
+            let property = [("name", "CO_storageGroup".into()), ("value", storage)];
+            out.empty("property", &vec_of(property));
+        }
+    });
+}
+
+/// IEC 61131-3's name of a type; the object's own attribute says which it is exactly.
+fn elementary(data_type: Option<DataType>) -> &'static str {
+    use DataType::*;
+    match data_type {
+        Some(Boolean) => "BOOL",
+        Some(Integer8) => "SINT",
+        Some(Integer16) => "INT",
+        Some(Integer32) => "DINT",
+        Some(Integer64) => "LINT",
+        Some(Unsigned8) => "USINT",
+        Some(Unsigned16) => "UINT",
+        Some(Unsigned32) => "UDINT",
+        Some(Unsigned64) => "ULINT",
+        Some(Real32) => "REAL",
+        Some(Real64) => "LREAL",
+        Some(VisibleString) => "STRING",
+        Some(UnicodeString) => "WSTRING",
+        _ => "BITSTRING",
+    }
+}
+
+fn network(out: &mut Xml, description: &Description) {
+    out.element("ApplicationLayers", &[], |out| {
+        out.element("CANopenObjectList", &[], |out| {
+            for (index, described) in &description.objects {
+                object(out, *index, described);
+            }
+        });
+        out.element("dummyUsage", &[], |out| {
+            for dummy in 1..=7 {
+                let key = format!("Dummy{dummy:04}");
+                let used = value(description, "DummyUsage", &key);
+                let used = if used == "1" { "1" } else { "0" };
+                out.empty("dummy", &vec_of([("entry", format!("{key}={used}"))]));
+            }
+        });
+    });
+    let info = |key: &str| value(description, "DeviceInfo", key);
+    out.element("TransportLayers", &[], |out| {
+        out.element("PhysicalLayer", &[], |out| {
+            out.element("baudRate", &[], |out| {
+                for rate in [10, 20, 50, 100, 125, 250, 500, 800, 1000] {
+                    if info(&format!("BaudRate_{rate}")) == "1" {
+                        let rate = format!("{rate} Kbps");
+                        out.empty("supportedBaudRate", &vec_of([("value", rate)]));
+                    }
+                }
+            });
+        });
+    });
+    let flag = |key: &str| match info(key).as_str() {
+        "" => String::new(),
+        "1" => "true".into(),
+        _ => "false".into(),
+    };
+    out.element("NetworkManagement", &[], |out| {
+        out.empty(
+            "CANopenGeneralFeatures",
+            &vec_of([
+                ("granularity", info("Granularity")),
+                ("nrOfRxPDO", info("NrOfRXPDO")),
+                ("nrOfTxPDO", info("NrOfTXPDO")),
+                ("bootUpSlave", flag("SimpleBootUpSlave")),
+                ("layerSettingServiceSlave", flag("LSS_Supported")),
+                ("groupMessaging", flag("GroupMessaging")),
+                ("dynamicChannels", info("DynamicChannelsSupported")),
+            ]),
+        );
+        out.empty(
+            "CANopenMasterFeatures",
+            &vec_of([("bootUpMaster", flag("SimpleBootUpMaster"))]),
+        );
+        commissioning(out, description);
+    });
+}
+
+fn commissioning(out: &mut Xml, description: &Description) {
+    let names = ["DeviceComissioning", "DeviceCommissioning"];
+    let Some(section) = names.iter().find_map(|name| description.section(name)) else {
+        return;
+    };
+    let take = |key: &str| text_of(section, key);
+    let rate = match take("Baudrate") {
+        rate if rate.is_empty() => rate,
+        rate => format!("{rate} Kbps"),
+    };
+    let manager = match take("CANopenManager").as_str() {
+        "" => String::new(),
+        "1" => "true".into(),
+        _ => "false".into(),
+    };
+    out.empty(
+        "deviceCommissioning",
+        &vec_of([
+            ("nodeID", take("NodeID")),
+            ("nodeName", take("NodeName")),
+            ("actualBaudRate", rate),
+            ("networkNumber", take("NetNumber")),
+            ("networkName", take("NetworkName")),
+            ("CANopenManager", manager),
+        ]),
+    );
+}
+
+fn object(out: &mut Xml, index: u16, object: &ObjectDescription) {
+    let mut attributes = vec_of([
+        ("index", format!("{index:04X}")),
+        ("name", object.name.value.clone()),
+        ("objectType", object.code.code().to_string()),
+    ]);
+    if !object.code.has_members() {
+        if let Some(entry) = object.entries.get(&0) {
+            let address = Address::new(index, 0);
+            attributes.extend(entry_attributes(address, entry));
+        }
+        out.empty("CANopenObject", &attributes);
+        return;
+    }
+    attributes.push(("subNumber", object.entries.len().to_string()));
+    attributes.push(("objFlags", flags(object.flags)));
+    out.element("CANopenObject", &attributes, |out| {
+        for (sub, entry) in &object.entries {
+            let mut attributes = vec_of([
+                ("subIndex", format!("{sub:02X}")),
+                ("name", entry.name.value.clone()),
+                ("objectType", "7".into()),
+            ]);
+            attributes.extend(entry_attributes(Address::new(index, *sub), entry));
+            out.empty("CANopenSubObject", &attributes);
+        }
+    });
+}
+
+fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
+    let data_type = entry.data_type.map(|data_type| data_type.value);
+    let text = |value: &Option<Spanned<Value>>| match value {
+        Some(value) => value_text(value, data_type),
+        None => String::new(),
+    };
+    // The list of objects has no word for the two that are for one direction: the direction
+    // says it, or where nothing maps them, their parameter.
+    let (access, mapping) = match (*entry.access, *entry.mappable) {
+        (Access::Rwr | Access::Rww, false) => ("", "no"),
+        (access, false) => (access.name(), "no"),
+        (Access::Rwr, true) => ("rw", "TPDO"),
+        (Access::Rww, true) => ("rw", "RPDO"),
+        (Access::Rw, true) => ("rw", "optional"),
+        (Access::Wo, true) => ("wo", "RPDO"),
+        (access @ (Access::Ro | Access::Const), true) => (access.name(), "TPDO"),
+    };
+    let mut attributes = vec_of([
+        (
+            "dataType",
+            data_type.map_or(String::new(), |t| format!("{:04X}", t.code())),
+        ),
+        ("accessType", access.into()),
+        ("PDOmapping", mapping.into()),
+        ("defaultValue", text(&entry.default)),
+        ("actualValue", text(&entry.parameter)),
+        ("lowLimit", text(&entry.low)),
+        ("highLimit", text(&entry.high)),
+        ("objFlags", flags(entry.flags)),
+    ]);
+    let denotation = entry
+        .extra
+        .iter()
+        .find(|(key, _)| key.eq_ignore_ascii_case("Denotation"));
+    if let Some((_, denotation)) = denotation {
+        attributes.push(("denotation", denotation.clone()));
+    }
+    if has_parameter(entry) {
+        attributes.push(("uniqueIDRef", id(address)));
+    }
+    attributes
+}
+
+fn flags(flags: u32) -> String {
+    match flags {
+        0 => String::new(),
+        flags => format!("{flags:04X}"),
+    }
+}
+
+fn id(address: Address) -> String {
+    format!("UID_{:04X}{:02X}", address.index, address.sub)
+}
+
+/// A value of a section; empty where there is none.
+fn value(description: &Description, section: &str, key: &str) -> String {
+    description
+        .section(section)
+        .map_or(String::new(), |section| text_of(section, key))
+}
+
+fn text_of(section: &Section, key: &str) -> String {
+    section
+        .get(key)
+        .map_or(String::new(), |value| value.value.trim().into())
+}
+
+/// `07-14-2026` as `2026-07-14`; `None` for what is no such date.
+fn date(text: &str) -> Option<String> {
+    let parts: Vec<&str> = text.split('-').collect();
+    let digits = |part: &str, len| part.len() == len && part.bytes().all(|b| b.is_ascii_digit());
+    match parts[..] {
+        [month, day, year] if digits(month, 2) && digits(day, 2) && digits(year, 4) => {
+            Some(format!("{year}-{month}-{day}"))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,63 @@
+use super::*;
+use crate::description::tables::Tables;
+use crate::xdd;
+
+#[track_caller]
+fn round(text: &str) -> String {
+    let description = crate::parse(text).description;
+    let written = write(&description);
+    let again = xdd::parse(&written);
+    assert!(
+        again.diagnostics.is_empty(),
+        "{:?}\n{written}",
+        again.diagnostics
+    );
+    let [a, b] = [&description, &again.description].map(Tables::new);
+    assert!(a.dictionary() == b.dictionary(), "{written}");
+    for section in ["DeviceInfo", "DeviceComissioning"] {
+        for key in [
+            "VendorNumber",
+            "BaudRate_500",
+            "NrOfTXPDO",
+            "NodeID",
+            "Baudrate",
+        ] {
+            assert_eq!(
+                value(&description, section, key),
+                value(&again.description, section, key)
+            );
+        }
+    }
+    written
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    let written = round(
+        "[FileInfo]\nFileName=a&b.eds\nCreationDate=07-14-2026\nDescription=\"x\" < y\n\
+             [DeviceInfo]\nVendorNumber=0x5F\nBaudRate_500=1\nBaudRate_10=0\nNrOfTXPDO=1\n\
+             [DeviceComissioning]\nNodeID=5\nBaudrate=250\n[DummyUsage]\nDummy0005=1\n\
+             [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\
+             [1000]\nParameterName=Type <&> \"1\"\nDataType=7\nAccessType=const\nDefaultValue=0x20196\n\
+             [OptionalObjects]\nSupportedObjects=1\n1=0x1014\n\
+             [1014]\nParameterName=COB\n;StorageLocation=PERSIST_COMM\nDataType=7\nAccessType=rw\n\
+             DefaultValue=$NODEID+0x80\n\
+             [ManufacturerObjects]\nSupportedObjects=3\n1=0x2000\n2=0x2001\n3=0x2002\n\
+             [2000]\nParameterName=R\nObjectType=9\nSubNumber=3\n\
+             [2000sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+             [2000sub1]\nParameterName=a\nDataType=3\nAccessType=rwr\nPDOMapping=1\nDefaultValue=-5\n\
+             LowLimit=-9\nHighLimit=9\nParameterValue=3\n\
+             [2000sub2]\nParameterName=b\nDataType=9\nAccessType=ro\nDefaultValue=a <b>\n\
+             [2001]\nParameterName=w\nDataType=5\nAccessType=rww\nPDOMapping=1\n\
+             [2002]\nParameterName=w\nDataType=0x16\nAccessType=rw\nPDOMapping=1\n",
+    );
+    for part in [
+        "fileCreationDate=\"2026-07-14\"",
+        "name=\"Type &lt;&amp;&gt; &quot;1&quot;\"",
+        "actualValue=\"3\"",
+        "<deviceCommissioning nodeID=\"5\" actualBaudRate=\"250 Kbps\"/>",
+        "<dummy entry=\"Dummy0005=1\"/>",
+    ] {
+        assert!(written.contains(part), "{part}\n{written}");
+    }
+}
