@@ -56,14 +56,14 @@ impl VirtualDevice {
     /// The shaft as it is, for devices that share it.
     pub(super) fn shaft_now(&self) -> Option<Shaft> {
         match &self.behaviour {
-            Behaviour::Encoder(encoder) => Some(encoder.shaft),
+            Behaviour::Encoder(encoder) => Some(encoder.shaft.alone()),
             Behaviour::Other(_) => None,
         }
     }
 
     /// Another device turned the shaft that this one sits on, too.
     pub(super) fn put_on_shaft(&mut self, shaft: Shaft, now: Instant) {
-        self.change(now, |encoder| encoder.shaft = shaft);
+        self.change(now, |encoder| encoder.shaft.follow(&shaft));
     }
 
     /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether

@@ -138,10 +138,7 @@ fn eam_the_worked_example() {
         (0, 6000)
     );
     // Half a revolution a second more each second for a second, and 1000 revolutions before.
-    assert_eq!(
-        bench.encoder.shaft.angle(bench.now).fractions(),
-        70i64 << 32
-    );
+    assert_eq!(bench.encoder.shaft.at(bench.now).fractions(), 70i64 << 32);
     bench.change(|encoder, now| encoder.shaft.ramp_to(now, 0, 500_000));
     bench.wait(400);
     assert_eq!(bench.read16(0x6040, 1), -12_002);

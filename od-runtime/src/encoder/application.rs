@@ -6,14 +6,14 @@ use od_model::{Address, Entry, Kind};
 use super::faults::Faults;
 use super::power::OPERATING_TIME;
 use super::timer::{EVENT_TIMER, TIMER};
-use super::{Counter, Encoder, EncoderProfile};
+use super::{Angle, Encoder, EncoderProfile, Motion};
 use crate::application::{Application, Context, Reset};
 use crate::store::Store;
 use od_wire::{AbortCode, Instant, NodeId};
 
 const POSITION: u16 = 0x6004;
 
-impl Application for Encoder {
+impl<M: Motion> Application for Encoder<M> {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let starts = matches!(reset, Reset::PowerOn | Reset::Node);
         if starts {
@@ -28,8 +28,8 @@ impl Application for Encoder {
         self.live = live_bits(self.profile);
         self.agree_on_links(cx.store);
         self.configure(cx.store);
-        if reset == Reset::PowerOn || starts && self.profile.counter == Counter::Volatile {
-            self.wake_up(cx.now);
+        if starts {
+            self.shaft.start(cx.now, self.profile.counter, self.sensor);
         }
         self.agree_on_timer(cx, starts);
         self.show_time(cx.store, cx.now);
@@ -48,8 +48,8 @@ impl Application for Encoder {
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         if address.index == POSITION {
             if let Some(handle) = self.position {
-                cx.store
-                    .set(handle, self.scale.position(self.angle(cx.now)));
+                let angle = self.sense(cx);
+                cx.store.set(handle, self.scale.position(angle));
             }
         } else if self.live & live_bit(address.index) != 0 {
             self.refresh_other(cx, address);
@@ -121,7 +121,7 @@ impl Application for Encoder {
             cx.store.set_unsigned(first, value);
         }
         self.show_link(cx.store, first);
-        self.forget_movements(cx.now, |movement| {
+        self.forget_movements(cx, |movement| {
             Self::is_movement_parameter(movement, address)
         });
         match first.index {
@@ -131,7 +131,8 @@ impl Application for Encoder {
             0x6001 | 0x6002 => self.take_new_resolution(cx),
             0x6003 => {
                 let preset = cx.store.unsigned(0x6003, 0) as u32;
-                self.set_offset(cx.store, self.offset_for(cx.now, preset));
+                let angle = self.sense(cx);
+                self.set_offset(cx.store, self.offset_for(angle, preset));
                 self.configure(cx.store);
             }
             index if self.is_acting_gear(cx.store, index) => self.take_new_resolution(cx),
@@ -152,12 +153,32 @@ impl Application for Encoder {
     }
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
+        if self.shaft.due().is_some_and(|due| due <= cx.now) {
+            self.sense(cx);
+        }
         self.faults.report(cx, self.profile);
-        self.keep_time(cx)
+        let record = self.keep_time(cx);
+        match (record, self.shaft.due()) {
+            (Some(record), Some(sample)) => Some(record.min(sample)),
+            (record, sample) => record.or(sample),
+        }
     }
 }
 
-impl Encoder {
+impl<M: Motion> Encoder<M> {
+    /// Returns the angle now; while the sensor cannot tell, the last one.
+    #[inline]
+    fn sense(&mut self, cx: &mut Context<'_, '_>) -> Angle {
+        let sensed = self.shaft.angle(cx.now);
+        if self.faults.sensed(sensed.err(), self.profile.reports) {
+            cx.signals.wake();
+        }
+        if let Ok(angle) = sensed {
+            self.angle = angle;
+        }
+        self.angle
+    }
+
     /// Brings a live value that is not the position up to date.
     #[inline(never)]
     fn refresh_other(&mut self, cx: &mut Context<'_, '_>, address: Address) {
@@ -166,8 +187,8 @@ impl Encoder {
             self.show_time(cx.store, cx.now);
         } else if at == profile.raw_position {
             // Modulo 2³², as the object holds it.
-            let raw = self.raw_position(cx.now);
-            cx.store.set_unsigned(address, raw);
+            let angle = self.sense(cx);
+            cx.store.set_unsigned(address, self.sensor.raw(angle));
         } else if at == profile.time_stamp {
             cx.store.set_unsigned(address, self.micros(cx.now));
         } else if let Some((_, mirrors)) = profile.diagnosis.filter(|(at, _)| *at == address) {

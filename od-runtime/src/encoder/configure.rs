@@ -2,8 +2,7 @@
 
 use od_model::{Address, Group};
 
-use super::movement::Rate;
-use super::{Counter, Encoder, Gear, GearKind, RangeRule, Scale, Total};
+use super::{Angle, Counter, Encoder, Gain, Gear, GearKind, Motion, RangeRule, Scale, Total};
 use crate::store::Store;
 use od_wire::AbortCode;
 
@@ -41,7 +40,7 @@ impl Factor {
     }
 }
 
-impl Encoder {
+impl<M: Motion> Encoder<M> {
     /// The gear that acts when it is written, if it is on.
     fn output_gear(&self, store: &Store<'_>) -> Option<(u64, u64)> {
         let gear = self
@@ -112,13 +111,13 @@ impl Encoder {
             self.unscaled()
         } else if let Some((numerator, denominator)) = output {
             // A 6002h of 32 bits times a factor of 32 bits; a sensor's steps are less.
-            self.rate = Rate::new(range.saturating_mul(denominator), numerator);
+            self.gain = Gain::ratio(range.saturating_mul(denominator), numerator);
             Scale::new(self.sensor, self.sensor.steps, range).with_gear(
                 range.saturating_mul(denominator),
                 u64::from(self.sensor.steps).saturating_mul(numerator),
             )
         } else {
-            self.rate = Rate::new(steps.into(), 1);
+            self.gain = Gain::steps(steps);
             Scale::new(self.sensor, steps, range)
         };
         let scale = match (self.gear, self.profile.counter) {
@@ -139,7 +138,7 @@ impl Encoder {
     /// The scale with scaling off.
     fn unscaled(&mut self) -> Scale {
         let steps = self.profile.unscaled_steps.unwrap_or(self.sensor.steps);
-        self.rate = Rate::new(steps.into(), 1);
+        self.gain = Gain::steps(steps);
         let range = u64::from(steps) * u64::from(self.sensor.turns);
         Scale::new(self.sensor, steps, range.min(1 << 32))
     }
@@ -167,9 +166,8 @@ impl Encoder {
         self.show_link(store, OFFSET);
     }
 
-    /// The offset with which the position at this moment is `preset`.
-    pub(super) fn offset_for(&self, now: od_wire::Instant, preset: u32) -> i64 {
-        let angle = self.angle(now);
+    /// The offset with which the position at an angle is `preset`.
+    pub(super) fn offset_for(&self, angle: Angle, preset: u32) -> i64 {
         if !self.profile.signed_offset {
             return self.scale.offset_for(angle, preset).into();
         }

@@ -22,6 +22,8 @@ pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
 pub(super) struct Faults {
     /// What the host broke.
     broken: u32,
+    /// What keeps the sensor from telling the angle, since it last told it.
+    sensed: u32,
     /// What of it was there at the last start.
     at_start: u32,
     /// The last reset was by the watchdog.
@@ -56,6 +58,7 @@ impl Faults {
     pub(super) const fn new() -> Self {
         Self {
             broken: 0,
+            sensed: 0,
             at_start: 0,
             watchdog: false,
             damaged: false,
@@ -82,9 +85,21 @@ impl Faults {
         self.damaged = damaged;
     }
 
-    /// What the device can find broken now, by the host or by itself.
+    /// Takes what the sensor said when it was asked for the angle. Answers whether that is
+    /// news. A fault that the family does not report counts as its first alarm that comes and
+    /// goes while the device runs.
+    #[inline]
+    pub(super) fn sensed(&mut self, fault: Option<Fault>, reports: &[Report]) -> bool {
+        let sensed = match fault {
+            None => 0,
+            Some(fault) => bit(reported(fault, reports)),
+        };
+        core::mem::replace(&mut self.sensed, sensed) != sensed
+    }
+
+    /// What the device can find broken now, by the host, the sensor or by itself.
     fn found(&self) -> u32 {
-        self.broken | if self.damaged { bit(Fault::Memory) } else { 0 }
+        self.broken | self.sensed | if self.damaged { bit(Fault::Memory) } else { 0 }
     }
 
     pub(super) fn is_set(&self, fault: Fault) -> bool {
@@ -237,6 +252,18 @@ fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
         None => true,
     };
     has(0x6504, report.alarm) && has(0x6506, report.warning)
+}
+
+/// The fault that a family reports in place of one that it does not know.
+#[cold]
+fn reported(fault: Fault, reports: &[Report]) -> Fault {
+    let knows = |report: &Report| report.fault == fault && report.appears != Appears::Injected;
+    if reports.iter().any(knows) {
+        return fault;
+    }
+    let is_alarm = |report: &&Report| report.alarm != 0 && report.appears != Appears::Startup;
+    let alarm = reports.iter().find(is_alarm);
+    alarm.map_or(fault, |report| report.fault)
 }
 
 const fn bit(fault: Fault) -> u32 {

@@ -4,11 +4,12 @@
 //! them to a dictionary by address: any that has 6004h will do. What a family does
 //! differently stands in an [`EncoderProfile`].
 
+mod angle;
 mod application;
 mod configure;
-mod course;
 mod fault;
 mod faults;
+mod motion;
 mod movement;
 mod position;
 mod power;
@@ -16,20 +17,22 @@ mod profile;
 mod shaft;
 mod timer;
 
+use od_model::Dictionary;
 use od_model::typed::{Ro, Var};
-use od_model::{DataType, Dictionary};
 
 use od_wire::Instant;
 
+pub use angle::Angle;
 pub use fault::{Appears, Fault, Report, Until};
 use faults::Faults;
-use movement::{MOVEMENTS, Rate};
+pub use motion::{Gain, Motion};
+use movement::MOVEMENTS;
 pub use position::{Scale, Sensor};
 pub use profile::{
     Counter, EncoderProfile, Gear, GearKind, Injection, Mirror, Movement, OperatingTime, Options,
     Quantity, RangeRule, Source, Total,
 };
-pub use shaft::{Angle, Shaft};
+pub use shaft::Shaft;
 
 /// Rotary and DIP switches in the cover.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -45,10 +48,10 @@ pub struct Switches {
 /// The host turns the [`Shaft`], sets switches and breaks things between calls of the
 /// node; after a change of faults it calls `Node::handle_change`.
 #[derive(Clone, Debug)]
-pub struct Encoder {
+pub struct Encoder<M = Shaft> {
     profile: &'static EncoderProfile,
     /// The shaft that it sits on.
-    pub shaft: Shaft,
+    pub shaft: M,
     switches: Switches,
     serial_number: Option<u32>,
     faults: Faults,
@@ -57,17 +60,17 @@ pub struct Encoder {
     /// 6004h, where it stands in the store.
     position: Option<Var<u32, Ro>>,
     /// Steps of 6004h per revolution, without a gear that divides the position.
-    rate: Rate,
+    gain: Gain,
     /// Numerator and denominator of the gear that the last start found.
     gear: Option<(u64, u64)>,
     /// The same of the gear that acts at once, as it acts.
     output: Option<(u64, u64)>,
     /// Which objects are live, see `application`.
     live: u64,
-    /// Where the shaft stood when power went, and when.
-    off: Option<(Angle, Instant)>,
-    /// What the shaft turned without power and the revolution counter did not see.
-    unseen: Angle,
+    /// The last angle that the sensor told.
+    angle: Angle,
+    /// When power went.
+    off: Option<Instant>,
     /// The last reset; `None` without power.
     started: Option<Instant>,
     /// Periods of operation since, at whose end its time was saved.
@@ -83,16 +86,16 @@ pub struct Encoder {
     bit_rate: Option<u16>,
 }
 
-impl Encoder {
-    /// An encoder at angle 0, nothing broken, switches at 0.
-    pub const fn new(profile: &'static EncoderProfile) -> Self {
+impl<M: Motion> Encoder<M> {
+    /// An encoder on this shaft: nothing broken, switches at 0.
+    pub const fn on(shaft: M, profile: &'static EncoderProfile) -> Self {
         let sensor = match profile.sensor {
             Some(sensor) => sensor,
             None => Sensor { steps: 1, turns: 1 },
         };
         Self {
             profile,
-            shaft: Shaft::at_rest(Angle::ZERO),
+            shaft,
             switches: Switches {
                 node_id: 0,
                 bit_rate: 0,
@@ -101,13 +104,13 @@ impl Encoder {
             faults: Faults::new(),
             sensor,
             scale: Scale::unscaled(sensor),
-            rate: Rate::new(0, 1),
+            gain: Gain::steps(0),
             gear: None,
             output: None,
             position: None,
             live: 0,
+            angle: Angle::ZERO,
             off: None,
-            unseen: Angle::ZERO,
             started: None,
             kept: 0,
             seconds: 0,
@@ -118,34 +121,8 @@ impl Encoder {
         }
     }
 
-    /// An encoder of an unknown family for a dictionary that has a position (6004h);
-    /// `None` for every other device. 6004h is a position where it is an UNSIGNED32 that no
-    /// master can write, and 1000h, if it says anything, says CiA 406.
-    ///
-    /// 6501h and 6502h describe its sensor. 6502h counts revolutions as CiA 406 has it,
-    /// unless it is what 6002h is by default: then both are steps.
-    pub fn for_dictionary(dictionary: Dictionary<'_>) -> Option<Self> {
-        static STEPS: EncoderProfile = EncoderProfile {
-            total: Total::Steps,
-            ..EncoderProfile::CIA406
-        };
-        let position = dictionary.entry(0x6004, 0)?;
-        let number = default_of(dictionary);
-        let is_other = number(0x1000).is_some_and(|kind| kind & 0xFFFF != CIA406);
-        if position.data_type != DataType::Unsigned32 || position.access.writable() || is_other {
-            return None;
-        }
-        let in_steps = number(0x6502).is_some_and(|total| number(0x6002) == Some(total));
-        let profile = if in_steps {
-            &STEPS
-        } else {
-            &EncoderProfile::CIA406
-        };
-        Some(Self::new(profile).with_sensor_of(dictionary))
-    }
-
     /// With the sensor that a dictionary's defaults describe, where the profile has none:
-    /// [`set_raw_position`](Self::set_raw_position) can be used before the first power-on.
+    /// [`sensor`](Self::sensor) is known before the first power-on then.
     #[must_use]
     pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
         self.sensor = self.sensor_of(default_of(dictionary));
@@ -173,32 +150,6 @@ impl Encoder {
     /// How its position is made at present.
     pub const fn scale(&self) -> Scale {
         self.scale
-    }
-
-    /// The angle that the electronics know: the shaft's, without whole ranges of the
-    /// sensor that it turned while there was no power.
-    #[inline]
-    pub fn angle(&self, now: Instant) -> Angle {
-        self.shaft.angle(now).minus(self.unseen)
-    }
-
-    /// The position as 6004h has it.
-    #[inline]
-    pub fn position(&self, now: Instant) -> u32 {
-        self.scale.position(self.angle(now))
-    }
-
-    /// The sensor's own position, before scaling, sense and offset.
-    pub fn raw_position(&self, now: Instant) -> u64 {
-        self.sensor.raw(self.angle(now))
-    }
-
-    /// Puts the shaft where the sensor begins to say `raw`; it goes on with its speed.
-    ///
-    /// It has to be known what the [`sensor`](Self::sensor) is.
-    pub fn set_raw_position(&mut self, now: Instant, raw: u64) {
-        self.unseen = Angle::ZERO;
-        self.shaft.set_angle(now, self.sensor.angle(raw));
     }
 
     /// The switches; a family that has none ignores them.
@@ -251,9 +202,6 @@ fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
         u64::try_from(entry.default.integer(1)?).ok()
     }
 }
-
-/// What 1000h says of a CiA 406 device in its low half.
-const CIA406: u64 = 406;
 
 #[cfg(test)]
 mod tests;

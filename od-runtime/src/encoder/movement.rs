@@ -1,35 +1,30 @@
-//! Speed and acceleration: what the shaft's course means in the steps of an object.
+//! Speed and acceleration: the movement of the shaft in the units of an object.
 
 use od_model::Address;
 
-use super::course::FINE;
-use super::{Encoder, Movement, Quantity, Source};
+use super::{Encoder, Gain, Motion, Movement, Quantity, Source};
+use crate::application::Context;
 use crate::store::Store;
 use od_wire::Instant;
 
 /// How many movements of a profile are told apart.
 pub(super) const MOVEMENTS: usize = 4;
 
-/// Steps per revolution in 2⁻³² steps.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rate(u128);
-
-impl Rate {
-    /// So many steps in so many revolutions, 1 or more; at most 2³² a revolution.
-    pub(super) const fn new(steps: u64, revolutions: u64) -> Self {
-        let revolutions = if revolutions == 0 { 1 } else { revolutions };
-        Self(((steps as u128) << 32) / revolutions as u128)
-    }
-}
-
-impl Encoder {
+impl<M: Motion> Encoder<M> {
     /// The source or the interval of a movement changed, or all began anew: a whole interval
     /// from `now` on nothing is known.
-    pub(super) fn forget_movements(&mut self, now: Instant, which: impl Fn(&Movement) -> bool) {
-        let known = self.measured_since.iter_mut().zip(self.profile.movements);
+    pub(super) fn forget_movements(
+        &mut self,
+        cx: &Context<'_, '_>,
+        which: impl Fn(&Movement) -> bool,
+    ) {
+        let movements = self.profile.movements;
+        let known = self.measured_since.iter_mut().zip(movements);
         for (since, _) in known.filter(|(_, movement)| which(movement)) {
-            *since = now;
+            *since = cx.now;
         }
+        let intervals = movements.iter().map(|of| interval(of, cx.store));
+        self.shaft.look_back(intervals.max().unwrap_or(0));
     }
 
     /// Does the object have a part in a movement: as selector or interval?
@@ -53,56 +48,51 @@ impl Encoder {
             return false;
         };
         let bits = entry.data_type.bits().unwrap_or(32).clamp(8, 32);
-        let most = (1i128 << (bits - 1)) - 1;
+        let most = (1i64 << (bits - 1)) - 1;
         let value = self.movement(store, now, movement, since);
-        store.set_unsigned(address, value.clamp(-most - 1, most) as u64);
+        let value = value.unwrap_or(0).clamp(-most - 1, most);
+        store.set_unsigned(address, value as u64);
         true
     }
 
+    /// Returns a movement in the units of its object; `None` while it is not known.
     fn movement(
         &self,
         store: &Store<'_>,
         now: Instant,
         movement: &Movement,
         since: Instant,
-    ) -> i128 {
+    ) -> Option<i64> {
         let number = |at: Address| store.unsigned(at.index, at.sub);
-        let interval = number(movement.interval).clamp(1, u16::MAX.into()) * 1000;
-        if now.micros_since(since) < interval {
-            return 0;
+        let interval = interval(movement, store);
+        if now.micros_since(since) < interval.into() {
+            return None;
         }
-        let Some((rate, has_sense)) = self.source(movement, movement.selector.map(number)) else {
-            return 0;
+        let (gain, has_sense) = self.source(movement, movement.selector.map(number))?;
+        let gain = match movement.factor {
+            Some((multiplier, divider)) => Gain {
+                multiplier: number(multiplier) as u32,
+                divider: number(divider) as u32,
+                ..gain
+            },
+            None => gain,
         };
-        let from = Instant::from_micros(now.as_micros() - interval);
-        let course = self.shaft.course();
-        let (interval, Rate(rate)) = (i128::from(interval), rate);
-        // A way is 2³¹ × 2²⁶ at most, a difference of fine speeds 2⁵², a rate 2⁶⁴.
-        let (amount, by) = match movement.quantity {
-            Quantity::Speed => (course.way(from, now), 60_000 * interval),
-            Quantity::Acceleration => {
-                let change = course.fine_speed(now) - course.fine_speed(from);
-                (change * 50, 3 * FINE * interval)
-            }
+        let value = match movement.quantity {
+            Quantity::Speed => self.shaft.speed(now, interval, gain)?,
+            Quantity::Acceleration => self.shaft.acceleration(now, interval, gain)?,
         };
-        let steps = nearest(amount * rate as i128, by);
-        let (multiplier, divider) = match movement.factor {
-            Some((multiplier, divider)) => (number(multiplier), number(divider).max(1)),
-            None => (1, 1),
-        };
-        let factor = i128::from(multiplier as u32);
-        let value = whole(nearest(steps * factor, i128::from(divider as u32)));
         let ignores_sense = self.has_option(store, |options| options.ignore_sense);
-        if has_sense && self.scale.is_reversed() && !ignores_sense {
-            -value
+        let is_turned = has_sense && self.scale.is_reversed() && !ignores_sense;
+        Some(if is_turned {
+            value.saturating_neg()
         } else {
             value
-        }
+        })
     }
 
     /// Steps per revolution of what a movement is made of, and whether the sense of rotation
-    /// counts.
-    fn source(&self, movement: &Movement, selected: Option<u64>) -> Option<(Rate, bool)> {
+    /// counts. `None`: the selector has a value without a source.
+    fn source(&self, movement: &Movement, selected: Option<u64>) -> Option<(Gain, bool)> {
         let mut sources = movement.sources.iter();
         let (_, source) = match selected {
             Some(selected) => sources.find(|(value, _)| u64::from(*value) == selected)?,
@@ -110,30 +100,17 @@ impl Encoder {
         };
         Some(match source {
             // A revolution per minute is a sixtieth of a revolution per second.
-            Source::Revolutions => (Rate::new(60, 1), true),
-            Source::Position => (self.rate, true),
-            Source::Fixed(steps) => (Rate::new((*steps).into(), 1), true),
-            Source::Raw => (Rate::new(self.sensor.steps.into(), 1), false),
+            Source::Revolutions => (Gain::steps(60), true),
+            Source::Position => (self.gain, true),
+            Source::Fixed(steps) => (Gain::steps(*steps), true),
+            Source::Raw => (Gain::steps(self.sensor.steps), false),
         })
     }
 }
 
-/// A division to the nearest, halves away from zero; `by` is more than 0.
-const fn nearest(number: i128, by: i128) -> i128 {
-    if number < 0 {
-        -((by / 2 - number) / by)
-    } else {
-        (number + by / 2) / by
-    }
-}
-
-/// Whole steps of 2⁻³² steps, towards zero. What lies less than 2⁻¹³ below a whole step is
-/// that step: the fractions were rounded on the way.
-const fn whole(fractions: i128) -> i128 {
-    const NEARLY: i128 = 1 << 19;
-    if fractions < 0 {
-        -((NEARLY - fractions) >> 32)
-    } else {
-        (fractions + NEARLY) >> 32
-    }
+/// Returns the interval of a movement in microseconds, 1 ms to 65.535 s.
+fn interval(movement: &Movement, store: &Store<'_>) -> u32 {
+    let at = movement.interval;
+    // The range leaves no more than 16 bits.
+    store.unsigned(at.index, at.sub).clamp(1, u16::MAX.into()) as u32 * 1000
 }

@@ -1,10 +1,9 @@
-//! Power comes and goes: what the encoder counts of its life, and what it makes of a shaft
-//! that turned meanwhile.
+//! Power comes and goes: what the encoder counts of its life.
 
 use od_model::Address;
 
 use super::faults::Off;
-use super::{Angle, Counter, Encoder, OperatingTime};
+use super::{Encoder, Motion, OperatingTime};
 use crate::application::{Context, Reset};
 use crate::store::Store;
 use od_wire::Instant;
@@ -14,13 +13,13 @@ pub(super) const OPERATING_TIME: Address = Address::new(0x6508, 0);
 /// How often the time of operation goes into the store by itself.
 const SIX_MINUTES: u64 = 360_000_000;
 
-impl Encoder {
-    /// Power goes. The shaft may turn on; a counter that misses a crossing of its zero
-    /// does not know of it, which shows where the revolutions are no power of two.
+impl<M: Motion> Encoder<M> {
+    /// Power goes; the shaft may turn on. Only a simulation outlives this.
     pub fn power_off(&mut self, now: Instant) {
         self.seconds = self.seconds_at(now);
         self.started = None;
-        self.off = Some((self.angle(now), now));
+        self.off = Some(now);
+        self.shaft.power_off(now);
     }
 
     /// The device starts: power came, or NMT reset node.
@@ -34,8 +33,8 @@ impl Encoder {
         self.cycles = self.cycles.max(number(self.profile.cycles));
         self.started = Some(cx.now);
         self.kept = 0;
-        let off = match (reset, self.off) {
-            (Reset::PowerOn, Some((_, at))) => Off::For(cx.now.micros_since(at)),
+        let off = match (reset, self.off.take()) {
+            (Reset::PowerOn, Some(at)) => Off::For(cx.now.micros_since(at)),
             (Reset::PowerOn, None) => Off::Always,
             _ => Off::Never,
         };
@@ -48,34 +47,8 @@ impl Encoder {
             }
             cx.store.set_unsigned(cycles, self.cycles.into());
         }
-        self.forget_movements(cx.now, |_| true);
+        self.forget_movements(cx, |_| true);
         self.engage_gear(cx.store);
-    }
-
-    /// What the revolution counter makes of where the shaft is now.
-    pub(super) fn wake_up(&mut self, now: Instant) {
-        let off = self.off.take();
-        let on = self.angle(now);
-        // Whole ranges that fit into the angle fit into its difference.
-        let unseen = match (self.profile.counter, off) {
-            (Counter::Volatile, _) => on.fractions() & !0xFFFF_FFFF,
-            (_, None) => 0,
-            (Counter::Sensor, Some((off, _))) => {
-                let range = i128::from(self.sensor.turns) << 32;
-                let laps = |angle: Angle| i128::from(angle.fractions()).div_euclid(range);
-                ((laps(on) - laps(off)) * range) as i64
-            }
-            (Counter::Kept { turns }, Some((off, _))) => {
-                let turned = i128::from(on.minus(off).fractions());
-                let (range, half) = (i128::from(turns.max(1)) << 32, i128::from(turns) << 31);
-                if turned.abs() <= half {
-                    0
-                } else {
-                    ((turned + half).div_euclid(range) * range) as i64
-                }
-            }
-        };
-        self.unseen = self.unseen.plus(Angle::from_fractions(unseen));
     }
 
     /// Seconds of operation, up to `now`.

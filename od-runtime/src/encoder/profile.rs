@@ -1,8 +1,8 @@
 //! What one encoder family does differently from another, as const data.
 
-use od_model::Address;
+use od_model::{Address, DataType, Dictionary};
 
-use super::{Fault, Report, Sensor};
+use super::{Fault, Report, Sensor, default_of};
 use od_wire::AbortCode;
 
 /// What object 6502h counts.
@@ -236,6 +236,27 @@ pub struct EncoderProfile {
 }
 
 impl EncoderProfile {
+    /// Returns the profile of an encoder of an unknown family, by its dictionary; `None` if the
+    /// device is not an encoder. An encoder has a position: 6004h is an UNSIGNED32 that no
+    /// master can write, and 1000h, if it declares anything, declares CiA 406.
+    ///
+    /// 6501h and 6502h describe its sensor. 6502h counts revolutions as CiA 406 has it,
+    /// unless it has the default value of 6002h: then both are steps.
+    pub fn for_dictionary(dictionary: Dictionary<'_>) -> Option<&'static Self> {
+        static STEPS: EncoderProfile = EncoderProfile {
+            total: Total::Steps,
+            ..EncoderProfile::CIA406
+        };
+        let position = dictionary.entry(0x6004, 0)?;
+        let number = default_of(dictionary);
+        let is_other = number(0x1000).is_some_and(|kind| kind & 0xFFFF != CIA406);
+        if position.data_type != DataType::Unsigned32 || position.access.writable() || is_other {
+            return None;
+        }
+        let in_steps = number(0x6502).is_some_and(|total| number(0x6002) == Some(total));
+        Some(if in_steps { &STEPS } else { &Self::CIA406 })
+    }
+
     /// CiA 406 and nothing else: what an encoder of an unknown EDS gets.
     pub const CIA406: Self = Self {
         sensor: None,
@@ -296,3 +317,6 @@ impl EncoderProfile {
         injection: None,
     };
 }
+
+/// Number of the profile in the low half of 1000h.
+const CIA406: u64 = 406;

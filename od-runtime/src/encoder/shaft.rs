@@ -1,59 +1,16 @@
-//! The shaft that the encoder sits on: an angle that is a pure function of time.
+//! Exact shaft: its angle, speed and acceleration are pure functions of time.
 
-use super::course::{Course, Ramp};
+mod counter;
+mod course;
+
+use super::{Angle, Counter, Encoder, EncoderProfile, Fault, Gain, Motion, Sensor};
+use counter::Unseen;
+use course::{Course, FINE, Ramp};
+use od_model::Dictionary;
 use od_wire::Instant;
 
 /// Thousandths of a revolution per minute, times microseconds, in one revolution.
 pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;
-
-/// An angle in 2⁻³² revolutions, counted on from where the simulation began.
-///
-/// Whole revolutions are the upper half, −2³¹ to 2³¹−1; past the ends it wraps.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
-pub struct Angle(i64);
-
-impl Angle {
-    /// Zero of the sensor.
-    pub const ZERO: Self = Self(0);
-
-    /// `fraction` 2⁻³² revolutions.
-    pub const fn from_fractions(fraction: i64) -> Self {
-        Self(fraction)
-    }
-
-    /// In 2⁻³² revolutions.
-    pub const fn fractions(self) -> i64 {
-        self.0
-    }
-
-    /// `degrees` of a revolution, rounded towards zero.
-    pub fn from_degrees(degrees: f64) -> Self {
-        Self((degrees / 360.0 * 4_294_967_296.0) as i64)
-    }
-
-    /// In degrees, all revolutions included.
-    pub fn degrees(self) -> f64 {
-        self.0 as f64 / 4_294_967_296.0 * 360.0
-    }
-
-    /// This angle and another.
-    #[must_use]
-    pub const fn plus(self, other: Self) -> Self {
-        Self(self.0.wrapping_add(other.0))
-    }
-
-    /// This angle without another.
-    #[must_use]
-    pub const fn minus(self, other: Self) -> Self {
-        Self(self.0.wrapping_sub(other.0))
-    }
-
-    /// Whole revolutions, rounded down, and the rest in 2⁻³² revolutions.
-    #[inline]
-    pub const fn split(self) -> (i64, u32) {
-        (self.0 >> 32, self.0 as u32)
-    }
-}
 
 /// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
 /// speed.
@@ -69,10 +26,11 @@ pub struct Shaft {
     /// How `milli_rpm` changes from there; no time where it does not.
     ramp: Ramp,
     course: Course,
+    unseen: Unseen,
 }
 
 impl Shaft {
-    /// A shaft that stands at `angle`.
+    /// Shaft at rest at `angle`.
     pub const fn at_rest(angle: Angle) -> Self {
         Self {
             angle,
@@ -80,12 +38,33 @@ impl Shaft {
             milli_rpm: 0,
             ramp: Ramp::NONE,
             course: Course::AT_REST,
+            unseen: Unseen::NOTHING,
         }
     }
 
-    /// Its angle at a moment; where it was before the last change is not known any more.
+    /// The shaft without what an encoder's counter missed of it.
+    #[must_use]
+    pub fn alone(&self) -> Self {
+        let unseen = Unseen::NOTHING;
+        Self { unseen, ..*self }
+    }
+
+    /// Turns as `other` does, from where `other` is now: both are ends of one shaft.
+    pub fn follow(&mut self, other: &Self) {
+        let unseen = self.unseen;
+        *self = Self { unseen, ..*other };
+    }
+
+    /// Returns the angle that the electronics know: without the revolutions that an encoder
+    /// did not count while it had no power.
     #[inline]
-    pub fn angle(&self, now: Instant) -> Angle {
+    pub fn seen(&self, now: Instant) -> Angle {
+        self.at(now).minus(self.unseen.angle())
+    }
+
+    /// Returns the angle at a moment. Before the last change it is not known any more.
+    #[inline]
+    pub fn at(&self, now: Instant) -> Angle {
         if self.ramp.micros != 0 {
             return self.angle_on_ramp(now);
         }
@@ -93,10 +72,11 @@ impl Shaft {
             return self.angle;
         }
         let turned = turned(self.milli_rpm.unsigned_abs(), now.micros_since(self.since));
+        let turned = Angle::from_fractions(turned);
         if self.milli_rpm > 0 {
-            Angle(self.angle.0.wrapping_add(turned))
+            self.angle.plus(turned)
         } else {
-            Angle(self.angle.0.wrapping_sub(turned))
+            self.angle.minus(turned)
         }
     }
 
@@ -108,7 +88,7 @@ impl Shaft {
         let turns = way.div_euclid(PER_REVOLUTION.into());
         let rest = way.rem_euclid(PER_REVOLUTION.into());
         let turned = (turns << 32) + (rest << 32) / i128::from(PER_REVOLUTION);
-        Angle(self.angle.0.wrapping_add(turned as i64))
+        self.angle.plus(Angle::from_fractions(turned as i64))
     }
 
     /// The speed that it has, or on a ramp will have at its end, in thousandths of a
@@ -160,15 +140,16 @@ impl Shaft {
         self.angle = angle;
     }
 
-    /// How it turned up to now.
-    pub(super) const fn course(&self) -> &Course {
-        &self.course
+    /// Puts the shaft at an angle that the electronics know in full; it goes on with its speed.
+    fn set_seen(&mut self, now: Instant, angle: Angle) {
+        self.unseen.forget();
+        self.set_angle(now, angle);
     }
 
     /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
     fn rebase(&mut self, now: Instant) {
         let micros = now.micros_since(self.since);
-        self.angle = self.angle(now);
+        self.angle = self.at(now);
         if self.ramp.micros != 0 {
             let from = self.ramp.speed(self.milli_rpm, micros);
             let to = self.ramp.to(self.milli_rpm);
@@ -186,6 +167,85 @@ impl Shaft {
         }
         self.since = self.since.max(now);
     }
+}
+
+impl Motion for Shaft {
+    #[inline]
+    fn angle(&mut self, now: Instant) -> Result<Angle, Fault> {
+        Ok(self.seen(now))
+    }
+
+    fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        let way = self.course.way(before(now, interval), now);
+        Some(exact(way, 60_000 * i128::from(interval), gain))
+    }
+
+    fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        let speed = |at| self.course.fine_speed(at);
+        let change = speed(now) - speed(before(now, interval));
+        Some(exact(change * 50, 3 * FINE * i128::from(interval), gain))
+    }
+
+    fn start(&mut self, now: Instant, counter: Counter, sensor: Sensor) {
+        self.unseen.power_on(self.at(now), counter, sensor);
+    }
+
+    fn power_off(&mut self, now: Instant) {
+        self.unseen.power_off(self.at(now));
+    }
+}
+
+/// What only the exact shaft can tell of an encoder: its angle does not depend on when it is
+/// asked for.
+impl Encoder<Shaft> {
+    /// An encoder at angle 0, nothing broken, switches at 0.
+    pub const fn new(profile: &'static EncoderProfile) -> Self {
+        Self::on(Shaft::at_rest(Angle::ZERO), profile)
+    }
+
+    /// An encoder of an unknown family, see [`EncoderProfile::for_dictionary`].
+    pub fn for_dictionary(dictionary: Dictionary<'_>) -> Option<Self> {
+        let profile = EncoderProfile::for_dictionary(dictionary)?;
+        Some(Self::new(profile).with_sensor_of(dictionary))
+    }
+
+    /// Returns the angle that the electronics know.
+    pub fn angle(&self, now: Instant) -> Angle {
+        self.shaft.seen(now)
+    }
+
+    /// Returns the position as 6004h has it.
+    pub fn position(&self, now: Instant) -> u32 {
+        self.scale().position(self.angle(now))
+    }
+
+    /// Returns the sensor's own position, before scaling, sense of rotation and offset.
+    pub fn raw_position(&self, now: Instant) -> u64 {
+        self.sensor().raw(self.angle(now))
+    }
+
+    /// Puts the shaft where the sensor begins to say `raw`; it goes on with its speed.
+    ///
+    /// The [`sensor`](Self::sensor) has to be known.
+    pub fn set_raw_position(&mut self, now: Instant, raw: u64) {
+        let angle = self.sensor().angle(raw);
+        self.shaft.set_seen(now, angle);
+    }
+}
+
+/// The moment `micros` before `now`, the origin at the earliest.
+const fn before(now: Instant, micros: u32) -> Instant {
+    Instant::from_micros(now.as_micros().saturating_sub(micros as u64))
+}
+
+/// `amount / by` revolutions, times a gain, in whole units; rounded towards zero.
+fn exact(amount: i128, by: i128, gain: Gain) -> i64 {
+    // An amount is 2⁵⁷ at most (a way, or a difference of fine speeds), a rate 2⁶⁴.
+    let rate = (u128::from(gain.steps) << 32) / u128::from(gain.revolutions.max(1));
+    let steps = nearest(amount * rate as i128, by);
+    let factor = i128::from(gain.multiplier);
+    let value = whole(nearest(steps * factor, gain.divider.max(1).into()));
+    value.clamp(i64::MIN.into(), i64::MAX.into()) as i64
 }
 
 /// 2⁻³² revolutions in `micros` at this speed: exact to 2⁻²⁸, rounded down.
@@ -210,6 +270,26 @@ fn long_way(milli_rpm: u32, micros: u64) -> i64 {
     (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
 }
 
+/// A division to the nearest, halves away from zero; `by` is more than 0.
+const fn nearest(number: i128, by: i128) -> i128 {
+    if number < 0 {
+        -((by / 2 - number) / by)
+    } else {
+        (number + by / 2) / by
+    }
+}
+
+/// Whole steps of 2⁻³² steps, towards zero. What lies less than 2⁻¹³ below a whole step is
+/// that step: the fractions were rounded on the way.
+const fn whole(fractions: i128) -> i128 {
+    const NEARLY: i128 = 1 << 19;
+    if fractions < 0 {
+        -((NEARLY - fractions) >> 32)
+    } else {
+        (fractions + NEARLY) >> 32
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,15 +298,15 @@ mod tests {
     fn a_minute_at_one_revolution_per_minute_is_one_revolution() {
         let mut shaft = Shaft::at_rest(Angle::ZERO);
         shaft.set_milli_rpm(Instant::from_millis(5), 1000);
-        assert_eq!(shaft.angle(Instant::from_millis(3)), Angle::ZERO);
-        let at = |ms: u64| shaft.angle(Instant::from_millis(5 + ms)).fractions();
+        assert_eq!(shaft.at(Instant::from_millis(3)), Angle::ZERO);
+        let at = |ms: u64| shaft.at(Instant::from_millis(5 + ms)).fractions();
         assert_eq!(at(60_000), 1 << 32);
         assert_eq!(at(30_000), 1 << 31);
         assert_eq!(at(59_999), (((59_999u64 << 28) / 60_000) << 4) as i64);
         for milli_rpm in [1, 7, 6_000_000, i32::MAX] {
             shaft = Shaft::at_rest(Angle::ZERO);
             shaft.set_milli_rpm(Instant::ZERO, milli_rpm);
-            let hour = shaft.angle(Instant::from_millis(3_600_000)).fractions();
+            let hour = shaft.at(Instant::from_millis(3_600_000)).fractions();
             let exact = i128::from(milli_rpm) * 60 * (1i128 << 32) / 1000;
             assert!(
                 (i128::from(hour) - i128::from(exact as i64)).abs() < 16,
@@ -241,16 +321,16 @@ mod tests {
         shaft.set_milli_rpm(Instant::ZERO, 60_000);
         shaft.set_milli_rpm(Instant::from_millis(500), 0);
         let half = Angle::from_fractions(77 + (1 << 31));
-        assert_eq!(shaft.angle(Instant::from_millis(9_000)), half);
+        assert_eq!(shaft.at(Instant::from_millis(9_000)), half);
         shaft.set_milli_rpm(Instant::from_millis(9_000), -60_000);
-        assert_eq!(shaft.angle(Instant::from_millis(9_500)).fractions(), 77);
+        assert_eq!(shaft.at(Instant::from_millis(9_500)).fractions(), 77);
         assert_eq!(
-            shaft.angle(Instant::from_millis(10_000)).split(),
+            shaft.at(Instant::from_millis(10_000)).split(),
             (-1, (1u32 << 31) + 77)
         );
-        shaft.turn(Instant::from_millis(9_500), Angle::from_degrees(90.0));
+        shaft.turn(Instant::from_millis(9_500), Angle::from_fractions(1 << 30));
         assert_eq!(
-            shaft.angle(Instant::from_millis(9_500)).fractions(),
+            shaft.at(Instant::from_millis(9_500)).fractions(),
             77 + (1 << 30)
         );
     }
@@ -264,7 +344,7 @@ mod tests {
         assert!(shaft.is_turning());
         let at = |shaft: &Shaft, ms: u64| {
             let now = Instant::from_millis(ms);
-            (shaft.angle(now).fractions(), shaft.milli_rpm_at(now))
+            (shaft.at(now).fractions(), shaft.milli_rpm_at(now))
         };
         // From 0 to 2 revolutions a minute within a minute: one revolution.
         assert_eq!(at(&shaft, 30_000), (1 << 30, 1000));
@@ -293,7 +373,7 @@ mod tests {
                 let end = Instant::from_micros(micros.into());
                 assert_eq!(shaft.milli_rpm_at(end), to);
                 assert_eq!(shaft.milli_rpm_at(Instant::MAX), to);
-                let _ = shaft.angle(Instant::MAX);
+                let _ = shaft.at(Instant::MAX);
                 shaft.turn(Instant::MAX, Angle::ZERO);
                 assert_eq!(shaft.milli_rpm(), to);
             }

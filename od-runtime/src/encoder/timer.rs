@@ -2,14 +2,14 @@
 
 use od_model::Address;
 
-use super::Encoder;
+use super::{Encoder, Motion};
 use crate::application::Context;
 use crate::store::Store;
 
 pub(super) const TIMER: Address = Address::new(0x6200, 0);
 pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);
 
-impl Encoder {
+impl<M: Motion> Encoder<M> {
     /// What 1800h:05 is later than 6200h, in milliseconds.
     fn delay(&self, store: &Store<'_>) -> u64 {
         match &self.profile.options {

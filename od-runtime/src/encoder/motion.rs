@@ -1,0 +1,75 @@
+//! What an encoder has to know of the shaft that it sits on.
+
+use super::{Angle, Counter, Fault, Sensor};
+use od_wire::Instant;
+
+/// Angle, speed and acceleration of a shaft.
+pub trait Motion {
+    /// Returns the angle at `now`, whole revolutions included.
+    ///
+    /// # Errors
+    /// The fault that keeps the sensor from telling. The encoder reports it (6503h, EMCY) until
+    /// a call succeeds, and shows the last angle meanwhile.
+    fn angle(&mut self, now: Instant) -> Result<Angle, Fault>;
+
+    /// Returns the mean speed over the `interval` in microseconds before `now`: revolutions per
+    /// second, times `gain`, rounded towards zero. `None`: it is not known that far back.
+    fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
+
+    /// Returns the mean acceleration, in revolutions per second squared; else as
+    /// [`speed`](Self::speed).
+    fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64>;
+
+    /// Tells the longest interval, in microseconds, that the encoder will ask for.
+    fn look_back(&mut self, interval: u32) {
+        let _ = interval;
+    }
+
+    /// When [`angle`](Self::angle) wants to be called next, asked for or not.
+    fn due(&self) -> Option<Instant> {
+        None
+    }
+
+    /// The electronics start: power came, or NMT reset node. A [`Counter::Volatile`] begins
+    /// within the first revolution.
+    fn start(&mut self, now: Instant, counter: Counter, sensor: Sensor) {
+        let _ = (now, counter, sensor);
+    }
+
+    /// Power goes. Only a simulation outlives this.
+    fn power_off(&mut self, now: Instant) {
+        let _ = now;
+    }
+}
+
+/// Factor from revolutions to the units of an object.
+///
+/// `steps / revolutions × multiplier / divider`; a 0 below a line counts as 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Gain {
+    /// Steps in as many revolutions; at most 2³² per revolution.
+    pub steps: u64,
+    /// Revolutions.
+    pub revolutions: u64,
+    /// Numerator of the object's own factor.
+    pub multiplier: u32,
+    /// Denominator of the object's own factor.
+    pub divider: u32,
+}
+
+impl Gain {
+    /// Gain of `steps` per revolution.
+    pub const fn steps(steps: u32) -> Self {
+        Self::ratio(steps as u64, 1)
+    }
+
+    /// Gain of `steps` in as many `revolutions`.
+    pub const fn ratio(steps: u64, revolutions: u64) -> Self {
+        Self {
+            steps,
+            revolutions,
+            multiplier: 1,
+            divider: 1,
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! What a revolution counter does not see while there is no power.
+
+use super::{Angle, Counter, Sensor};
+
+/// Revolutions that the counter of an encoder missed.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Unseen {
+    angle: Angle,
+    /// Where the shaft was when power went.
+    off: Option<Angle>,
+}
+
+impl Unseen {
+    /// A counter that saw all.
+    pub(super) const NOTHING: Self = Self {
+        angle: Angle::ZERO,
+        off: None,
+    };
+
+    /// What was missed so far.
+    #[inline]
+    pub(super) const fn angle(&self) -> Angle {
+        self.angle
+    }
+
+    /// The counter knows where the shaft is.
+    pub(super) fn forget(&mut self) {
+        self.angle = Angle::ZERO;
+    }
+
+    /// Power goes with the shaft at this angle. It may turn on; a counter that misses a crossing
+    /// of its zero does not know of it, which shows where the revolutions are no power of two.
+    pub(super) fn power_off(&mut self, shaft: Angle) {
+        self.off = Some(shaft.minus(self.angle));
+    }
+
+    /// The counter starts with the shaft at this angle.
+    pub(super) fn power_on(&mut self, shaft: Angle, counter: Counter, sensor: Sensor) {
+        let off = self.off.take();
+        let on = shaft.minus(self.angle);
+        // Whole ranges that fit into the angle fit into its difference.
+        let missed = match (counter, off) {
+            (Counter::Volatile, _) => on.fractions() & !0xFFFF_FFFF,
+            (_, None) => 0,
+            (Counter::Sensor, Some(off)) => {
+                let range = i128::from(sensor.turns.max(1)) << 32;
+                let laps = |angle: Angle| i128::from(angle.fractions()).div_euclid(range);
+                ((laps(on) - laps(off)) * range) as i64
+            }
+            (Counter::Kept { turns }, Some(off)) => {
+                let turned = i128::from(on.minus(off).fractions());
+                let (range, half) = (i128::from(turns.max(1)) << 32, i128::from(turns) << 31);
+                if turned.abs() <= half {
+                    0
+                } else {
+                    ((turned + half).div_euclid(range) * range) as i64
+                }
+            }
+        };
+        self.angle = self.angle.plus(Angle::from_fractions(missed));
+    }
+}
