@@ -6,7 +6,13 @@ use crate::setup::target::{self, Compiler};
 use crate::test::Context;
 
 /// The crates that must do without the standard library.
-const NO_STD: [&str; 4] = ["od-model", "od-wire", "od-runtime", "od-devices"];
+const NO_STD: [&str; 5] = [
+    "od-model",
+    "od-wire",
+    "od-client",
+    "od-runtime",
+    "od-devices",
+];
 
 /// Everything but the tests from outside and the benchmarks with their heavy peers.
 const CRATES: [&str; 5] = [

@@ -1,0 +1,111 @@
+//! What the client tells its host.
+
+use alloc::collections::VecDeque;
+use alloc::vec::Vec;
+
+use od_wire::NodeId;
+use od_wire::nmt::State;
+
+use crate::emcy::Emcy;
+use crate::lss::{Answer, LssError};
+use crate::sdo::SdoError;
+use crate::watch;
+
+/// Events of the bus that wait at most.
+const NEWS: usize = 256;
+
+/// What the host asked for: a number that comes back with the event that ends it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Job(u32);
+
+impl Job {
+    pub(super) const fn new(number: u32) -> Self {
+        Self(number)
+    }
+
+    /// The number: 1 for a client's first job, and one more for each.
+    pub const fn number(self) -> u32 {
+        self.0
+    }
+}
+
+/// What happened.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum Event {
+    /// The end of [`Client::read`](crate::Client::read), with the value.
+    Read(Job, Result<Vec<u8>, SdoError>),
+    /// The end of [`Client::write`](crate::Client::write).
+    Written(Job, Result<(), SdoError>),
+    /// The end of [`Client::lss`](crate::Client::lss).
+    Lss(Job, Result<Answer, LssError>),
+    /// A boot-up message, of any node.
+    BootUp(NodeId),
+    /// The state in a heartbeat of any node, if it is another one than before.
+    State(NodeId, State),
+    /// No heartbeat of a watched node came in time.
+    Lost(NodeId),
+    /// A heartbeat of a node that was lost.
+    Back(NodeId),
+    /// An EMCY message, of any node.
+    Emcy(NodeId, Emcy),
+}
+
+impl From<watch::Event> for Event {
+    fn from(event: watch::Event) -> Self {
+        match event {
+            watch::Event::Back(node) => Self::Back(node),
+            watch::Event::BootUp(node) => Self::BootUp(node),
+            watch::Event::State(node, state) => Self::State(node, state),
+            watch::Event::Lost(node) => Self::Lost(node),
+        }
+    }
+}
+
+/// Events on their way to the host. Ends of jobs are never dropped: there are as many as the
+/// host began.
+#[derive(Debug)]
+pub(super) struct Events {
+    waiting: VecDeque<Event>,
+    /// How many of them are no ends of jobs.
+    news: usize,
+    dropped: u64,
+}
+
+impl Events {
+    pub(super) const fn new() -> Self {
+        Self {
+            waiting: VecDeque::new(),
+            news: 0,
+            dropped: 0,
+        }
+    }
+
+    /// A job is over.
+    pub(super) fn end(&mut self, event: Event) {
+        self.waiting.push_back(event);
+    }
+
+    /// Something happened on the bus.
+    pub(super) fn tell(&mut self, event: Event) {
+        if self.news < NEWS {
+            self.news += 1;
+            self.waiting.push_back(event);
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    pub(super) fn pop(&mut self) -> Option<Event> {
+        let event = self.waiting.pop_front()?;
+        let is_end = matches!(event, Event::Read(..) | Event::Written(..) | Event::Lss(..));
+        if !is_end {
+            self.news -= 1;
+        }
+        Some(event)
+    }
+
+    pub(super) const fn dropped(&self) -> u64 {
+        self.dropped
+    }
+}

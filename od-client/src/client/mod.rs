@@ -1,0 +1,215 @@
+//! Everything for all nodes of a bus, with queues.
+
+mod events;
+mod lane;
+mod tasks;
+
+use alloc::collections::VecDeque;
+
+use od_model::Address;
+use od_wire::nmt::{Command, State};
+use od_wire::{Duration, Frame, Instant, NodeId};
+
+use self::events::Events;
+use self::lane::Lane;
+use self::tasks::Tasks;
+use crate::lss;
+use crate::sdo::Options;
+use crate::watch::{self, Watch};
+use crate::{emcy, nmt};
+
+pub use self::events::{Event, Job};
+
+/// Node IDs that exist.
+const NODES: usize = 127;
+
+/// A CANopen client for all nodes of a bus.
+///
+/// Jobs for one node wait for each other; those for several nodes run side by side. Each ends
+/// with exactly one event of its own. The crate's page shows the loop around it: send what
+/// [`poll_transmit`](Self::poll_transmit) has, take what [`poll_event`](Self::poll_event) has,
+/// wait for a frame or [`poll_timeout`](Self::poll_timeout).
+///
+/// Nothing grows by what comes from the bus: values have a limit, and of boot-up messages,
+/// states and EMCY messages 256 wait; while they do, new ones are dropped and counted.
+#[derive(Debug)]
+pub struct Client {
+    options: Options,
+    jobs: u32,
+    /// One a node that was ever asked, in the order of their first jobs.
+    lanes: alloc::vec::Vec<Lane>,
+    /// The lane that sends next.
+    turn: usize,
+    tasks: Tasks,
+    watch: Watch<NODES>,
+    out: VecDeque<Frame>,
+    events: Events,
+}
+
+impl Default for Client {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Client {
+    /// A client with default options.
+    pub fn new() -> Self {
+        Self::with(Options::DEFAULT, lss::Options::DEFAULT)
+    }
+
+    /// A client with options for its transfers and its LSS master.
+    pub fn with(sdo: Options, lss: lss::Options) -> Self {
+        Self {
+            options: sdo,
+            jobs: 0,
+            lanes: alloc::vec::Vec::new(),
+            turn: 0,
+            tasks: Tasks::new(lss),
+            watch: Watch::new(),
+            out: VecDeque::new(),
+            events: Events::new(),
+        }
+    }
+
+    /// Reads an object; ends with [`Event::Read`].
+    pub fn read(&mut self, node: NodeId, object: Address) -> Job {
+        let job = self.job();
+        let options = self.options;
+        self.lane(node).read(job, object, options);
+        job
+    }
+
+    /// Writes an object; ends with [`Event::Written`].
+    pub fn write(&mut self, node: NodeId, object: Address, bytes: &[u8]) -> Job {
+        let job = self.job();
+        let options = self.options;
+        self.lane(node).write(job, object, bytes, options);
+        job
+    }
+
+    /// Runs an LSS service after those that wait; ends with [`Event::Lss`].
+    ///
+    /// To give node IDs to several slaves that have none: fastscan until it finds no other
+    /// slave, switch all to waiting state, then for each LSS address switch state selective,
+    /// configure node ID, store, and switch to waiting state again.
+    pub fn lss(&mut self, task: lss::Task) -> Job {
+        let job = self.job();
+        self.tasks.push(job, task);
+        job
+    }
+
+    /// Ends a job without an event, with an SDO abort if it is under way. Returns whether the
+    /// job was there.
+    pub fn cancel(&mut self, now: Instant, job: Job) -> bool {
+        let Self { lanes, out, .. } = self;
+        lanes.iter_mut().any(|lane| lane.cancel(now, job, out)) || self.tasks.cancel(job)
+    }
+
+    /// Sends an NMT command; `None` addresses all nodes.
+    pub fn nmt(&mut self, node: Option<NodeId>, command: Command) {
+        self.out.push_back(nmt::frame(node, command));
+    }
+
+    /// Watches a node: without a heartbeat for so long it is [`Event::Lost`]. The time starts
+    /// with the first heartbeat.
+    pub fn watch(&mut self, node: NodeId, heartbeat: Duration) {
+        // There is a place for each node ID.
+        _ = self.watch.add(node, Some(heartbeat));
+    }
+
+    /// Ends what [`watch`](Self::watch) began.
+    pub fn unwatch(&mut self, node: NodeId) {
+        _ = self.watch.add(node, None);
+    }
+
+    /// Returns the state in the node's last heartbeat, [`State::Initialising`] after its boot-up
+    /// message; `None` if it was not heard or is lost.
+    pub fn state(&self, node: NodeId) -> Option<State> {
+        self.watch.state(node)
+    }
+
+    /// Takes a frame from the bus; frames that are not for a client are ignored.
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        for lane in &mut self.lanes {
+            lane.handle_frame(now, frame, &mut self.out, &mut self.events);
+        }
+        self.tasks.handle_frame(now, frame, &mut self.events);
+        if let Some((node, _)) = watch::parse(frame) {
+            if !self.watch.contains(node) {
+                self.unwatch(node);
+            }
+            self.watch.handle_frame(now, frame);
+            self.take_news();
+        }
+        if let Some((node, emcy)) = emcy::parse(frame) {
+            self.events.tell(Event::Emcy(node, emcy));
+        }
+    }
+
+    /// Acts on what is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    pub fn handle_timeout(&mut self, now: Instant) {
+        for lane in &mut self.lanes {
+            lane.handle_timeout(now, &mut self.out, &mut self.events);
+        }
+        self.tasks.handle_timeout(now, &mut self.events);
+        self.watch.handle_timeout(now);
+        self.take_news();
+    }
+
+    /// Returns the next frame to send; the time for its answer starts at `now`. Nodes take
+    /// turns.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        if let Some(frame) = self.out.pop_front() {
+            return Some(frame);
+        }
+        if let Some(frame) = self.tasks.poll_transmit(now, &mut self.events) {
+            return Some(frame);
+        }
+        for _ in 0..self.lanes.len() {
+            self.turn = (self.turn + 1) % self.lanes.len();
+            let frame = self.lanes.get_mut(self.turn)?.poll_transmit(now);
+            if frame.is_some() {
+                return frame;
+            }
+        }
+        None
+    }
+
+    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        let lanes = self.lanes.iter().filter_map(Lane::poll_timeout);
+        let others = [self.tasks.poll_timeout(), self.watch.poll_timeout()];
+        lanes.chain(others.into_iter().flatten()).min()
+    }
+
+    /// Returns the oldest event.
+    pub fn poll_event(&mut self) -> Option<Event> {
+        self.events.pop()
+    }
+
+    /// Returns how many events of the bus were dropped because 256 waited.
+    pub const fn dropped_events(&self) -> u64 {
+        self.events.dropped()
+    }
+
+    fn job(&mut self) -> Job {
+        self.jobs = self.jobs.wrapping_add(1);
+        Job::new(self.jobs)
+    }
+
+    fn lane(&mut self, node: NodeId) -> &mut Lane {
+        let at = self.lanes.iter().position(|lane| lane.node() == node);
+        let at = at.unwrap_or(self.lanes.len());
+        if at == self.lanes.len() {
+            self.lanes.push(Lane::new(node));
+        }
+        &mut self.lanes[at]
+    }
+
+    fn take_news(&mut self) {
+        while let Some(event) = self.watch.poll_event() {
+            self.events.tell(event.into());
+        }
+    }
+}

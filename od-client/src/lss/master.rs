@@ -1,0 +1,228 @@
+//! The master: one service at a time.
+
+use core::fmt;
+
+use od_wire::lss::{MASTER, Response, SLAVE};
+use od_wire::{CanId, Duration, Frame, Instant, NodeId};
+
+use super::fastscan::Fastscan;
+use super::task::{Answer, LssError, Task};
+
+/// Settings of the master.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub struct Options {
+    /// Longest time from a request to its answer. Storing takes the longest.
+    pub timeout: Duration,
+    /// Time that a step of fastscan waits for an answer. 65 to 133 steps find a slave; each bit
+    /// that is 1 takes the whole time.
+    pub scan: Duration,
+    /// Time that a step of fastscan or identification waits after an answer, as further slaves
+    /// may send the same. A late answer would count for the next step.
+    pub settle: Duration,
+}
+
+impl Options {
+    /// 1 s, 50 ms, 10 ms.
+    pub const DEFAULT: Self = Self {
+        timeout: Duration::from_secs(1),
+        scan: Duration::from_millis(50),
+        settle: Duration::from_millis(10),
+    };
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+/// The master is still at work on another service.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Busy;
+
+impl fmt::Display for Busy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the LSS master is at work on another service")
+    }
+}
+
+impl core::error::Error for Busy {}
+
+/// What is under way.
+#[derive(Clone, Copy, Debug)]
+struct Work {
+    task: Task,
+    scan: Fastscan,
+    /// The next frame; for a fastscan 0 where one is due.
+    step: u8,
+    /// Who is waited for.
+    deadline: Option<Instant>,
+    /// A slave has answered; the time for others runs.
+    heard: bool,
+}
+
+/// LSS master: takes one [`Task`] at a time, without queue and allocator.
+///
+/// ```
+/// use od_client::lss::{Answer, Master, Options, Task};
+/// use od_client::{Frame, Instant};
+///
+/// let mut master = Master::new(Options::DEFAULT);
+/// master.begin(Task::InquireNodeId).expect("nothing is under way");
+/// let request = master.poll_transmit(Instant::ZERO).expect("a request");
+/// assert_eq!(request.to_string(), "7E5#5E00000000000000");
+/// master.handle_frame(Instant::ZERO, &Frame::standard(0x7E4, &[0x5E, 0xFF, 0, 0, 0, 0, 0, 0]));
+/// assert_eq!(master.poll_answer(), Some(Ok(Answer::NodeId(None))));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Master {
+    options: Options,
+    work: Option<Work>,
+    answer: Option<Result<Answer, LssError>>,
+}
+
+impl Master {
+    /// A master that does nothing yet.
+    pub const fn new(options: Options) -> Self {
+        Self {
+            options,
+            work: None,
+            answer: None,
+        }
+    }
+
+    /// Begins a service. An answer that was not taken is forgotten.
+    ///
+    /// # Errors
+    /// [`Busy`] while another one is under way.
+    pub fn begin(&mut self, task: Task) -> Result<(), Busy> {
+        if self.work.is_some() {
+            return Err(Busy);
+        }
+        self.answer = None;
+        self.work = Some(Work {
+            task,
+            scan: Fastscan::new(),
+            step: 0,
+            deadline: None,
+            heard: false,
+        });
+        Ok(())
+    }
+
+    /// Is a service under way?
+    pub const fn is_busy(&self) -> bool {
+        self.work.is_some()
+    }
+
+    /// Ends the service that is under way, without an answer.
+    pub fn cancel(&mut self) {
+        self.work = None;
+    }
+
+    /// Takes a frame from the bus; only LSS slaves' answers to the service count.
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        let Some(work) = &mut self.work else { return };
+        if frame.id() != CanId::standard(SLAVE) || work.deadline.is_none() {
+            return;
+        }
+        let Some(response) = Response::parse(frame.data()) else {
+            return;
+        };
+        let answer = match (work.task, response) {
+            (Task::Fastscan | Task::Identify { .. }, Response::Identified)
+            | (Task::IdentifyNonConfigured, Response::NonConfigured) => {
+                if !work.heard {
+                    work.heard = true;
+                    work.deadline = Some(now + self.options.settle);
+                }
+                return;
+            }
+            (Task::SwitchSelective(_), Response::Selected { .. }) => Ok(Answer::Done),
+            (Task::Inquire(asked), Response::Number { part, value }) if part == asked => {
+                Ok(Answer::Number(value))
+            }
+            (Task::InquireNodeId, Response::NodeId { node_id }) => {
+                Ok(Answer::NodeId(NodeId::new(node_id)))
+            }
+            (task, Response::Configured { command, error })
+                if command_of(task) == Some(command) =>
+            {
+                match error {
+                    0 => Ok(Answer::Done),
+                    error => Err(LssError::Refused {
+                        error,
+                        specific: frame.bytes()[2],
+                    }),
+                }
+            }
+            _ => return,
+        };
+        self.end(answer);
+    }
+
+    /// Goes on, or gives up, if the time of a step is over; does nothing before
+    /// [`poll_timeout`](Self::poll_timeout).
+    pub fn handle_timeout(&mut self, now: Instant) {
+        let Some(work) = &mut self.work else { return };
+        if work.deadline.is_none_or(|at| at > now) {
+            return;
+        }
+        work.deadline = None;
+        let heard = core::mem::take(&mut work.heard);
+        let answer = match work.task {
+            Task::Fastscan => {
+                work.step = 0;
+                work.scan.step(heard)
+            }
+            task if task.is_question() => Some(Ok(Answer::Exists(heard))),
+            _ => Some(Err(LssError::Silent)),
+        };
+        if let Some(answer) = answer {
+            self.end(answer);
+        }
+    }
+
+    /// Returns the next frame to send; the time for the answer starts at `now`.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        let work = self.work.as_mut()?;
+        let (request, wait) = match work.task {
+            Task::Fastscan if work.step == 0 => (work.scan.request(), self.options.scan),
+            task => (task.request(work.step)?, self.options.timeout),
+        };
+        work.step += 1;
+        let is_last = work.task.request(work.step).is_none();
+        if is_last && work.task.is_unconfirmed() {
+            self.end(Ok(Answer::Done));
+        } else if is_last {
+            work.deadline = Some(now + wait);
+        }
+        Some(Frame::full(CanId::standard(MASTER), request.emit()))
+    }
+
+    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        self.work.as_ref()?.deadline
+    }
+
+    /// Returns what the service brought, once.
+    pub fn poll_answer(&mut self) -> Option<Result<Answer, LssError>> {
+        self.answer.take()
+    }
+
+    fn end(&mut self, answer: Result<Answer, LssError>) {
+        self.work = None;
+        self.answer = Some(answer);
+    }
+}
+
+/// The command that a slave's confirmation repeats.
+const fn command_of(task: Task) -> Option<u8> {
+    match task {
+        Task::ConfigureNodeId(_) => Some(0x11),
+        Task::ConfigureBitTiming { .. } => Some(0x13),
+        Task::Store => Some(0x17),
+        _ => None,
+    }
+}

@@ -1,0 +1,198 @@
+//! What an LSS master can ask for, and what comes of it.
+
+use core::fmt;
+
+use od_wire::NodeId;
+use od_wire::lss::{Part, Request};
+
+/// The LSS address: the four numbers of 1018h (CiA 305, chapter 5.3).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Identity {
+    /// 1018h:01, vendor-ID.
+    pub vendor: u32,
+    /// 1018h:02, product code.
+    pub product: u32,
+    /// 1018h:03, revision number.
+    pub revision: u32,
+    /// 1018h:04, serial number.
+    pub serial: u32,
+}
+
+impl Identity {
+    /// From the four numbers in the order of 1018h.
+    pub const fn new([vendor, product, revision, serial]: [u32; 4]) -> Self {
+        Self {
+            vendor,
+            product,
+            revision,
+            serial,
+        }
+    }
+
+    /// The four numbers in the order of 1018h.
+    pub const fn parts(self) -> [u32; 4] {
+        [self.vendor, self.product, self.revision, self.serial]
+    }
+}
+
+/// One service of the LSS master (CiA 305, chapter 6.3).
+///
+/// Those for a single slave need one in configuration state, and no second.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum Task {
+    /// Switch state global: all slaves to configuration state, or to waiting state. No slave
+    /// answers.
+    SwitchGlobal {
+        /// To configuration state.
+        configuration: bool,
+    },
+    /// Switch state selective: the slave with this LSS address to configuration state.
+    SwitchSelective(Identity),
+    /// Inquire one number of the LSS address.
+    Inquire(Part),
+    /// Inquire node ID.
+    InquireNodeId,
+    /// Configure node ID; `None` writes FFh, which makes the slave a non-configured one.
+    ConfigureNodeId(Option<NodeId>),
+    /// Configure bit timing: a table (0: CiA 301) and an index into it (0: 1000 kbit/s to
+    /// 8: 10 kbit/s).
+    ConfigureBitTiming {
+        /// Table selector.
+        table: u8,
+        /// Table index.
+        index: u8,
+    },
+    /// Activate bit timing. The slaves are silent for this time, change over, and are silent
+    /// for it again. No slave answers.
+    ActivateBitTiming {
+        /// Switch delay in ms.
+        delay_ms: u16,
+    },
+    /// Store configuration.
+    Store,
+    /// Identify remote slave: does a slave with these numbers exist? The last two are ranges,
+    /// both ends included.
+    Identify {
+        /// Vendor-ID.
+        vendor: u32,
+        /// Product code.
+        product: u32,
+        /// Lowest and highest revision number.
+        revision: [u32; 2],
+        /// Lowest and highest serial number.
+        serial: [u32; 2],
+    },
+    /// Identify non-configured remote slave: does a slave without node ID exist?
+    IdentifyNonConfigured,
+    /// Fastscan: find the LSS address of one slave in waiting state. The slave found is in
+    /// configuration state then, and the next fastscan finds another one.
+    Fastscan,
+}
+
+impl Task {
+    /// The frame of a step, as long as there are steps. Fastscan has its own.
+    pub(super) fn request(self, step: u8) -> Option<Request> {
+        let at = usize::from(step);
+        match self {
+            Self::SwitchSelective(identity) => {
+                let value = *identity.parts().get(at)?;
+                let part = *Part::ALL.get(at)?;
+                return Some(Request::SwitchSelective { part, value });
+            }
+            Self::Identify {
+                vendor,
+                product,
+                revision,
+                serial,
+            } => {
+                let [low_revision, high_revision] = revision;
+                let [low, high] = serial;
+                let values = [vendor, product, low_revision, high_revision, low, high];
+                let value = *values.get(at)?;
+                return Some(Request::IdentifyRemote { step, value });
+            }
+            _ if step > 0 => return None,
+            _ => {}
+        }
+        Some(match self {
+            Self::SwitchGlobal { configuration } => Request::SwitchGlobal { configuration },
+            Self::Inquire(part) => Request::Inquire { part },
+            Self::InquireNodeId => Request::InquireNodeId,
+            Self::ConfigureNodeId(node) => Request::ConfigureNodeId {
+                node_id: node.map_or(0xFF, NodeId::raw),
+            },
+            Self::ConfigureBitTiming { table, index } => {
+                Request::ConfigureBitTiming { table, index }
+            }
+            Self::ActivateBitTiming { delay_ms } => Request::ActivateBitTiming { delay_ms },
+            Self::Store => Request::Store,
+            Self::IdentifyNonConfigured => Request::IdentifyNonConfigured,
+            Self::SwitchSelective(_) | Self::Identify { .. } | Self::Fastscan => return None,
+        })
+    }
+
+    /// Does no slave answer?
+    pub(super) const fn is_unconfirmed(self) -> bool {
+        matches!(
+            self,
+            Self::SwitchGlobal { .. } | Self::ActivateBitTiming { .. }
+        )
+    }
+
+    /// Is silence an answer too: no such slave exists?
+    pub(super) const fn is_question(self) -> bool {
+        matches!(self, Self::Identify { .. } | Self::IdentifyNonConfigured)
+    }
+}
+
+/// What a service brought.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum Answer {
+    /// It is done; of a service that no slave answers: it was sent.
+    Done,
+    /// A number of the LSS address.
+    Number(u32),
+    /// The node ID; `None` if the slave has none (FFh), or one that is not valid.
+    NodeId(Option<NodeId>),
+    /// Does such a slave exist?
+    Exists(bool),
+    /// The slave that fastscan found; `None` if none is left.
+    Found(Option<Identity>),
+}
+
+/// Why a service failed.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum LssError {
+    /// No slave answered in time.
+    Silent,
+    /// The slave answers with an error code (CiA 305, chapters 6.3.2 and 6.3.3).
+    Refused {
+        /// Error code; 255: the manufacturer's own follows.
+        error: u8,
+        /// Specific error of the manufacturer.
+        specific: u8,
+    },
+    /// The slave that fastscan was looking for did not confirm its LSS address.
+    ScanFailed,
+}
+
+impl fmt::Display for LssError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Silent => f.write_str("no LSS slave answers in time"),
+            Self::Refused {
+                error: 0xFF,
+                specific,
+            } => write!(f, "the LSS slave answers with specific error {specific}"),
+            Self::Refused { error, .. } => write!(f, "the LSS slave answers with error {error}"),
+            Self::ScanFailed => {
+                f.write_str("no LSS slave confirms the LSS address that fastscan found")
+            }
+        }
+    }
+}
+
+impl core::error::Error for LssError {}

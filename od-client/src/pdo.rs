@@ -1,0 +1,192 @@
+//! PDOs taken apart by their mapping (CiA 301, chapters 7.2.2 and 7.4.9).
+
+use core::fmt;
+
+use od_model::{Address, DataType, Dictionary, Entry, Literal};
+use od_wire::pdo::MapRepr;
+
+/// The data of a PDO is shorter than its mapping.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct TooShort {
+    /// Bits that the mapping has.
+    pub mapped: u32,
+    /// Bits that came.
+    pub received: u32,
+}
+
+impl fmt::Display for TooShort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { mapped, received } = self;
+        write!(f, "the PDO has {received} bits, but its mapping {mapped}")
+    }
+}
+
+impl core::error::Error for TooShort {}
+
+/// One mapped value in a PDO.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Field<'d> {
+    /// The mapped object. One below 0020h is a dummy entry: a data type that fills a gap.
+    pub address: Address,
+    /// The object's entry; `None` if the dictionary has none.
+    pub entry: Option<&'d Entry>,
+    /// Position of the lowest bit in the PDO, 0 to 63.
+    pub first: u8,
+    /// Length in bits, 0 to 64.
+    pub bits: u8,
+    value: u64,
+}
+
+impl Field<'_> {
+    /// The bits as an unsigned number.
+    pub const fn unsigned(&self) -> u64 {
+        self.value
+    }
+
+    /// The bits as a two's complement number of [`bits`](Self::bits) bits.
+    pub const fn signed(&self) -> i64 {
+        match 64 - self.bits as u32 {
+            64 => 0,
+            shift => ((self.value << shift) as i64) >> shift,
+        }
+    }
+
+    /// The bits as little-endian bytes, as an SDO would carry them; the first
+    /// [`len`](Self::len) count.
+    pub const fn bytes(&self) -> [u8; 8] {
+        self.value.to_le_bytes()
+    }
+
+    /// Length in bytes, 0 to 8; a field of 1 bit has 1 byte.
+    pub const fn len(&self) -> usize {
+        self.bits.div_ceil(8) as usize
+    }
+
+    /// Does the field have no bits?
+    pub const fn is_empty(&self) -> bool {
+        self.bits == 0
+    }
+
+    /// Does the field only fill a gap (dummy mapping of CiA 301, chapter 7.4.7)?
+    pub const fn is_dummy(&self) -> bool {
+        self.address.index < 0x20
+    }
+
+    /// The type of the object, or of the dummy entry.
+    pub fn data_type(&self) -> Option<DataType> {
+        match self.entry {
+            Some(entry) => Some(entry.data_type),
+            None => DataType::from_code(self.address.index),
+        }
+    }
+}
+
+/// Takes the data of a PDO apart.
+///
+/// `mapping` are the mapping entries, 1600h:01 or 1A00h:01 and so on, as many as sub-index 0
+/// counts. Bytes after the mapped ones are ignored (CiA 301, chapter 7.2.2.5), as are bytes after
+/// the eighth.
+///
+/// # Errors
+/// [`TooShort`] if the data has fewer bits than the mapping.
+///
+/// ```
+/// # use od_model::Dictionary;
+/// use od_client::pdo;
+/// # let buckets: [u16; 1] = od_model::buckets(&[]);
+/// # let dictionary = Dictionary::new(&buckets, &[], &[], &[], "", &[]);
+///
+/// let mapping = [0x6000_0001, 0x6001_0003, 0x6002_000C];
+/// let fields = pdo::decode(&dictionary, &mapping, &[0b1010_1011, 0xCD]).expect("16 bits");
+/// let values: Vec<u64> = fields.map(|field| field.unsigned()).collect();
+/// assert_eq!(values, [0b1, 0b101, 0xCDA]);
+/// ```
+pub fn decode<'d, 'm>(
+    dictionary: &Dictionary<'d>,
+    mapping: &'m [u32],
+    data: &[u8],
+) -> Result<Fields<'d, 'm>, TooShort> {
+    let mut bytes = [0; 8];
+    let len = data.len().min(8);
+    bytes[..len].copy_from_slice(&data[..len]);
+    let bits = mapping.iter().map(|raw| raw & 0xFF);
+    let mapped = bits.fold(0, u32::saturating_add);
+    let received = len as u32 * 8;
+    if mapped > received {
+        return Err(TooShort { mapped, received });
+    }
+    Ok(Fields {
+        dictionary: *dictionary,
+        mapping: mapping.iter(),
+        data: u64::from_le_bytes(bytes),
+        first: 0,
+    })
+}
+
+/// The values of a PDO, in the order of the mapping. Made by [`decode`].
+#[derive(Clone, Debug)]
+pub struct Fields<'d, 'm> {
+    dictionary: Dictionary<'d>,
+    mapping: core::slice::Iter<'m, u32>,
+    data: u64,
+    /// Bits that are taken; at most 64, as `decode` has checked.
+    first: u8,
+}
+
+impl<'d> Iterator for Fields<'d, '_> {
+    type Item = Field<'d>;
+
+    fn next(&mut self) -> Option<Field<'d>> {
+        let MapRepr { address, bits } = MapRepr::parse(*self.mapping.next()?);
+        let first = self.first;
+        let rest = self.data.checked_shr(first.into()).unwrap_or(0);
+        let mask = u64::MAX.checked_shr(64 - u32::from(bits.min(64)));
+        self.first = first.saturating_add(bits);
+        Some(Field {
+            address,
+            entry: self.dictionary.find(address).ok(),
+            first,
+            bits,
+            value: rest & mask.unwrap_or(0),
+        })
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.mapping.size_hint()
+    }
+}
+
+impl ExactSizeIterator for Fields<'_, '_> {}
+
+/// A mapping that was read from a dictionary.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Mapping {
+    entries: [u32; 64],
+    len: usize,
+}
+
+impl Mapping {
+    /// The default mapping of a PDO: the default values of the mapping object `index` (1600h to
+    /// 17FFh, 1A00h to 1BFFh), as many as its sub-index 0 counts, 64 at most. `None` if the
+    /// dictionary does not have them all.
+    pub fn of(dictionary: &Dictionary<'_>, index: u16) -> Option<Self> {
+        let default = |sub| match dictionary.entry(index, sub)?.default {
+            Literal::Unsigned(value) => u32::try_from(value).ok(),
+            _ => None,
+        };
+        let mut mapping = Self {
+            entries: [0; 64],
+            len: default(0)? as usize,
+        };
+        let entries = mapping.entries.get_mut(..mapping.len)?;
+        for (sub, entry) in (1..).zip(entries) {
+            *entry = default(sub)?;
+        }
+        Some(mapping)
+    }
+
+    /// The mapping entries, for [`decode`].
+    pub fn entries(&self) -> &[u32] {
+        self.entries.get(..self.len).unwrap_or_default()
+    }
+}

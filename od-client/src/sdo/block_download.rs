@@ -1,0 +1,124 @@
+//! Block download: sends the segments, block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.12).
+
+use od_wire::AbortCode;
+use od_wire::sdo::{Request, Response, crc16};
+
+use super::error::{Expected, SdoError};
+use super::line::Line;
+
+/// A block download after its initiation.
+#[derive(Debug)]
+pub(super) struct Blocks {
+    /// The server checks a CRC.
+    crc: bool,
+    /// Segments that the server takes before it answers.
+    block_size: u8,
+    /// Bytes that the server confirmed.
+    done: usize,
+    /// Segments of this block that were sent.
+    sent: u8,
+    /// Blocks in a row of which the server took nothing.
+    stalls: u8,
+    /// Everything is confirmed; the end is on its way.
+    is_complete: bool,
+}
+
+/// Checks a server's block size; fails unless it is 1 to 127.
+fn check(line: &mut Line, block_size: u8, expected: Expected, got: Response) -> bool {
+    let fits = (1..=127).contains(&block_size);
+    if !fits {
+        line.refuse(AbortCode::InvalidBlockSize, expected, got);
+    }
+    fits
+}
+
+impl Blocks {
+    /// The server agreed. `None` if its block size is not valid.
+    pub(super) fn new(line: &mut Line, crc: bool, block_size: u8) -> Option<Self> {
+        let got = Response::InitiateBlockDownload {
+            address: line.address,
+            crc,
+            block_size,
+        };
+        check(line, block_size, Expected::BlockDownload, got).then_some(Self {
+            crc,
+            block_size,
+            done: 0,
+            sent: 0,
+            stalls: 0,
+            is_complete: false,
+        })
+    }
+
+    /// Segments that are left at the start of this block; an empty value takes one.
+    fn segments_left(&self, data: &[u8]) -> usize {
+        data.len().saturating_sub(self.done).div_ceil(7).max(1)
+    }
+
+    /// The next segment of the block, if it has more.
+    pub(super) fn next_segment(&mut self, data: &[u8]) -> Option<[u8; 8]> {
+        let left = self.segments_left(data);
+        if self.is_complete || self.sent >= self.block_size || usize::from(self.sent) >= left {
+            return None;
+        }
+        let start = self.done + usize::from(self.sent) * 7;
+        let rest = data.get(start..).unwrap_or_default();
+        let len = rest.len().min(7);
+        let mut frame = [0; 8];
+        frame[1..=len].copy_from_slice(&rest[..len]);
+        self.sent += 1;
+        let last = usize::from(self.sent) == left;
+        frame[0] = self.sent | u8::from(last) << 7;
+        Some(frame)
+    }
+
+    /// An answer of the server.
+    pub(super) fn handle(&mut self, line: &mut Line, data: &[u8], response: Response) {
+        match response {
+            Response::EndBlockDownload if self.is_complete => line.finish(),
+            Response::BlockDownloadResponse { ack, .. } if !self.is_complete && ack > self.sent => {
+                let expected = Expected::BlockConfirmation;
+                line.refuse(AbortCode::InvalidSequence, expected, response);
+            }
+            Response::BlockDownloadResponse { ack, block_size } if !self.is_complete => {
+                self.confirmed(line, data, ack, block_size);
+            }
+            other => {
+                let expected = if self.is_complete {
+                    Expected::BlockDownloadEnd
+                } else {
+                    Expected::BlockConfirmation
+                };
+                line.refuse(AbortCode::InvalidCommand, expected, other);
+            }
+        }
+    }
+
+    /// The server has the first `ack` segments of the block; the others are sent again.
+    fn confirmed(&mut self, line: &mut Line, data: &[u8], ack: u8, block_size: u8) {
+        if usize::from(ack) >= self.segments_left(data) {
+            self.is_complete = true;
+            let unused = match data.len() % 7 {
+                0 if !data.is_empty() => 0,
+                tail => 7 - tail as u8,
+            };
+            let crc = if self.crc { crc16(data) } else { 0 };
+            return line.send(Request::EndBlockDownload { unused, crc });
+        }
+        let got = Response::BlockDownloadResponse { ack, block_size };
+        if !check(line, block_size, Expected::BlockConfirmation, got) {
+            return;
+        }
+        if ack > 0 {
+            self.stalls = 0;
+        } else if self.stalls < line.options.repeats {
+            self.stalls += 1;
+        } else {
+            return line.fail(AbortCode::InvalidSequence, SdoError::NoProgress);
+        }
+        self.done += usize::from(ack) * 7;
+        self.sent = 0;
+        self.block_size = block_size;
+        line.stop_waiting();
+    }
+}

@@ -1,0 +1,117 @@
+//! Block upload: takes the segments, block by block (CiA 301, chapters 7.2.4.3.13 to 7.2.4.3.15).
+
+use od_wire::sdo::{Request, Response, crc16};
+use od_wire::{AbortCode, Instant};
+
+use super::buffer::Buffer;
+use super::error::{Expected, SdoError};
+use super::line::{Line, parse};
+
+/// A block upload after its initiation.
+#[derive(Debug)]
+pub(super) struct Blocks {
+    /// The server makes a CRC.
+    crc: bool,
+    /// Announced length in bytes.
+    size: Option<u32>,
+    /// Segments in a block.
+    block_size: u8,
+    /// The last segment of this block that came in sequence.
+    ack: u8,
+    /// A segment of this block came.
+    heard: bool,
+    /// The last segment of all; how much of it is data comes with the end.
+    tail: Option<[u8; 7]>,
+    /// Blocks in a row that brought nothing.
+    stalls: u8,
+}
+
+impl Blocks {
+    pub(super) const fn new(crc: bool, size: Option<u32>, block_size: u8) -> Self {
+        Self {
+            crc,
+            size,
+            block_size,
+            ack: 0,
+            heard: false,
+            tail: None,
+            stalls: 0,
+        }
+    }
+
+    pub(super) const fn wants_segments(&self) -> bool {
+        self.tail.is_none()
+    }
+
+    /// Did segments of the present block come? If the rest of them is lost, the block can be
+    /// confirmed as far as it came.
+    pub(super) const fn heard(&self) -> bool {
+        self.heard
+    }
+
+    /// A frame while segments are due. One that is out of sequence is passed over: the answer
+    /// at the end of the block tells the server where to go on.
+    pub(super) fn segment(
+        &mut self,
+        line: &mut Line,
+        buffer: &mut impl Buffer,
+        now: Instant,
+        data: &[u8; 8],
+    ) {
+        let [head, bytes @ ..] = *data;
+        let (sequence, last) = (head & 0x7F, head & 0x80 != 0);
+        // Segments begin with 1, so 80h is an abort.
+        if sequence == 0 || sequence > self.block_size {
+            let got = parse(data);
+            return line.refuse(AbortCode::InvalidSequence, Expected::BlockSegment, got);
+        }
+        self.heard = true;
+        line.wait(now);
+        if sequence == self.ack + 1 {
+            if last {
+                self.tail = Some(bytes);
+            } else if !line.keep(buffer, &bytes, self.size) {
+                return;
+            }
+            self.ack = sequence;
+        }
+        if last || sequence == self.block_size {
+            self.confirm(line);
+        }
+    }
+
+    /// Tells the server how far the block came.
+    pub(super) fn confirm(&mut self, line: &mut Line) {
+        if self.ack > 0 {
+            self.stalls = 0;
+        } else if self.stalls < line.options.repeats {
+            self.stalls += 1;
+        } else {
+            return line.fail(AbortCode::InvalidSequence, SdoError::NoProgress);
+        }
+        line.send(Request::BlockUploadResponse {
+            ack: self.ack,
+            block_size: self.block_size,
+        });
+        self.ack = 0;
+        self.heard = false;
+    }
+
+    /// The answer after the last segment.
+    pub(super) fn end(&mut self, line: &mut Line, buffer: &mut impl Buffer, response: Response) {
+        let Response::EndBlockUpload { unused, crc } = response else {
+            let expected = Expected::BlockUploadEnd;
+            return line.refuse(AbortCode::InvalidCommand, expected, response);
+        };
+        let tail = self.tail.unwrap_or_default();
+        let tail = &tail[..7 - usize::from(unused.min(7))];
+        if !line.keep(buffer, tail, self.size) || !line.check_complete(buffer, self.size) {
+            return;
+        }
+        if self.crc && crc16(buffer.bytes()) != crc {
+            return line.fail(AbortCode::Crc, SdoError::Crc);
+        }
+        line.send(Request::EndBlockUpload);
+        line.finish();
+    }
+}

@@ -1,0 +1,223 @@
+//! Download: writes an object, expedited or in segments (CiA 301, chapters 7.2.4.3.3 and 7.2.4.3.4).
+
+use od_model::Address;
+use od_wire::sdo::{Request, Response};
+use od_wire::{AbortCode, Frame, Instant};
+
+use super::block_download::Blocks;
+use super::channel::Channel;
+use super::error::{Expected, SdoError};
+use super::line::{Line, parse};
+use super::options::Options;
+
+#[derive(Debug)]
+enum State {
+    /// Initiate download is on its way, with the data or without.
+    Initiate { expedited: bool },
+    /// A segment is on its way; all data before `end` was sent.
+    Segment { toggle: bool, end: usize },
+    /// Initiate block download is on its way.
+    InitiateBlock,
+    /// Blocks are on their way.
+    Blocks(Blocks),
+}
+
+/// The download of one object: the client writes, the server takes.
+///
+/// The data stays where it is until the transfer is over, as a block may have to be repeated.
+#[derive(Debug)]
+pub struct Download<D> {
+    line: Line,
+    data: D,
+    state: State,
+    refused_block: bool,
+}
+
+impl<D: AsRef<[u8]>> Download<D> {
+    /// A download of `data` into `object`. Its first frame waits in
+    /// [`poll_transmit`](Self::poll_transmit).
+    pub fn new(channel: Channel, object: Address, data: D, options: Options) -> Self {
+        let mut download = Self {
+            line: Line::new(channel, object, options),
+            data,
+            state: State::InitiateBlock,
+            refused_block: false,
+        };
+        if options.blocks(download.size()) {
+            download.line.send(Request::InitiateBlockDownload {
+                address: object,
+                crc: true,
+                size: download.size(),
+            });
+        } else {
+            download.initiate();
+        }
+        download
+    }
+
+    /// Takes a frame from the bus; frames of other channels are ignored.
+    pub fn handle_frame(&mut self, _now: Instant, frame: &Frame) {
+        let Some(data) = self.line.receive(frame) else {
+            return;
+        };
+        let response = parse(&data);
+        match &mut self.state {
+            State::Initiate { expedited } => {
+                let expedited = *expedited;
+                self.initiated(response, expedited);
+            }
+            State::Segment { toggle, end } => {
+                let (toggle, end) = (*toggle, *end);
+                self.segment_taken(response, toggle, end);
+            }
+            State::InitiateBlock => self.block_initiated(response),
+            State::Blocks(blocks) => blocks.handle(&mut self.line, self.data.as_ref(), response),
+        }
+    }
+
+    /// Gives up if the answer is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    pub fn handle_timeout(&mut self, now: Instant) {
+        if self.line.is_due(now) {
+            self.line.fail(AbortCode::Timeout, SdoError::Silent);
+        }
+    }
+
+    /// Returns the next frame to send; the time for its answer starts at `now`. In a block
+    /// download there are up to 127 at once.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        if let Some(frame) = self.line.pull(now) {
+            return Some(frame);
+        }
+        match &mut self.state {
+            State::Blocks(blocks) if self.line.outcome().is_none() => {
+                let data = blocks.next_segment(self.data.as_ref())?;
+                self.line.wait(now);
+                Some(self.line.frame(data))
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        self.line.deadline()
+    }
+
+    /// Returns how the download ended; `None` while it is under way.
+    pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
+        self.line.outcome()
+    }
+
+    /// Ends the download as [`SdoError::Cancelled`], with an abort to the server.
+    pub fn cancel(&mut self) {
+        self.line.fail(AbortCode::General, SdoError::Cancelled);
+    }
+
+    /// Did the server abort the block download because it does not know the command?
+    pub const fn refused_block(&self) -> bool {
+        self.refused_block
+    }
+
+    /// The data back.
+    pub fn into_data(self) -> D {
+        self.data
+    }
+
+    /// Length of the data; not indicated where 32 bits do not hold it.
+    fn size(&self) -> Option<u32> {
+        u32::try_from(self.data.as_ref().len()).ok()
+    }
+
+    fn initiate(&mut self) {
+        let bytes = self.data.as_ref();
+        let mut data = [0; 4];
+        // No bytes cannot be expedited: the protocol has no way to say so.
+        let expedited = match data.get_mut(..bytes.len()) {
+            Some(room) if !bytes.is_empty() => {
+                room.copy_from_slice(bytes);
+                Some(data)
+            }
+            _ => None,
+        };
+        self.line.send(Request::InitiateDownload {
+            address: self.line.address,
+            size: self.size(),
+            expedited,
+        });
+        self.state = State::Initiate {
+            expedited: expedited.is_some(),
+        };
+    }
+
+    fn initiated(&mut self, response: Response, expedited: bool) {
+        match response {
+            Response::InitiateDownload { address } if address == self.line.address => {
+                if expedited {
+                    self.line.finish();
+                } else {
+                    self.segment(false, 0);
+                }
+            }
+            other => {
+                let code = AbortCode::InvalidCommand;
+                self.line.refuse(code, Expected::Download, other);
+            }
+        }
+    }
+
+    /// Sends the segment that begins at `start`.
+    fn segment(&mut self, toggle: bool, start: usize) {
+        let bytes = self.data.as_ref();
+        let rest = bytes.get(start..).unwrap_or_default();
+        let len = rest.len().min(7);
+        let mut data = [0; 7];
+        data[..len].copy_from_slice(&rest[..len]);
+        let end = start + len;
+        self.line.send(Request::DownloadSegment {
+            toggle,
+            data,
+            len: len as u8,
+            last: end == bytes.len(),
+        });
+        self.state = State::Segment { toggle, end };
+    }
+
+    fn segment_taken(&mut self, response: Response, toggle: bool, end: usize) {
+        let expected = Expected::DownloadSegment;
+        match response {
+            Response::DownloadSegment { toggle: answered } if answered != toggle => {
+                self.line.refuse(AbortCode::ToggleBit, expected, response);
+            }
+            Response::DownloadSegment { .. } if end == self.data.as_ref().len() => {
+                self.line.finish();
+            }
+            Response::DownloadSegment { .. } => self.segment(!toggle, end),
+            other => {
+                let code = AbortCode::InvalidCommand;
+                self.line.refuse(code, expected, other);
+            }
+        }
+    }
+
+    fn block_initiated(&mut self, response: Response) {
+        match response {
+            Response::InitiateBlockDownload {
+                address,
+                crc,
+                block_size,
+            } if address == self.line.address => {
+                if let Some(blocks) = Blocks::new(&mut self.line, crc, block_size) {
+                    self.state = State::Blocks(blocks);
+                }
+            }
+            other if self.line.is_unknown_command(other) => {
+                self.refused_block = true;
+                self.initiate();
+            }
+            other => {
+                let code = AbortCode::InvalidCommand;
+                self.line.refuse(code, Expected::BlockDownload, other);
+            }
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! How a transfer fails.
+
+use core::fmt;
+
+use od_wire::AbortCode;
+use od_wire::sdo::Response;
+
+/// Why a transfer failed.
+///
+/// In every case but [`Abort`](Self::Abort) the client gives up, and tells the server by an
+/// abort of its own.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum SdoError {
+    /// The server aborts with this code (CiA 301, table 22); [`AbortCode::from_code`] knows its text.
+    Abort(u32),
+    /// No answer came in time.
+    Silent,
+    /// The answer is about another object, has another command or the wrong toggle bit.
+    OutOfTurn {
+        /// The answer that was due.
+        expected: Expected,
+        /// The answer that came.
+        got: Response,
+    },
+    /// The value is longer than the buffer or than [`Options::limit`](super::Options::limit).
+    TooLong,
+    /// The value has another length than the server announced.
+    Length {
+        /// Announced number of bytes.
+        announced: u32,
+        /// Number of bytes up to the end, or to the point where the client gave up.
+        received: usize,
+    },
+    /// The checksum of a block transfer does not match.
+    Crc,
+    /// The server sends segments without data, or repeats a block without end.
+    NoProgress,
+    /// The caller cancelled the transfer.
+    Cancelled,
+}
+
+impl fmt::Display for SdoError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Abort(code) => match AbortCode::from_code(*code) {
+                Some(code) => write!(f, "SDO abort {code}"),
+                None => write!(f, "SDO abort {code:08X}h"),
+            },
+            Self::Silent => f.write_str("the SDO server does not answer in time"),
+            Self::OutOfTurn { expected, got } => {
+                write!(f, "{expected} was expected, but {got:?} came")
+            }
+            Self::TooLong => f.write_str("the value is longer than the client allows"),
+            Self::Length {
+                announced,
+                received,
+            } => write!(
+                f,
+                "the SDO server announces a length of {announced} and sends {received}"
+            ),
+            Self::Crc => f.write_str("the checksum of the block transfer does not match"),
+            Self::NoProgress => f.write_str("the SDO server brings the transfer no further"),
+            Self::Cancelled => f.write_str("the transfer was cancelled"),
+        }
+    }
+}
+
+impl core::error::Error for SdoError {}
+
+/// The answer that a client waits for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum Expected {
+    /// Answer to initiate upload.
+    Upload,
+    /// Segment of an upload.
+    UploadSegment,
+    /// Answer to initiate download.
+    Download,
+    /// Answer to a segment of a download.
+    DownloadSegment,
+    /// Answer to initiate block upload.
+    BlockUpload,
+    /// Segment of a block.
+    BlockSegment,
+    /// End of a block upload.
+    BlockUploadEnd,
+    /// Answer to initiate block download.
+    BlockDownload,
+    /// Answer to the segments of a block.
+    BlockConfirmation,
+    /// Answer to the end of a block download.
+    BlockDownloadEnd,
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Upload => "an upload answer",
+            Self::UploadSegment => "an upload segment",
+            Self::Download => "a download answer",
+            Self::DownloadSegment => "a download segment answer",
+            Self::BlockUpload => "a block upload answer",
+            Self::BlockSegment => "a block segment",
+            Self::BlockUploadEnd => "the end of a block upload",
+            Self::BlockDownload => "a block download answer",
+            Self::BlockConfirmation => "a block answer",
+            Self::BlockDownloadEnd => "the end of a block download",
+        })
+    }
+}

@@ -1,0 +1,204 @@
+//! What both directions share: the frames to send, the deadline, the outcome.
+
+use od_model::Address;
+use od_wire::sdo::{Request, Response};
+use od_wire::{AbortCode, Frame, Instant};
+
+use super::buffer::Buffer;
+use super::channel::Channel;
+use super::error::{Expected, SdoError};
+use super::options::Options;
+
+/// First byte of an abort.
+const ABORT: u8 = 0x80;
+
+/// The meaning of an answer. An abort has no other bits in its command than these: what looks
+/// like one may be the last segment of a block.
+pub(super) const fn parse(data: &[u8; 8]) -> Response {
+    match data[0] {
+        0x81..=0x9F => Response::Unknown,
+        _ => Response::parse(data),
+    }
+}
+
+/// One transfer's end of the channel.
+#[derive(Debug)]
+pub(super) struct Line {
+    channel: Channel,
+    pub(super) address: Address,
+    pub(super) options: Options,
+    /// Frames that wait; two only where an abort comes before another request.
+    out: [Option<[u8; 8]>; 2],
+    deadline: Option<Instant>,
+    outcome: Option<Result<(), SdoError>>,
+    /// A request was sent. What comes before it answers something else.
+    is_open: bool,
+}
+
+impl Line {
+    pub(super) const fn new(channel: Channel, address: Address, options: Options) -> Self {
+        Self {
+            channel,
+            address,
+            options,
+            out: [None; 2],
+            deadline: None,
+            outcome: None,
+            is_open: false,
+        }
+    }
+
+    pub(super) const fn outcome(&self) -> Option<Result<(), SdoError>> {
+        self.outcome
+    }
+
+    pub(super) const fn deadline(&self) -> Option<Instant> {
+        self.deadline
+    }
+
+    pub(super) fn is_due(&self, now: Instant) -> bool {
+        self.deadline.is_some_and(|at| at <= now)
+    }
+
+    /// Waits for the answer from `now` on.
+    pub(super) fn wait(&mut self, now: Instant) {
+        self.deadline = Some(now + self.options.timeout);
+    }
+
+    /// Nothing is due until the host takes the next frame.
+    pub(super) fn stop_waiting(&mut self) {
+        self.deadline = None;
+    }
+
+    /// Queues a request; the time for its answer starts when the host takes it.
+    pub(super) fn send(&mut self, request: Request) {
+        self.deadline = None;
+        if let Some(free) = self.out.iter_mut().find(|slot| slot.is_none()) {
+            *free = Some(request.emit());
+        }
+    }
+
+    /// The next queued frame.
+    pub(super) fn pull(&mut self, now: Instant) -> Option<Frame> {
+        let [first, second] = self.out;
+        let data = first?;
+        self.out = [second, None];
+        self.is_open = true;
+        if self.outcome.is_none() {
+            self.wait(now);
+        }
+        Some(self.frame(data))
+    }
+
+    /// A frame of the client.
+    pub(super) const fn frame(&self, data: [u8; 8]) -> Frame {
+        Frame::full(self.channel.request, data)
+    }
+
+    /// The bytes of a frame of this channel's server, missing ones as 0, if it can be an answer.
+    /// While a request waits, only an abort can.
+    pub(super) fn receive(&self, frame: &Frame) -> Option<[u8; 8]> {
+        let data = *frame.bytes();
+        let is_ours = frame.id() == self.channel.response && !frame.data().is_empty();
+        let is_due = self.out[0].is_none() || data[0] == ABORT;
+        (self.outcome.is_none() && self.is_open && is_ours && is_due).then_some(data)
+    }
+
+    pub(super) fn finish(&mut self) {
+        self.deadline = None;
+        self.outcome = Some(Ok(()));
+    }
+
+    /// Gives up, and tells the server unless it has not heard of the transfer.
+    pub(super) fn fail(&mut self, code: AbortCode, error: SdoError) {
+        if self.outcome.is_some() {
+            return;
+        }
+        self.out = [None; 2];
+        if self.is_open {
+            self.send(Request::Abort {
+                address: self.address,
+                code: code.code(),
+            });
+        }
+        self.deadline = None;
+        self.outcome = Some(Err(error));
+    }
+
+    /// The answer is not the one that is due, or an abort. One for another object belongs to
+    /// another transfer; 0000h:00 is what servers write that do not know which one they abort.
+    pub(super) fn refuse(&mut self, code: AbortCode, expected: Expected, got: Response) {
+        match got {
+            Response::Abort { address, code } if self.is_about(address) => {
+                self.out = [None; 2];
+                self.deadline = None;
+                self.outcome = Some(Err(SdoError::Abort(code)));
+            }
+            got => self.fail(code, SdoError::OutOfTurn { expected, got }),
+        }
+    }
+
+    fn is_about(&self, address: Address) -> bool {
+        address == self.address || address == Address::new(0, 0)
+    }
+
+    /// Does the server abort because it does not know the command?
+    pub(super) fn is_unknown_command(&self, response: Response) -> bool {
+        matches!(response, Response::Abort { address, code }
+            if code == AbortCode::InvalidCommand.code() && self.is_about(address))
+    }
+
+    /// Most bytes that an upload into `buffer` may have.
+    fn limit(&self, buffer: &impl Buffer) -> usize {
+        self.options.limit.min(buffer.capacity())
+    }
+
+    /// Fails if the announced size is beyond the limit.
+    pub(super) fn check_size(&mut self, buffer: &impl Buffer, size: Option<u32>) -> bool {
+        let limit = self.limit(buffer) as u64;
+        let fits = size.is_none_or(|size| u64::from(size) <= limit);
+        if !fits {
+            self.fail(AbortCode::OutOfMemory, SdoError::TooLong);
+        }
+        fits
+    }
+
+    /// Puts bytes into the buffer; fails if they are beyond the limit or the announced size.
+    pub(super) fn keep(
+        &mut self,
+        buffer: &mut impl Buffer,
+        bytes: &[u8],
+        size: Option<u32>,
+    ) -> bool {
+        let received = buffer.bytes().len().saturating_add(bytes.len());
+        if let Some(announced) = size.filter(|size| received as u64 > u64::from(*size)) {
+            self.fail_length(announced, received);
+            return false;
+        }
+        if received > self.limit(buffer) || !buffer.push(bytes) {
+            self.fail(AbortCode::OutOfMemory, SdoError::TooLong);
+            return false;
+        }
+        true
+    }
+
+    /// Fails if fewer bytes came than the server announced.
+    pub(super) fn check_complete(&mut self, buffer: &impl Buffer, size: Option<u32>) -> bool {
+        let received = buffer.bytes().len();
+        match size {
+            Some(announced) if received as u64 != u64::from(announced) => {
+                self.fail_length(announced, received);
+                false
+            }
+            _ => true,
+        }
+    }
+
+    fn fail_length(&mut self, announced: u32, received: usize) {
+        let error = SdoError::Length {
+            announced,
+            received,
+        };
+        self.fail(AbortCode::Length, error);
+    }
+}

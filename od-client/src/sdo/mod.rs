@@ -1,0 +1,46 @@
+//! SDO client (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
+//!
+//! [`Upload`] reads one object, [`Download`] writes one. Each is a state machine without a
+//! clock, a bus or an allocator:
+//!
+//! ```
+//! use od_client::sdo::{Channel, Options, Slice, Upload};
+//! use od_client::{Frame, Instant, NodeId};
+//! use od_model::Address;
+//!
+//! let mut room = [0; 16];
+//! let channel = Channel::of(NodeId::ONE);
+//! let object = Address::new(0x1018, 1);
+//! let mut upload = Upload::new(channel, object, Slice::new(&mut room), Options::DEFAULT);
+//! let mut now = Instant::ZERO;
+//! while upload.outcome().is_none() {
+//!     while let Some(frame) = upload.poll_transmit(now) {
+//!         assert_eq!(frame.to_string(), "601#4018100100000000"); // here the host sends it
+//!     }
+//!     now = now.plus_millis(2); // here the host waits for a frame, or for `poll_timeout`
+//!     let answer = [0x43, 0x18, 0x10, 0x01, 0xEC, 0, 0, 0];
+//!     upload.handle_frame(now, &Frame::standard(0x581, &answer));
+//!     upload.handle_timeout(now);
+//! }
+//! assert_eq!(upload.outcome(), Some(Ok(())));
+//! assert_eq!(upload.bytes(), [0xEC, 0, 0, 0]);
+//! ```
+//! When [`Upload::outcome`] is there, `poll_transmit` may still hold one frame: the abort of a
+//! transfer that the client gave up, or the confirmation at the end of a block upload.
+
+mod block_download;
+mod block_upload;
+mod buffer;
+mod channel;
+mod download;
+mod error;
+mod line;
+mod options;
+mod upload;
+
+pub use buffer::{Buffer, Slice};
+pub use channel::Channel;
+pub use download::Download;
+pub use error::{Expected, SdoError};
+pub use options::Options;
+pub use upload::Upload;

@@ -1,0 +1,220 @@
+//! Upload: reads an object, expedited or in segments (CiA 301, chapters 7.2.4.3.5 and 7.2.4.3.6).
+
+use od_model::Address;
+use od_wire::sdo::{Request, Response};
+use od_wire::{AbortCode, Frame, Instant};
+
+use super::block_upload::Blocks;
+use super::buffer::Buffer;
+use super::channel::Channel;
+use super::error::{Expected, SdoError};
+use super::line::{Line, parse};
+use super::options::Options;
+
+#[derive(Debug)]
+enum State {
+    /// Initiate upload is on its way; `block`: a block upload may take its place.
+    Initiate { block: bool },
+    /// The segment with this toggle bit is due.
+    Segment { toggle: bool, size: Option<u32> },
+    /// Initiate block upload is on its way.
+    InitiateBlock,
+    /// Segments of blocks come, or the end of all.
+    Blocks(Blocks),
+}
+
+/// The upload of one object: the client reads, the server sends.
+#[derive(Debug)]
+pub struct Upload<B> {
+    line: Line,
+    buffer: B,
+    state: State,
+    refused_block: bool,
+}
+
+impl<B: Buffer> Upload<B> {
+    /// An upload of `object` into `buffer`, which is emptied first. Its first frame waits in
+    /// [`poll_transmit`](Self::poll_transmit).
+    pub fn new(channel: Channel, object: Address, mut buffer: B, options: Options) -> Self {
+        buffer.clear();
+        let mut line = Line::new(channel, object, options);
+        line.send(Request::InitiateUpload { address: object });
+        Self {
+            line,
+            buffer,
+            state: State::Initiate { block: true },
+            refused_block: false,
+        }
+    }
+
+    /// Takes a frame from the bus; frames of other channels are ignored.
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        let Some(data) = self.line.receive(frame) else {
+            return;
+        };
+        match &mut self.state {
+            State::Blocks(blocks) if blocks.wants_segments() => {
+                blocks.segment(&mut self.line, &mut self.buffer, now, &data);
+            }
+            State::Blocks(blocks) => {
+                blocks.end(&mut self.line, &mut self.buffer, parse(&data));
+            }
+            State::Initiate { block } => {
+                let block = *block;
+                self.initiated(parse(&data), Expected::Upload, block);
+            }
+            State::InitiateBlock => self.block_initiated(parse(&data)),
+            State::Segment { toggle, size } => {
+                let (toggle, size) = (*toggle, *size);
+                self.segment(parse(&data), toggle, size);
+            }
+        }
+    }
+
+    /// Gives up if the answer is overdue; does nothing before [`poll_timeout`](Self::poll_timeout).
+    pub fn handle_timeout(&mut self, now: Instant) {
+        if !self.line.is_due(now) {
+            return;
+        }
+        match &mut self.state {
+            State::Blocks(blocks) if blocks.heard() => blocks.confirm(&mut self.line),
+            _ => self.line.fail(AbortCode::Timeout, SdoError::Silent),
+        }
+    }
+
+    /// Returns the next frame to send; the time for its answer starts at `now`.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        self.line.pull(now)
+    }
+
+    /// Returns when [`handle_timeout`](Self::handle_timeout) has to be called, if at all.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        self.line.deadline()
+    }
+
+    /// Returns how the upload ended; `None` while it is under way.
+    pub const fn outcome(&self) -> Option<Result<(), SdoError>> {
+        self.line.outcome()
+    }
+
+    /// Ends the upload as [`SdoError::Cancelled`], with an abort to the server.
+    pub fn cancel(&mut self) {
+        self.line.fail(AbortCode::General, SdoError::Cancelled);
+    }
+
+    /// Did the server abort the block upload because it does not know the command?
+    pub const fn refused_block(&self) -> bool {
+        self.refused_block
+    }
+
+    /// What came so far; the value, once the outcome is `Ok`.
+    pub fn bytes(&self) -> &[u8] {
+        self.buffer.bytes()
+    }
+
+    /// The buffer, with what came so far.
+    pub fn into_buffer(self) -> B {
+        self.buffer
+    }
+
+    fn initiated(&mut self, response: Response, expected: Expected, block: bool) {
+        let (size, expedited) = match response {
+            Response::InitiateUpload {
+                address,
+                size,
+                expedited,
+            } if address == self.line.address => (size, expedited),
+            other => {
+                let code = AbortCode::InvalidCommand;
+                return self.line.refuse(code, expected, other);
+            }
+        };
+        if let Some(data) = expedited {
+            let len = size.map_or(4, |size| size.min(4) as usize);
+            if self.line.keep(&mut self.buffer, &data[..len], None) {
+                self.line.finish();
+            }
+            return;
+        }
+        if !self.line.check_size(&self.buffer, size) {
+            return;
+        }
+        if block && self.line.options.blocks(size) {
+            let address = self.line.address;
+            self.line.send(Request::Abort {
+                address,
+                code: AbortCode::General.code(),
+            });
+            self.line.send(Request::InitiateBlockUpload {
+                address,
+                crc: true,
+                block_size: self.line.options.segments(),
+                threshold: 0,
+            });
+            self.state = State::InitiateBlock;
+        } else {
+            self.ask(false, size);
+        }
+    }
+
+    /// Asks for the segment with this toggle bit.
+    fn ask(&mut self, toggle: bool, size: Option<u32>) {
+        self.line.send(Request::UploadSegment { toggle });
+        self.state = State::Segment { toggle, size };
+    }
+
+    fn segment(&mut self, response: Response, toggle: bool, size: Option<u32>) {
+        let expected = Expected::UploadSegment;
+        match response {
+            Response::UploadSegment {
+                toggle: answered, ..
+            } if answered != toggle => {
+                self.line.refuse(AbortCode::ToggleBit, expected, response);
+            }
+            Response::UploadSegment {
+                len: 0,
+                last: false,
+                ..
+            } => self.line.fail(AbortCode::General, SdoError::NoProgress),
+            Response::UploadSegment {
+                data, len, last, ..
+            } => {
+                let bytes = &data[..usize::from(len.min(7))];
+                if !self.line.keep(&mut self.buffer, bytes, size) {
+                    return;
+                }
+                if !last {
+                    self.ask(!toggle, size);
+                } else if self.line.check_complete(&self.buffer, size) {
+                    self.line.finish();
+                }
+            }
+            other => {
+                let code = AbortCode::InvalidCommand;
+                self.line.refuse(code, expected, other);
+            }
+        }
+    }
+
+    fn block_initiated(&mut self, response: Response) {
+        match response {
+            Response::InitiateBlockUpload { address, crc, size }
+                if address == self.line.address =>
+            {
+                if self.line.check_size(&self.buffer, size) {
+                    let block_size = self.line.options.segments();
+                    self.state = State::Blocks(Blocks::new(crc, size, block_size));
+                    self.line.send(Request::StartBlockUpload);
+                }
+            }
+            other if self.line.is_unknown_command(other) => {
+                self.refused_block = true;
+                let address = self.line.address;
+                self.line.send(Request::InitiateUpload { address });
+                self.state = State::Initiate { block: false };
+            }
+            // A server may change over to the other protocol.
+            other => self.initiated(other, Expected::BlockUpload, false),
+        }
+    }
+}

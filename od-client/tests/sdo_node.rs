@@ -1,0 +1,163 @@
+//! The client against the node of `od-runtime`: every kind of transfer, both ways.
+
+mod support;
+
+use od_client::sdo::{Options, SdoError};
+use od_client::{AbortCode, Client, Event, NodeId, lss};
+use od_model::Address;
+use od_runtime::{Profile, SdoProfile};
+use support::bus::{Bus, Peer};
+use support::{OBJECT, pattern};
+
+const SIZES: [usize; 15] = [
+    0,
+    1,
+    4,
+    5,
+    7,
+    8,
+    63,
+    64,
+    127 * 7 - 1,
+    127 * 7,
+    127 * 7 + 1,
+    1000,
+    4096,
+    2 * 127 * 7,
+    8192,
+];
+
+fn client(options: Options) -> Client {
+    Client::with(options, lss::Options::DEFAULT)
+}
+
+fn blocks(size: u8) -> Options {
+    let mut options = Options::DEFAULT;
+    options.block_from = Some(0);
+    options.block_size = size;
+    options
+}
+
+/// Writes values of all sizes and reads them again.
+#[track_caller]
+fn round_trips(bus: &mut Bus) {
+    for size in SIZES {
+        let value = pattern(size);
+        let written = bus.client.write(NodeId::ONE, OBJECT, &value);
+        let read = bus.client.read(NodeId::ONE, OBJECT);
+        let wanted = [
+            Event::Written(written, Ok(())),
+            Event::Read(read, Ok(value)),
+        ];
+        assert!(bus.run() == wanted, "{size} bytes");
+    }
+}
+
+#[test]
+fn all_sizes_in_segments() {
+    let mut bus = Bus::one(client(Options::SEGMENTED));
+    round_trips(&mut bus);
+    let mut segments = 0;
+    for text in &bus.frames {
+        let command = u8::from_str_radix(&text[4..6], 16).expect("hex");
+        assert!(command >> 5 < 4, "no block transfer, no abort: {text}");
+        segments += usize::from(text.starts_with("601#") && command >> 5 == 0);
+    }
+    let wanted = SIZES.iter().filter(|size| !(1..=4).contains(*size));
+    let wanted: usize = wanted.map(|size| size.div_ceil(7).max(1)).sum();
+    assert_eq!(segments, wanted);
+}
+
+#[test]
+fn all_sizes_in_blocks_where_it_pays() {
+    let mut bus = Bus::one(client(Options::DEFAULT));
+    round_trips(&mut bus);
+    let begun = |head: &str| {
+        bus.frames
+            .iter()
+            .filter(|text| text.starts_with(head))
+            .count()
+    };
+    let long = SIZES.iter().filter(|size| **size >= 64).count();
+    assert_eq!(begun("601#C6032000"), long, "block downloads");
+    assert_eq!(begun("601#A4032000"), long, "block uploads");
+    assert_eq!(begun("601#40032000"), SIZES.len(), "uploads");
+}
+
+#[test]
+fn all_sizes_in_blocks_of_every_length() {
+    for size in [1, 2, 3, 126, 127] {
+        round_trips(&mut Bus::one(client(blocks(size))));
+    }
+}
+
+#[test]
+fn block_sizes_out_of_range_are_the_nearest_ones() {
+    for size in [0, 128, 255] {
+        round_trips(&mut Bus::one(client(blocks(size))));
+    }
+}
+
+#[test]
+fn segments_that_the_bus_loses_come_again() {
+    let mut bus = Bus::one(client(blocks(20)));
+    // Only segments inside a block: the node is not told that a block is over.
+    bus.loses = |number, frame| {
+        let head = frame.data()[0];
+        let is_segment = matches!(head, 1..=19) && frame.data()[1..] != [0; 7];
+        is_segment && number.wrapping_mul(0x9E37_79B1) as u32 >> 28 == 0
+    };
+    round_trips(&mut bus);
+}
+
+#[test]
+fn a_node_without_block_transfers_gets_segments_and_is_asked_once() {
+    let mut peer = Peer::new(1, [1, 2, 3, 4]);
+    peer.profile.sdo = SdoProfile {
+        block: false,
+        ..Profile::CIA301.sdo
+    };
+    let mut bus = Bus::new(client(Options::DEFAULT), vec![peer]);
+    round_trips(&mut bus);
+    let blocks = |text: &&String| text.starts_with("601#C") || text.starts_with("601#A");
+    assert_eq!(bus.frames.iter().filter(blocks).count(), 1);
+}
+
+#[test]
+fn an_upload_finds_out_too_that_a_node_has_no_block_transfers() {
+    let mut peer = Peer::new(1, [1, 2, 3, 4]);
+    peer.profile.sdo.block = false;
+    let mut bus = Bus::new(client(Options::DEFAULT), vec![peer]);
+    for _ in 0..2 {
+        let job = bus.client.read(NodeId::ONE, OBJECT);
+        assert_eq!(bus.run(), [Event::Read(job, Ok(vec![0; 8192]))]);
+    }
+    let blocks = bus.frames.iter().filter(|text| text.starts_with("601#A"));
+    assert_eq!(blocks.count(), 1);
+}
+
+#[test]
+fn aborts_of_the_node_come_with_their_code() {
+    let mut bus = Bus::one(Client::new());
+    let missing = bus.client.read(NodeId::ONE, Address::new(0x3000, 0));
+    let constant = bus
+        .client
+        .write(NodeId::ONE, Address::new(0x1000, 0), &[1, 0, 0, 0]);
+    let long = bus.client.write(NodeId::ONE, OBJECT, &[0; 8193]);
+    let abort = |code: AbortCode| SdoError::Abort(code.code());
+    let wanted = [
+        Event::Read(missing, Err(abort(AbortCode::NoObject))),
+        Event::Written(constant, Err(abort(AbortCode::ReadOnly))),
+        Event::Written(long, Err(abort(AbortCode::TooLong))),
+    ];
+    assert_eq!(bus.run(), wanted);
+}
+
+#[test]
+fn nobody_answers() {
+    let mut bus = Bus::new(Client::new(), Vec::new());
+    let job = bus.client.read(NodeId::ONE, OBJECT);
+    assert_eq!(bus.run(), [Event::Read(job, Err(SdoError::Silent))]);
+    let wanted = ["601#4003200000000000", "601#8003200000000405"];
+    assert_eq!(bus.frames, wanted);
+}

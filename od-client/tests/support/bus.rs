@@ -1,0 +1,218 @@
+//! A client and nodes of `od-runtime` on one bus, in virtual time.
+
+use od_client::{Client, Event, Frame, Instant, NodeId};
+use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
+use od_model::{Access, DataType, ObjectCode};
+use od_runtime::storage::Memory;
+use od_runtime::{Application, Device, LssProfile, Node, Profile, Store};
+
+/// Most bytes of the object 2003h.
+pub const ROOM: usize = 8192;
+
+/// One device on the bus.
+pub struct Peer {
+    tables: Tables,
+    values: Vec<u8>,
+    storage: Memory<Vec<u8>>,
+    pub profile: Profile,
+    pub node: Node<4, ROOM>,
+    application: Stored,
+}
+
+/// The node starts with the node ID in 2101h.
+struct Stored;
+
+impl Application for Stored {
+    fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
+        NodeId::new(store.unsigned(0x2101, 0) as u8)
+    }
+}
+
+const RATES: &[Option<u8>] = &[Some(8), Some(7), Some(6)];
+
+const LSS: LssProfile = LssProfile {
+    stopped_only: false,
+    node_id: od_model::Address::new(0x2101, 0),
+    bit_rate: od_model::Address::new(0x2100, 0),
+    bit_rates: RATES,
+    identify_remote: true,
+    non_configured: true,
+    fastscan: true,
+    inquire_node_id: true,
+    second_delay: false,
+};
+
+macro_rules! device {
+    ($peer:expr) => {
+        &mut Device {
+            dictionary: $peer.tables.dictionary(),
+            values: &mut $peer.values,
+            application: &mut $peer.application,
+            storage: &mut $peer.storage,
+            profile: &$peer.profile,
+        }
+    };
+}
+
+fn tables(node: u8, identity: [u32; 4]) -> Tables {
+    use DataType::*;
+    let unsigned = |value: u32| Some(Value::Unsigned(value.into()));
+    let mut rows = vec![
+        (0x1000, 0, Unsigned32, Access::Ro, unsigned(0x0002_0196)),
+        (0x1001, 0, Unsigned8, Access::Ro, unsigned(0)),
+        (0x1017, 0, Unsigned16, Access::Rw, unsigned(0)),
+        (0x1018, 0, Unsigned8, Access::Const, unsigned(4)),
+        (0x2000, 0, Unsigned32, Access::Rw, unsigned(5)),
+        (0x2001, 0, Unsigned64, Access::Rw, unsigned(7)),
+        (
+            0x2003,
+            0,
+            Domain,
+            Access::Rw,
+            Some(Value::Bytes(vec![0; ROOM])),
+        ),
+        (0x2100, 0, Unsigned8, Access::Rw, unsigned(2)),
+        (0x2101, 0, Unsigned8, Access::Rw, unsigned(node.into())),
+    ];
+    for (sub, number) in (1..).zip(identity) {
+        rows.push((0x1018, sub, Unsigned32, Access::Ro, unsigned(number)));
+    }
+    let mut description = Description::default();
+    for (index, sub, data_type, access, default) in rows {
+        let mut entry = EntryDescription::new(format!("{index:04X} {sub}"), data_type);
+        entry.access = Spanned::from(access);
+        entry.default = default.map(Spanned::from);
+        let object = description
+            .objects
+            .entry(index)
+            .or_insert_with(|| ObjectDescription::var(entry.clone()));
+        if sub > 0 {
+            object.code = Spanned::from(ObjectCode::Record);
+        }
+        object.entries.insert(sub, entry);
+    }
+    Tables::new(&description)
+}
+
+impl Peer {
+    /// A node with power that has sent its boot-up message.
+    pub fn new(node: u8, identity: [u32; 4]) -> Self {
+        let tables = tables(node, identity);
+        let mut peer = Self {
+            values: vec![0; tables.dictionary().store_len()],
+            tables,
+            storage: Memory::new(vec![0xFF; 4 * ROOM]),
+            profile: Profile {
+                lss: Some(LSS),
+                ..Profile::CIA301
+            },
+            node: Node::new(NodeId::ONE),
+            application: Stored,
+        };
+        peer.node
+            .power_on(device!(peer), Instant::ZERO)
+            .expect("the values fit");
+        while peer.poll(Instant::ZERO).is_some() {}
+        peer
+    }
+
+    fn handle(&mut self, now: Instant, frame: &Frame) {
+        self.node.handle_frame(device!(self), now, frame);
+    }
+
+    fn timeout(&mut self, now: Instant) {
+        self.node.handle_timeout(device!(self), now);
+    }
+
+    fn poll(&mut self, now: Instant) -> Option<Frame> {
+        self.node.poll_transmit(device!(self), now)
+    }
+
+    /// The value of an UNSIGNED object.
+    pub fn value(&self, index: u16, sub: u8) -> u64 {
+        let mut values = self.values.clone();
+        let store = Store::new(self.tables.dictionary(), &mut values, self.node.node_id());
+        store.expect("the values fit").unsigned(index, sub)
+    }
+}
+
+/// The client, its peers, and all frames so far.
+pub struct Bus {
+    pub client: Client,
+    pub peers: Vec<Peer>,
+    pub now: Instant,
+    pub frames: Vec<String>,
+    /// Does the bus lose this frame, the one of this number?
+    pub loses: fn(usize, &Frame) -> bool,
+}
+
+impl Bus {
+    pub fn new(client: Client, peers: Vec<Peer>) -> Self {
+        Self {
+            client,
+            peers,
+            now: Instant::ZERO,
+            frames: Vec::new(),
+            loses: |_, _| false,
+        }
+    }
+
+    /// Node 1 alone.
+    pub fn one(client: Client) -> Self {
+        Self::new(client, vec![Peer::new(1, [1, 2, 3, 4])])
+    }
+
+    /// One frame goes over the bus. The nodes' come first, so that the client sees its
+    /// segments one by one.
+    fn step(&mut self) -> bool {
+        let Self { peers, now, .. } = self;
+        let mut from = peers.iter_mut().map(|peer| peer.poll(*now)).enumerate();
+        let sent = from.find_map(|(from, frame)| Some((Some(from), frame?)));
+        let sent = sent.or_else(|| Some((None, self.client.poll_transmit(*now)?)));
+        let Some((from, frame)) = sent else {
+            return false;
+        };
+        let number = self.frames.len();
+        self.frames.push(frame.to_string());
+        if (self.loses)(number, &frame) {
+            return true;
+        }
+        self.now = self.now.plus_micros(100);
+        if from.is_some() {
+            self.client.handle_frame(self.now, &frame);
+        }
+        for (at, peer) in self.peers.iter_mut().enumerate() {
+            if from != Some(at) {
+                peer.handle(self.now, &frame);
+            }
+        }
+        true
+    }
+
+    /// Runs until nothing is sent and nothing is due before `end`.
+    pub fn run_until(&mut self, end: Instant) {
+        loop {
+            while self.step() {}
+            let peers = self
+                .peers
+                .iter()
+                .filter_map(|peer| peer.node.poll_timeout());
+            let next = peers.chain(self.client.poll_timeout()).min();
+            let Some(next) = next.filter(|at| *at <= end) else {
+                break;
+            };
+            self.now = self.now.max(next);
+            self.client.handle_timeout(self.now);
+            for peer in &mut self.peers {
+                peer.timeout(self.now);
+            }
+        }
+        self.now = self.now.max(end);
+    }
+
+    /// Runs for a minute of virtual time; the events.
+    pub fn run(&mut self) -> Vec<Event> {
+        self.run_until(self.now.plus_millis(60_000));
+        core::iter::from_fn(|| self.client.poll_event()).collect()
+    }
+}
