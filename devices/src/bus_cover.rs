@@ -14,7 +14,7 @@ use od_runtime::{
     SdoProfile, StoreProfile,
 };
 
-use crate::DeviceKind;
+use od_runtime::DeviceKind;
 
 od_macros::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.

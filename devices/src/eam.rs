@@ -18,7 +18,8 @@ use od_runtime::{
     SdoProfile, StoreProfile,
 };
 
-use crate::{DeviceKind, eam_diagnosis};
+use crate::eam_diagnosis;
+use od_runtime::DeviceKind;
 
 od_macros::object_dictionary! {
     /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 show by default, and 18 bits

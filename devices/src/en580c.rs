@@ -15,7 +15,7 @@ use od_runtime::{
     SdoProfile, StoreProfile,
 };
 
-use crate::DeviceKind;
+use od_runtime::DeviceKind;
 
 od_macros::object_dictionary! {
     /// `EN580C_M`: 24 bits a revolution, of which 6001h takes 21, and 16 bits of revolutions.

@@ -13,54 +13,19 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "bench")]
+#[cfg(feature = "text")]
 extern crate std;
 
 pub mod bus_cover;
-#[cfg(feature = "sim")]
-pub mod datasheet;
 pub mod eam;
 mod eam_diagnosis;
 pub mod en580c;
-#[cfg(feature = "sim")]
-mod export;
-#[cfg(feature = "bench")]
-pub mod sim;
+#[cfg(feature = "text")]
+pub mod text;
 
 use bus_cover::gxmm;
 use eam::eam_mt;
-use od_model::Dictionary;
-use od_runtime::Profile;
-use od_runtime::encoder::{Encoder, EncoderProfile};
-
-/// A device that can be simulated.
-#[derive(Clone, Copy, Debug)]
-pub struct DeviceKind {
-    /// Its name on a command line, in lower case.
-    pub name: &'static str,
-    /// What it is.
-    pub title: &'static str,
-    /// The family, as the folder of its conformance scripts is called.
-    pub family: &'static str,
-    /// Its object dictionary.
-    pub dictionary: Dictionary<'static>,
-    /// What its family does differently from CiA 301.
-    pub profile: &'static Profile,
-    /// What its family does differently from CiA 406.
-    pub encoder: &'static EncoderProfile,
-    /// It has the dual LED of the bus cover.
-    pub leds: bool,
-    /// Channels on its shaft: nodes of their own on one bus, all of this kind. 2 in a
-    /// redundant encoder, else 1.
-    pub channels: u8,
-}
-
-impl DeviceKind {
-    /// What is behind its dictionary: an encoder at angle 0, nothing broken.
-    pub fn new_encoder(&self) -> Encoder {
-        Encoder::new(self.encoder).with_sensor_of(self.dictionary)
-    }
-}
+use od_runtime::DeviceKind;
 
 /// Every device, by family.
 pub const DEVICES: &[DeviceKind] = &[

@@ -1,13 +1,14 @@
 //! The pages under docs/datasheets are what the devices say of themselves.
 //!
 //! `ODKIT_ACCEPT=1 cargo test -p od-devices --all-features --test datasheets` writes them anew.
-#![cfg(feature = "sim")]
+#![cfg(feature = "text")]
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use od_devices::{DEVICES, datasheet};
+use od_devices::DEVICES;
+use od_devices::text::datasheet;
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/datasheets")

@@ -1,5 +1,5 @@
 //! The EDS that a device writes is the device.
-#![cfg(feature = "sim")]
+#![cfg(feature = "text")]
 
 use od_devices::DEVICES;
 use od_eds::{Tables, check};
@@ -7,7 +7,7 @@ use od_eds::{Tables, check};
 #[test]
 fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
     for kind in DEVICES {
-        let text = kind.eds();
+        let text = od_devices::text::eds(kind);
         let loaded = od_eds::load(&text);
         assert_eq!(loaded.diagnostics, [], "{}", kind.name);
         assert_eq!(check::check(&loaded.description), [], "{}", kind.name);
@@ -20,7 +20,7 @@ fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
 #[test]
 fn what_is_said_of_the_device_is_what_its_objects_say() {
     for kind in DEVICES {
-        let description = od_eds::parse(&kind.eds()).description;
+        let description = od_eds::parse(&od_devices::text::eds(kind)).description;
         let info = description.section("DeviceInfo").unwrap();
         let value = |key| info.get(key).unwrap().value.clone();
         let number = |sub| {
@@ -56,7 +56,8 @@ fn the_files_of_the_project_say_what_an_export_says() {
         ("eam_mt", include_str!("../eds/EAM_MT.eds")),
         ("en580c", include_str!("../eds/EN580C.eds")),
     ] {
-        let exported = od_eds::parse(&od_devices::find(name).unwrap().eds()).description;
+        let exported =
+            od_eds::parse(&od_devices::text::eds(od_devices::find(name).unwrap())).description;
         let written = od_eds::load(text);
         assert_eq!(written.diagnostics, [], "{name}");
         for key in ["DeviceInfo", "DummyUsage"] {

@@ -3,8 +3,9 @@
 //!
 //! `OD_RANDOM_FRAMES=10000000` plays so many frames in all.
 
-use od_devices::{DEVICES, DeviceKind};
+use od_devices::DEVICES;
 use od_model::Kind;
+use od_runtime::DeviceKind;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::{Memory, image};
 use od_runtime::{BusEvent, CanId, Device, Frame, Instant, Node, NodeId, Store};

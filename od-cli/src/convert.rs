@@ -6,7 +6,7 @@ mod json;
 
 use std::path::{Path, PathBuf};
 
-use od_devices::datasheet;
+use od_devices::text::datasheet;
 use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
@@ -129,7 +129,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// What is to be converted. What of a file cannot be used is told, and left out.
 fn description(name: &str) -> Result<Description, Failure> {
     let file = match Source::find(name)? {
-        Source::BuiltIn(kind) => return Ok(od_eds::parse(&kind.eds()).description),
+        Source::BuiltIn(kind) => return Ok(od_eds::parse(&od_devices::text::eds(kind)).description),
         Source::File(file) => file,
     };
     let (description, findings) = file.parse()?;

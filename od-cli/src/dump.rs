@@ -1,6 +1,6 @@
 //! `odkit dump`: an object dictionary as a table, or a device's datasheet.
 
-use od_devices::datasheet::{self, HEAD};
+use od_devices::text::datasheet::{self, HEAD};
 use od_eds::{Description, Tables};
 use od_model::Dictionary;
 

@@ -17,7 +17,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let text = match Source::find(&args.device)? {
-        Source::BuiltIn(kind) => kind.eds(),
+        Source::BuiltIn(kind) => od_devices::text::eds(kind),
         Source::File(file) => canonical(&file)?,
     };
     if let Some(path) = &args.output {

@@ -9,9 +9,9 @@ mod show;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_devices::sim::VirtualDevice;
-use od_devices::sim::lesson::{Lesson, Problem};
-use od_devices::sim::script::{Host, Origin};
+use od_bench::VirtualDevice;
+use od_bench::lesson::{Lesson, Problem};
+use od_bench::script::{Host, Origin};
 use od_runtime::{Frame, Instant, NodeId};
 
 use crate::output::{Output, note};
@@ -164,7 +164,7 @@ impl Host for Terminal {
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         if self.echo || origin != Origin::Script {
-            let line = od_devices::sim::candump::format_line(at, "can0", frame);
+            let line = od_bench::logs::candump::format_line(at, "can0", frame);
             self.line(&line);
         }
     }

@@ -85,7 +85,7 @@ struct DeviceFile {
 fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     let (path, text, bytes) = match Source::find(name)? {
         Source::BuiltIn(kind) => {
-            let text = kind.eds();
+            let text = od_devices::text::eds(kind);
             let bytes = text.clone().into_bytes();
             (name.to_owned(), text, Some(bytes))
         }

@@ -4,9 +4,10 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use od_devices::sim::VirtualDevice;
-use od_devices::sim::candump::format_line;
-use od_devices::sim::script::{self, Host, Origin, Reason, Script};
+use od_bench::VirtualDevice;
+use od_bench::logs::candump::format_line;
+use od_bench::script;
+use od_bench::script::{Host, Origin, Reason, Script};
 use od_runtime::{Frame, Instant, NodeId};
 
 use crate::output::{self, Output, note};

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use od_devices::sim::VirtualDevice;
+use od_bench::VirtualDevice;
 use od_runtime::NodeId;
 
 use crate::sim::{self, Maker, Options};
@@ -23,7 +23,7 @@ struct Cli {
 ///
 /// ```no_run
 /// use od_devices::bus_cover::gxmm;
-/// use od_devices::sim::VirtualDevice;
+/// use od_bench::VirtualDevice;
 /// use od_runtime::NodeId;
 ///
 /// fn main() -> std::process::ExitCode {

@@ -13,7 +13,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use od_devices::sim::{VirtualDevice, values};
+use od_bench::VirtualDevice;
+use od_model::values;
 use od_runtime::NodeId;
 
 use crate::Failure;

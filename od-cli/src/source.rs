@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use od_devices::sim::{EdsOptions, VirtualDevice};
-use od_devices::{DEVICES, DeviceKind};
+use od_bench::{EdsOptions, VirtualDevice};
+use od_devices::DEVICES;
+use od_runtime::DeviceKind;
 use od_runtime::NodeId;
 
 use crate::{Failure, output};
@@ -60,7 +61,7 @@ impl Source {
         let base = match Self::find_in(base, folder)? {
             Self::BuiltIn(kind) => Text {
                 path: kind.name.into(),
-                text: kind.eds(),
+                text: od_devices::text::eds(kind),
                 overlay: None,
             },
             Self::File(text) => text,
@@ -145,7 +146,7 @@ pub(crate) fn device_list() -> String {
 
 /// A node ID as an argument.
 pub(crate) fn node_id(text: &str) -> Result<NodeId, String> {
-    let number = od_devices::sim::values::integer(text).and_then(|value| u8::try_from(value).ok());
+    let number = od_model::values::integer(text).and_then(|value| u8::try_from(value).ok());
     number
         .and_then(NodeId::new)
         .ok_or_else(|| String::from("a node ID is a number from 1 to 127"))

@@ -9,7 +9,9 @@ fn an_exported_device_is_clean_and_exports_to_itself() {
     for device in od_devices::DEVICES {
         let export = odkit(&["export", device.name], "");
         assert_eq!((export.code, export.err.as_str()), (0, ""));
-        let path = file(&device.eds_name(), &export.out).display().to_string();
+        let path = file(&od_devices::text::eds_name(device), &export.out)
+            .display()
+            .to_string();
         let check = odkit(&["check", &path], "");
         assert_eq!(check.code, 0, "{}", check.out);
         assert_eq!(check.out, "1 file checked: nothing to report\n");

@@ -10,6 +10,8 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
@@ -20,6 +22,8 @@ mod index;
 pub mod typed;
 mod types;
 mod value;
+#[cfg(feature = "alloc")]
+pub mod values;
 
 pub use access::{Access, Group};
 pub use address::Address;

@@ -75,6 +75,7 @@ mod emcy;
 pub mod encoder;
 mod error_control;
 mod fifo;
+mod kind;
 mod limits;
 mod lss;
 mod node;
@@ -90,6 +91,7 @@ pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use emcy::{Change as ErrorChange, Error};
+pub use kind::DeviceKind;
 pub use node::{BusEvent, Event, Node};
 pub use objects::Device;
 pub use profile::{

@@ -1,7 +1,7 @@
 //! The bench around the bus: what hangs on it, switches, faults, EEPROMs, the wire.
 
-use od_devices::sim::VirtualDevice;
-use od_devices::sim::line::Trouble;
+use od_bench::VirtualDevice;
+use od_bench::wire::Trouble;
 use od_model::Address;
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;

@@ -21,9 +21,11 @@ impl Bus {
     ) -> Result<String, JsError> {
         let text = match (name, text) {
             (_, Some(text)) => text,
-            (Some(name), None) => od_devices::find(&name)
-                .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?
-                .eds(),
+            (Some(name), None) => {
+                let kind = od_devices::find(&name)
+                    .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
+                od_devices::text::eds(kind)
+            }
             (None, None) => return Err(JsError::new("say which device it is, or its text")),
         };
         let mut description = od_eds::load(&text).description;

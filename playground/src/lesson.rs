@@ -1,8 +1,7 @@
 //! Lessons on a bus: what there is to do, and how far somebody is.
 
-use od_devices::sim;
-use od_devices::sim::lesson::{Lesson, Problem, Progress, Quiz, Watched};
-use od_devices::sim::script::{Bare, Bench, Host, Origin, Pattern, Script, run_on};
+use od_bench::lesson::{Lesson, Problem, Progress, Quiz, Watched};
+use od_bench::script::{Bare, Bench, Host, Origin, Pattern, Script, run_on};
 use od_runtime::{Frame, Instant, NodeId};
 use wasm_bindgen::prelude::*;
 
@@ -26,10 +25,10 @@ impl Bus {
     #[wasm_bindgen(js_name = startLesson)]
     pub fn start_lesson(&mut self, text: &str) -> Result<(), JsError> {
         let lesson = Lesson::parse(text).map_err(|all| error(all.first()))?;
-        let mut bus = sim::Bus::new();
+        let mut bus = od_bench::Bus::new();
         bus.advance(self.bus.now());
         let mut bench = lesson
-            .set_up_on(Bench::new(bus), &mut Bare)
+            .set_up_on(Bench::new(bus), &mut Bare(od_devices::DEVICES))
             .map_err(|problem| error(Some(&problem)))?;
         let progress = Progress::new(lesson, &mut bench);
         self.bus = std::mem::take(&mut bench.bus);
@@ -51,7 +50,7 @@ impl Bus {
         };
         let progress = &mut taken.progress;
         let requirements = progress.requirements(&mut self.bus);
-        let requirement = |one: &sim::lesson::Requirement| {
+        let requirement = |one: &od_bench::lesson::Requirement| {
             Record::new()
                 .with("holds", one.holds)
                 .with("text", one.text.as_str())
@@ -168,8 +167,8 @@ impl Host for Recorder<'_> {
         &mut self,
         name: Option<&str>,
         node_id: Option<NodeId>,
-    ) -> Result<sim::VirtualDevice, String> {
-        Bare.device(name, node_id)
+    ) -> Result<od_bench::VirtualDevice, String> {
+        Bare(od_devices::DEVICES).device(name, node_id)
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
@@ -202,7 +201,7 @@ pub fn parse_lesson(text: &str) -> JsValue {
 #[wasm_bindgen(js_name = judgeAnswer, unchecked_return_type = "Judgement")]
 pub fn judge_answer(answer: &str, given: &str) -> Result<JsValue, JsError> {
     let answer = Pattern::parse(answer).map_err(|found| JsError::new(&found.to_string()))?;
-    let judgement = sim::lesson::judge(&answer, given).map_err(|found| error(Some(&found)))?;
+    let judgement = od_bench::lesson::judge(&answer, given).map_err(|found| error(Some(&found)))?;
     let wrong = judgement.wrong_bytes.iter();
     Ok(Record::new()
         .with("right", judgement.right)

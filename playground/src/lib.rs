@@ -30,8 +30,9 @@ mod record;
 mod types;
 mod values;
 
-use od_devices::sim::words::{self, Service, Words};
-use od_devices::sim::{self, VirtualDevice};
+use od_bench::VirtualDevice;
+use od_bench::words;
+use od_bench::words::{Service, Words};
 #[cfg(feature = "eds")]
 use od_eds::{Diagnostic, Severity};
 use od_model::Address;
@@ -49,7 +50,7 @@ use record::Record;
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Bus {
-    bus: sim::Bus,
+    bus: od_bench::Bus,
     clockwork: motion::Clockwork,
     batch: Vec<u8>,
     /// The lesson that somebody takes here.
@@ -104,7 +105,7 @@ impl Bus {
         lenient: Option<bool>,
         place: Option<usize>,
     ) -> Result<JsValue, JsError> {
-        let options = sim::EdsOptions {
+        let options = od_bench::EdsOptions {
             node_id: Some(valid(node_id)?),
             lenient: lenient.unwrap_or_default(),
         };
@@ -338,7 +339,7 @@ impl Bus {
     /// The further channels of a redundant encoder: nodes with the next numbers, on its shaft.
     fn put_channels(
         &mut self,
-        kind: &'static od_devices::DeviceKind,
+        kind: &'static od_runtime::DeviceKind,
         first: usize,
         node_id: NodeId,
     ) {
@@ -370,7 +371,7 @@ impl Bus {
 /// The devices that `Bus.addDevice` knows.
 #[wasm_bindgen(js_name = builtinDevices, unchecked_return_type = "Builtin[]")]
 pub fn builtin_devices() -> Vec<JsValue> {
-    let record = |kind: &od_devices::DeviceKind| {
+    let record = |kind: &od_runtime::DeviceKind| {
         Record::new()
             .with("name", kind.name)
             .with("title", kind.title)

@@ -1,7 +1,6 @@
 //! What happens by itself while time passes: shafts that follow a profile, and frames that
 //! are sent again and again.
 
-use od_devices::sim;
 use od_runtime::{Frame, Instant};
 
 use crate::packed;
@@ -117,7 +116,7 @@ impl Clockwork {
 
 impl Tick {
     /// Does it on a bus; answers with the frame that came through.
-    pub(crate) fn happen(self, bus: &mut sim::Bus, batch: &mut Vec<u8>) -> Option<Frame> {
+    pub(crate) fn happen(self, bus: &mut od_bench::Bus, batch: &mut Vec<u8>) -> Option<Frame> {
         match self {
             Self::Rpm(device, rpm) => {
                 bus.with(device, |device, now| device.set_rpm(rpm, now));

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use od_devices::sim::candump::format_line;
-use od_devices::sim::script::{Bare, Host, Origin, Script, run};
-use od_devices::sim::{EdsOptions, VirtualDevice};
+use od_bench::logs::candump::format_line;
+use od_bench::script::{Bare, Host, Origin, Script, run};
+use od_bench::{EdsOptions, VirtualDevice};
 use od_runtime::{Frame, NodeId};
 use od_tests::scripts::{self, Header};
 
@@ -29,7 +29,7 @@ impl Host for Bench<'_> {
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, String> {
         let Some(file) = name.filter(|name| name.contains('.')) else {
-            return Bare.device(name.or(self.device), node_id);
+            return Bare(od_devices::DEVICES).device(name.or(self.device), node_id);
         };
         let path = self.folder.join(file);
         let bytes = fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_devices::sim::lesson::{Lesson, prove};
-use od_devices::sim::script::Bare;
+use od_bench::lesson::{Lesson, prove};
+use od_bench::script::Bare;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../playground/lessons")
@@ -39,7 +39,7 @@ fn every_solution_passes_and_nothing_passes_without_it() {
     let mut found = Vec::new();
     for (name, text) in lessons() {
         let lesson = read(&name, &text);
-        let problems = prove(&lesson, &mut Bare);
+        let problems = prove(&lesson, &mut Bare(od_devices::DEVICES));
         found.extend(problems.iter().map(|one| format!("{name}:{one}")));
     }
     assert!(found.is_empty(), "{}", found.join("\n"));

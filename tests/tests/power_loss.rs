@@ -6,10 +6,10 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use od_bench::{Bus, VirtualDevice};
 use od_devices::DEVICES;
-use od_devices::DeviceKind;
-use od_devices::sim::{Bus, VirtualDevice};
 use od_model::{Address, Group};
+use od_runtime::DeviceKind;
 use od_runtime::storage::{Memory, Storage, StorageError};
 use od_runtime::{CutSave, Frame, NodeId};
 

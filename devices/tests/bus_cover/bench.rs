@@ -1,6 +1,7 @@
 //! A whole device with node ID 1, switches at 0 and an empty EEPROM, talked to in frames.
 
-use od_devices::{DeviceKind, find};
+use od_devices::find;
+use od_runtime::DeviceKind;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::{Memory, image};
 use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};

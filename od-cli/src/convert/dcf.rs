@@ -1,7 +1,7 @@
 //! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
 
-use od_devices::sim::values;
 use od_eds::{Description, Spanned, Tables, Value};
+use od_model::values;
 
 use super::Args;
 use crate::Failure;

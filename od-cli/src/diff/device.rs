@@ -1,7 +1,7 @@
 //! A dictionary against a device on a bus: what it has, what it answers.
 
-use od_devices::sim::values;
 use od_eds::diff::{Difference, Field, Impact};
+use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
 use od_runtime::AbortCode;
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use od_devices::sim::lesson::{Lesson, Problem, prove};
+use od_bench::lesson::{Lesson, Problem, prove};
 
 use super::{Terminal, files, show_problems};
 use crate::output::note;

@@ -3,8 +3,8 @@
 use std::io::{self, BufRead};
 use std::path::PathBuf;
 
-use od_devices::sim::lesson::{Progress, Watched};
-use od_devices::sim::script::{Bench, Reader, Script, run_on};
+use od_bench::lesson::{Progress, Watched};
+use od_bench::script::{Bench, Reader, Script, run_on};
 
 use super::{File, Terminal};
 use crate::output::{Output, error, note};

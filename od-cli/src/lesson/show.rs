@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use od_devices::sim::lesson::{Lesson, Step};
+use od_bench::lesson::{Lesson, Step};
 
 use super::File;
 use crate::Failure;

@@ -8,7 +8,7 @@ use od_runtime::Frame;
 
 use super::Link;
 use crate::Failure;
-use od_devices::sim::links::slcan;
+use od_bench::links::slcan;
 
 pub(crate) struct Client {
     stream: TcpStream,

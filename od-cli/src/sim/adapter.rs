@@ -1,7 +1,7 @@
 //! What stands between a client's bytes and the bus's frames.
 
-use od_devices::sim::candump;
-use od_devices::sim::links::{Step, can_frame, slcan, socketcand};
+use od_bench::links::{Step, can_frame, slcan, socketcand};
+use od_bench::logs::candump;
 use od_runtime::{Frame, Instant};
 
 /// What a client speaks.

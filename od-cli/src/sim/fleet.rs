@@ -1,6 +1,6 @@
 //! The devices on the bus, as the command line asks for them.
 
-use od_devices::sim::VirtualDevice;
+use od_bench::VirtualDevice;
 use od_runtime::storage::File;
 use od_runtime::{Instant, NodeId};
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use od_devices::sim::Bus;
+use od_bench::Bus;
 
 use super::Options;
 use super::adapter::Kind;

@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant as Clock, SystemTime};
 
-use od_devices::sim::links::Step;
-use od_devices::sim::script::Console;
-use od_devices::sim::{Bus, VirtualDevice};
+use od_bench::links::Step;
+use od_bench::script::Console;
+use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Event, Frame, Instant};
 
 use super::adapter::{Adapter, FORMS, Kind, Taken};

@@ -1,4 +1,4 @@
-//! `cargo bench -p od-bench [-- timing | counts | table | count …]`
+//! `cargo bench -p od-benches [-- timing | counts | table | count …]`
 //!
 //! - nothing: `timing`, then `counts`, then the table
 //! - `timing`: nanoseconds per operation; `OD_BENCH_ROUNDS` (default 800) rounds
@@ -11,9 +11,9 @@ use std::env;
 use std::path::Path;
 use std::process::ExitCode;
 
-use od_bench::results::{Results, Unit};
-use od_bench::roster;
-use od_bench::{callgrind, stopwatch, table};
+use od_benches::results::{Results, Unit};
+use od_benches::roster;
+use od_benches::{callgrind, stopwatch, table};
 
 fn main() -> ExitCode {
     let mut arguments: Vec<String> = env::args().skip(1).collect();

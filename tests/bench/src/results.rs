@@ -26,7 +26,7 @@ pub struct Results {
 impl Results {
     /// What `directory` holds of earlier runs.
     pub fn load(directory: &Path) -> Self {
-        let file = directory.join("od-bench.tsv");
+        let file = directory.join("od-benches.tsv");
         let text = fs::read_to_string(&file).unwrap_or_default();
         let numbers = text
             .lines()

@@ -8,7 +8,7 @@ use std::{env, fs};
 use zencan_common::device_config::DeviceConfig;
 
 #[path = "../src/objects.rs"]
-#[allow(dead_code, unreachable_pub)] // shared with od-bench, which uses more of it
+#[allow(dead_code, unreachable_pub)] // shared with od-benches, which uses more of it
 mod objects;
 
 /// From here on a dictionary is large.

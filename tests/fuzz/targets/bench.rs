@@ -1,8 +1,8 @@
 //! Bytes as what happens to a device: frames that mean something more often than chance would
 //! have it, time, power, and the world outside.
 
+use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
-use od_devices::sim::{EdsOptions, VirtualDevice};
 use od_model::Entry;
 use od_runtime::{CanId, Frame, NodeId};
 

@@ -1,7 +1,7 @@
 //! candump text: what is read as a frame is written as one that reads the same, and an error
 //! points into the line.
 
-use od_devices::sim::candump::{format_line, parse_frame, parse_line};
+use od_bench::logs::candump::{format_line, parse_frame, parse_line};
 use od_runtime::Instant;
 
 use super::Target;

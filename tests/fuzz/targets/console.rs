@@ -1,8 +1,8 @@
 //! Lines for a bench that runs already: carried out or refused, and none of them stops the
 //! others.
 
-use od_devices::sim::script::Console;
-use od_devices::sim::{Bus, VirtualDevice};
+use od_bench::script::Console;
+use od_bench::{Bus, VirtualDevice};
 
 use super::Target;
 use super::bench;

@@ -1,7 +1,7 @@
 //! EDS and DCF text: it is read whatever it is, written so that it reads the same, and runs as
 //! far as it goes.
 
-use od_devices::sim::{Bus, EdsOptions, VirtualDevice};
+use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::Tables;
 use od_runtime::{Frame, Instant};
 

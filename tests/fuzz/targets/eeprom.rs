@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use od_devices::sim::{Bus, VirtualDevice};
+use od_bench::{Bus, VirtualDevice};
 use od_model::{Access, Address};
 use od_runtime::Frame;
 use od_runtime::storage::{Memory, Storage, StorageError};

@@ -2,7 +2,7 @@
 //! panics, never floods the bus, keeps silent when it is stopped, and is itself again after it
 //! was mended and power-cycled.
 
-use od_devices::sim::{Bus, VirtualDevice};
+use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Frame, Instant};
 use od_wire::nmt::State;
 

@@ -3,8 +3,8 @@
 
 use std::panic::panic_any;
 
-use od_devices::sim::VirtualDevice;
-use od_devices::sim::script::{Bare, Host, Origin, Script, run as run_script};
+use od_bench::VirtualDevice;
+use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
 use od_runtime::{Frame, Instant, NodeId};
 
 use super::{Target, files};
@@ -81,7 +81,7 @@ impl Host for Bounded {
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, String> {
         self.0 += 1000;
-        Bare.device(name, node_id)
+        Bare(od_devices::DEVICES).device(name, node_id)
     }
 
     fn frame(&mut self, _: Instant, _: Origin, _: &Frame) {

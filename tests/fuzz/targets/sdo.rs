@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use od_devices::sim::{Bus, VirtualDevice};
+use od_bench::{Bus, VirtualDevice};
 use od_model::{Access, Address, Entry};
 use od_runtime::{Event, Frame, Instant};
 use od_wire::nmt::State;

@@ -1,6 +1,6 @@
 //! slcan: what comes in pieces means the same, and every frame goes out as it came in.
 
-use od_devices::sim::links::{Step, slcan};
+use od_bench::links::{Step, slcan};
 
 use super::Target;
 

@@ -17,7 +17,7 @@ pub struct Zencan {
 impl Zencan {
     /// A started node with `size` application objects, if that was generated.
     pub fn new(size: usize) -> Option<Self> {
-        let statics = od_bench_zencan::statics(size)?;
+        let statics = od_benches_zencan::statics(size)?;
         let mailbox = statics.mailbox;
         let mut node = Node::new(
             NodeId::new(objects::NODE_ID).expect("a node-ID"),
@@ -70,7 +70,7 @@ mod one_thread {
     struct OneThread;
     critical_section::set_impl!(OneThread);
 
-    // SAFETY: neither the benches nor `od-bench-count` start a second thread.
+    // SAFETY: neither the benches nor `od-benches-count` start a second thread.
     unsafe impl critical_section::Impl for OneThread {
         unsafe fn acquire() {}
         unsafe fn release((): ()) {}

@@ -20,7 +20,7 @@ const CRATES: [&str; 5] = [
     "--exclude",
     "od-tests",
     "--exclude",
-    "od-bench",
+    "od-benches",
 ];
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
@@ -106,7 +106,7 @@ pub(super) fn fuzz(context: &Context<'_>) -> Result<()> {
 pub(super) fn rustdoc(context: &Context<'_>) -> Result<()> {
     let mut command = cargo(&context.repo.root, &["doc", "--workspace", "--no-deps"]);
     command
-        .args(["--lib", "--all-features", "--exclude", "od-bench"])
+        .args(["--lib", "--all-features", "--exclude", "od-benches"])
         .env("RUSTDOCFLAGS", "-D warnings");
     context.console.run("documentation", &mut command)
 }
@@ -124,7 +124,7 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
 }
 
 pub(super) fn bench_build(context: &Context<'_>) -> Result<()> {
-    let args = ["bench", "--package", "od-bench", "--no-run"];
+    let args = ["bench", "--package", "od-benches", "--no-run"];
     run(context, "benchmarks", &args)
 }
 

@@ -1,0 +1,40 @@
+//! A compiled device as an EDS, for masters and tools that want a file.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::DeviceKind;
+
+/// The day of the facts; the texts of a device do not change by being written.
+const DATE: &str = "11-21-2026";
+
+const COMMENTS: &[&str] = &[
+    "Written by odkit from the facts of the manual; not the manufacturer's file.",
+    "StorageLocation comments name the group of 1010h that saves a value.",
+];
+
+/// Name of its EDS file: its own in capitals.
+pub fn eds_name(kind: &DeviceKind) -> String {
+    format!("{}.eds", kind.name.to_uppercase())
+}
+
+/// Its EDS. Read again it gives the same dictionary.
+///
+/// ```
+/// let gcam = od_devices::find("gcam").unwrap();
+/// assert!(od_devices::text::eds(gcam).contains("ProductName=GCAM\n"));
+/// ```
+pub fn eds(kind: &DeviceKind) -> String {
+    let file = eds_name(kind);
+    let about = od_eds::About {
+        file: &file,
+        description: kind.title,
+        date: DATE,
+        vendor: "odkit virtual devices",
+        bit_rates: kind.encoder.bit_rates,
+        lss: kind.profile.lss.is_some(),
+        simple_boot_up: true,
+        comments: COMMENTS,
+    };
+    od_eds::canonical(&od_eds::describe(kind.dictionary, &about))
+}

@@ -1,0 +1,427 @@
+//! One device: dictionary, values, node, behaviour and storage in one piece.
+
+use std::collections::VecDeque;
+use std::prelude::v1::*;
+use std::vec;
+
+#[cfg(feature = "eds")]
+use od_eds::{Diagnostic, Tables};
+use od_model::{Address, Dictionary, Entry};
+use od_runtime::encoder::{Encoder, Fault};
+use od_runtime::storage::{Storage, image};
+use od_runtime::{
+    Application, BusEvent, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Reset, Store,
+};
+use od_wire::nmt::State;
+
+use crate::eeprom::Eeprom;
+use od_runtime::DeviceKind;
+
+/// A node with room for what EDS files have: 64 PDOs each way, and the longest value that a
+/// store can hold.
+type RoomyNode = Node<64, 0x1_0000>;
+
+/// Where a dictionary comes from.
+pub(super) enum Source {
+    Compiled(Dictionary<'static>),
+    #[cfg(feature = "eds")]
+    Loaded(Box<Tables>),
+}
+
+impl Source {
+    pub(super) fn dictionary(&self) -> Dictionary<'_> {
+        match self {
+            Self::Compiled(dictionary) => *dictionary,
+            #[cfg(feature = "eds")]
+            Self::Loaded(tables) => tables.dictionary(),
+        }
+    }
+}
+
+/// What is behind the dictionary.
+pub(super) enum Behaviour {
+    Encoder(Box<Encoder>),
+    Other(Box<dyn Application>),
+}
+
+impl Behaviour {
+    /// An encoder where there is a position (6004h), else nothing.
+    fn of(dictionary: Dictionary<'_>) -> Self {
+        match Encoder::for_dictionary(dictionary) {
+            Some(encoder) => Self::Encoder(Box::new(encoder)),
+            None => Self::Other(Box::new(NoApplication)),
+        }
+    }
+
+    pub(super) fn as_application(&mut self) -> &mut dyn Application {
+        match self {
+            Self::Encoder(encoder) => &mut **encoder,
+            Self::Other(other) => &mut **other,
+        }
+    }
+}
+
+/// What an EDS file leaves open.
+#[cfg(feature = "eds")]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct EdsOptions {
+    /// The node ID; `None`: the one of the DCF, else 1.
+    pub node_id: Option<NodeId>,
+    /// Runs what can be run of a text with errors.
+    pub lenient: bool,
+}
+
+/// A CANopen device that lives in virtual time.
+///
+/// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
+/// [`Bus`](crate::bus::Bus) does it for you.
+pub struct VirtualDevice {
+    title: String,
+    pub(super) source: Source,
+    pub(super) values: Vec<u8>,
+    pub(super) node: Box<RoomyNode>,
+    pub(super) behaviour: Behaviour,
+    pub(super) storage: Eeprom,
+    pub(super) profile: &'static Profile,
+    wanted_id: NodeId,
+    wanted_rate: Option<u16>,
+    /// When the turning shaft is looked at again.
+    look_at: Option<Instant>,
+    /// The bit rate that LSS activated since the last start, in kbit/s.
+    pub(super) activated: Option<u16>,
+    /// What happened, for [`poll_event`](Self::poll_event).
+    events: VecDeque<Event>,
+    /// Channels on its shaft, as [`DeviceKind::channels`].
+    channels: u8,
+    pub(super) has_leds: bool,
+}
+
+/// So many events are kept for whoever asks.
+const EVENTS: usize = 256;
+
+impl VirtualDevice {
+    /// A built-in device, without power, with an empty EEPROM in memory.
+    pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
+        let behaviour = Behaviour::Encoder(Box::new(
+            Encoder::new(kind.encoder).with_sensor_of(kind.dictionary),
+        ));
+        let source = Source::Compiled(kind.dictionary);
+        let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node_id);
+        Self {
+            channels: kind.channels,
+            has_leds: kind.leds,
+            ..device
+        }
+    }
+
+    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter, and an
+    /// encoder behind it where there is a position (6004h).
+    pub fn of(title: &str, dictionary: Dictionary<'static>, node_id: NodeId) -> Self {
+        let source = Source::Compiled(dictionary);
+        let behaviour = Behaviour::of(dictionary);
+        Self::build(title.into(), source, behaviour, &Profile::CIA301, node_id)
+    }
+
+    /// The same with behaviour of one's own, and what the services do differently.
+    pub fn with_application(
+        title: &str,
+        dictionary: Dictionary<'static>,
+        profile: &'static Profile,
+        application: Box<dyn Application>,
+        node_id: NodeId,
+    ) -> Self {
+        let source = Source::Compiled(dictionary);
+        let behaviour = Behaviour::Other(application);
+        Self::build(title.into(), source, behaviour, profile, node_id)
+    }
+
+    /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
+    /// whose channels are nodes of their own. [`Bus::add_beside`](crate::bus::Bus::add_beside) puts
+    /// the second one on the bus.
+    pub fn channels(&self) -> u8 {
+        self.channels
+    }
+
+    /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
+    /// there is a position (6004h).
+    ///
+    /// # Errors
+    /// The diagnostics, if one of them is an error and `options` is not lenient.
+    #[cfg(feature = "eds")]
+    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Diagnostic>> {
+        let parsed = od_eds::load(text);
+        if !options.lenient && parsed.diagnostics.iter().any(Diagnostic::is_error) {
+            return Err(parsed.diagnostics);
+        }
+        let description = &parsed.description;
+        let commissioned = description.commissioned_node_id().and_then(NodeId::new);
+        let node_id = options.node_id.or(commissioned).unwrap_or(NodeId::ONE);
+        let product = description
+            .section("DeviceInfo")
+            .and_then(|info| info.get("ProductName"));
+        let title = product.map(|name| name.value.trim().to_owned());
+        let tables = Tables::new(description);
+        let behaviour = Behaviour::of(tables.dictionary());
+        let title = title
+            .filter(|title| !title.is_empty())
+            .unwrap_or_else(|| "EDS device".into());
+        let source = Source::Loaded(Box::new(tables));
+        Ok(Self::build(
+            title,
+            source,
+            behaviour,
+            &Profile::CIA301,
+            node_id,
+        ))
+    }
+
+    fn build(
+        title: String,
+        source: Source,
+        behaviour: Behaviour,
+        profile: &'static Profile,
+        node_id: NodeId,
+    ) -> Self {
+        let dictionary = source.dictionary();
+        let values = vec![0; dictionary.store_len()];
+        let erased = vec![0xFF; image::capacity_needed(&dictionary)];
+        Self {
+            title,
+            source,
+            values,
+            node: Box::new(Node::new(node_id)),
+            behaviour,
+            storage: Eeprom::own(erased),
+            profile,
+            wanted_id: node_id,
+            wanted_rate: None,
+            look_at: None,
+            activated: None,
+            events: VecDeque::new(),
+            channels: 1,
+            has_leds: true,
+        }
+    }
+
+    /// Another EEPROM, with what is in it. Do it before power comes.
+    #[must_use]
+    pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
+        self.storage = Eeprom::lent(storage);
+        self
+    }
+
+    /// With this serial number, where it is an encoder. Do it before power comes.
+    #[must_use]
+    pub fn with_serial_number(mut self, serial_number: u32) -> Self {
+        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+            **encoder = encoder.clone().with_serial_number(serial_number);
+        }
+        self
+    }
+
+    /// Set up for this bit rate in kbit/s, as somebody did who put it on a line: it stands in
+    /// an EEPROM that is empty at the first start, where the device can keep it.
+    pub fn set_up_for(&mut self, rate: Option<u16>) {
+        self.wanted_rate = rate;
+    }
+
+    /// Bytes that an EEPROM of this device needs.
+    pub fn storage_needed(&self) -> usize {
+        image::capacity_needed(&self.dictionary())
+    }
+
+    /// A name to show.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Power comes. A device that keeps its node ID in 2101h and has an empty EEPROM starts
+    /// with the ID that it was made with.
+    pub fn power_on(&mut self, now: Instant) {
+        if self.node.is_powered() {
+            return;
+        }
+        if let Some(memory) = self.storage.memory() {
+            memory.restore_power();
+        }
+        self.configure_node_id();
+        let (node, mut device) = self.parts();
+        // `build` made room for the values.
+        let powered = node.power_on(&mut device, now);
+        debug_assert!(powered.is_ok());
+        self.take_events();
+    }
+
+    /// Power goes. Time goes on, and the shaft with it.
+    pub fn power_off(&mut self, now: Instant) {
+        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+            encoder.power_off(now);
+        }
+        self.node.power_off();
+    }
+
+    /// Is there power?
+    pub fn is_powered(&self) -> bool {
+        self.node.is_powered()
+    }
+
+    /// A frame was received.
+    pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        let (node, mut device) = self.parts();
+        node.handle_frame(&mut device, now, frame);
+        self.take_events();
+        self.falls_dark(now);
+    }
+
+    /// Time has passed.
+    pub fn handle_timeout(&mut self, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_timeout(&mut device, now);
+        self.take_events();
+        if self.look_at.is_some_and(|at| at <= now) {
+            self.noticed(now);
+        }
+        self.falls_dark(now);
+    }
+
+    /// Power that went while the EEPROM was written went for all.
+    fn falls_dark(&mut self, now: Instant) {
+        if self.storage.is_cut() {
+            self.power_off(now);
+        }
+    }
+
+    /// The CAN controller has news: error counters, bus-off, a lost frame.
+    pub fn handle_bus(&mut self, event: BusEvent, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_bus(&mut device, now, event);
+        self.take_events();
+    }
+
+    /// Something outside the bus changed.
+    pub(super) fn noticed(&mut self, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.handle_change(&mut device, now);
+        self.take_events();
+        self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
+    }
+
+    /// The next frame to send.
+    pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        let (node, mut device) = self.parts();
+        node.poll_transmit(&mut device, now)
+    }
+
+    /// When [`handle_timeout`](Self::handle_timeout) is due.
+    pub fn poll_timeout(&self) -> Option<Instant> {
+        let look_at = self
+            .look_at
+            .filter(|_| self.node.state() == State::Operational);
+        match (self.node.poll_timeout(), look_at) {
+            (Some(node), Some(look)) => Some(node.min(look)),
+            (node, look) => node.or(look),
+        }
+    }
+
+    /// What happened, oldest first.
+    pub fn poll_event(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+
+    /// Keeps what happened for whoever asks, and takes what the world outside the node has to
+    /// know of it.
+    fn take_events(&mut self) {
+        while let Some(event) = self.node.poll_event() {
+            match event {
+                Event::BitRate(code) => self.activated = self.bit_rate_of(code),
+                Event::Reset(Reset::PowerOn | Reset::Node, _) => self.activated = None,
+                _ => {}
+            }
+            if self.events.len() == EVENTS {
+                self.events.pop_front();
+            }
+            self.events.push_back(event);
+        }
+    }
+
+    /// The NMT state.
+    pub fn state(&self) -> State {
+        self.node.state()
+    }
+
+    /// The active node ID.
+    pub fn node_id(&self) -> NodeId {
+        self.node.node_id()
+    }
+
+    /// The object dictionary.
+    pub fn dictionary(&self) -> Dictionary<'_> {
+        self.source.dictionary()
+    }
+
+    /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.
+    fn configure_node_id(&mut self) {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return;
+        };
+        let family = encoder.profile();
+        let Self {
+            source,
+            values,
+            storage,
+            wanted_id,
+            wanted_rate,
+            profile,
+            ..
+        } = self;
+        let code = wanted_rate.and_then(|rate| {
+            let code = family.bit_rates.iter().position(|known| *known == rate)?;
+            Some((family.bit_rate?, code as u64))
+        });
+        let id = family
+            .node_id
+            .map(|index| (index, u64::from(wanted_id.raw())));
+        let wanted = [id, code];
+        let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
+            return;
+        };
+        store.reset(|_| true);
+        let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
+        if loaded != Ok(image::Loaded::Blank) {
+            return;
+        }
+        let mut differs = false;
+        for (index, value) in wanted.into_iter().flatten() {
+            differs |= store.unsigned(index, 0) != value;
+            store.set_unsigned(Address::new(index, 0), value);
+        }
+        if differs {
+            // Only the group of the object; a storage that fails keeps the default.
+            let _ = image::save(storage, &store, &profile.store, 4);
+        }
+    }
+
+    fn parts(&mut self) -> (&mut RoomyNode, Device<'_>) {
+        let Self {
+            source,
+            values,
+            node,
+            behaviour,
+            storage,
+            profile,
+            ..
+        } = self;
+        if let Behaviour::Encoder(encoder) = behaviour {
+            storage.broken = encoder.is_broken(Fault::Memory);
+        }
+        let device = Device {
+            dictionary: source.dictionary(),
+            values,
+            application: behaviour.as_application(),
+            storage,
+            profile,
+        };
+        (node, device)
+    }
+}

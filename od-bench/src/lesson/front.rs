@@ -1,0 +1,91 @@
+//! The front matter: what stands between the `+++` lines, one `key = value` a line as in TOML.
+
+use std::format;
+use std::prelude::v1::*;
+
+use super::{Lesson, Problem};
+use od_model::values;
+
+const KEYS: &str = "there are title, summary, level, minutes, language and absent";
+
+/// Takes one line of it.
+pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), Problem> {
+    let problem = |message: String, help: &str| {
+        Err(Problem {
+            line: number,
+            column: 1,
+            message,
+            help: help.into(),
+        })
+    };
+    let text = text.trim();
+    if text.is_empty() || text.starts_with('#') {
+        return Ok(());
+    }
+    let Some((key, value)) = text.split_once('=') else {
+        return problem(
+            "a line between the `+++` has no `=`".into(),
+            "write `title = \"Boot-up\"`",
+        );
+    };
+    let (key, value) = (key.trim(), value.trim());
+    let quoted = value
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'))
+        .filter(|inner| !inner.is_empty() && !inner.contains('"'));
+    match (key, quoted) {
+        ("title", Some(title)) => lesson.title = title.into(),
+        ("summary", Some(summary)) => lesson.summary = summary.into(),
+        ("language", Some(language)) => lesson.language = language.into(),
+        ("absent", Some(list)) => {
+            for word in list.split(',') {
+                match values::address(word) {
+                    Some(address) => lesson.absent.push(address),
+                    None => {
+                        return problem(
+                            format!("`{}` is no object", word.trim()),
+                            "write objects like \"2FFFh, 1018h:09\"",
+                        );
+                    }
+                }
+            }
+        }
+        ("title" | "summary" | "language" | "absent", None) => {
+            return problem(
+                format!("`{key}` is no text"),
+                "a text stands in quotes and is not empty",
+            );
+        }
+        ("level", _) => match value.parse() {
+            Ok(level @ 1..=3) => lesson.level = level,
+            _ => return problem("the level does not fit".into(), "write 1, 2 or 3"),
+        },
+        ("minutes", _) => match value.parse() {
+            Ok(minutes @ 1..=600) => lesson.minutes = minutes,
+            _ => return problem("the minutes do not fit".into(), "write 1 to 600"),
+        },
+        _ => return problem(format!("there is no key `{key}`"), KEYS),
+    }
+    Ok(())
+}
+
+/// What has to stand there and does not.
+pub(super) fn missing(lesson: &Lesson) -> Option<Problem> {
+    let what = if lesson.title.is_empty() {
+        "title"
+    } else if lesson.level == 0 {
+        "level"
+    } else if lesson.minutes == 0 {
+        "minutes"
+    } else {
+        return None;
+    };
+    Some(Problem {
+        line: 1,
+        column: 1,
+        message: format!("the lesson has no {what}"),
+        help: "begin the file with a line `+++`, then `title = \"…\"`, `level = 1`, \
+               `minutes = 10`, and a line `+++`"
+            .into(),
+    })
+}

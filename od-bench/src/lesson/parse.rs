@@ -1,0 +1,377 @@
+//! From Markdown to a lesson: front matter, headings, and blocks with a name.
+
+use std::format;
+use std::prelude::v1::*;
+
+use super::{Block, Lesson, Problem, Quiz, Step, front, links, parse_condition};
+use crate::script::{Pattern, Script};
+
+/// A lesson is a text for people; what is longer is something else.
+const LONGEST: usize = 256 * 1024;
+
+/// Where prose goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Text,
+    Hint,
+    Happened,
+    Question,
+    Reveal,
+}
+
+/// A fenced block that is open.
+struct Fence {
+    line: u32,
+    /// As many backticks as it began with.
+    ticks: usize,
+    /// `set-up`, `checkpoint`, `solution`, `answer`; else it is part of the text.
+    name: String,
+    lines: Vec<String>,
+}
+
+struct Reader {
+    lesson: Lesson,
+    problems: Vec<Problem>,
+    part: Part,
+    fence: Option<Fence>,
+    /// Lines of blocks that stand in the present step already.
+    seen: Vec<&'static str>,
+}
+
+const BLOCKS: [&str; 4] = ["set-up", "checkpoint", "solution", "answer"];
+
+pub(super) fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
+    let mut reader = Reader {
+        lesson: Lesson {
+            language: "en".into(),
+            ..Lesson::default()
+        },
+        problems: Vec::new(),
+        part: Part::Text,
+        fence: None,
+        seen: Vec::new(),
+    };
+    if text.len() > LONGEST {
+        reader.problem(1, "the lesson is too long", "the limit is 256 KiB");
+        return Err(reader.problems);
+    }
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut front = None;
+    for (number, line) in (1..).zip(text.lines()) {
+        match front {
+            None if line.trim() == "+++" => front = Some(true),
+            None if line.trim().is_empty() => {}
+            Some(true) if line.trim() == "+++" => front = Some(false),
+            Some(true) => {
+                if let Err(problem) = front::line(&mut reader.lesson, number, line) {
+                    reader.problems.push(problem);
+                }
+            }
+            // Without front matter everything else is read all the same.
+            _ => {
+                front = Some(false);
+                reader.line(number, line);
+            }
+        }
+    }
+    reader.end()
+}
+
+impl Reader {
+    fn problem(&mut self, line: u32, message: impl Into<String>, help: &str) {
+        self.problems.push(Problem {
+            line,
+            column: 1,
+            message: message.into(),
+            help: help.into(),
+        });
+    }
+
+    fn line(&mut self, number: u32, line: &str) {
+        let trimmed = line.trim();
+        let ticks = trimmed.len() - trimmed.trim_start_matches('`').len();
+        if let Some(fence) = &mut self.fence {
+            let closes = ticks >= fence.ticks && ticks == trimmed.len();
+            if !closes {
+                fence.lines.push(line.to_owned());
+                return;
+            }
+            if let Some(fence) = self.fence.take() {
+                self.block(fence);
+            }
+            return;
+        }
+        if ticks >= 3 {
+            self.fence = Some(Fence {
+                line: number + 1,
+                ticks,
+                name: trimmed[ticks..].trim().to_owned(),
+                lines: Vec::new(),
+            });
+        } else if let Some(title) = line.strip_prefix("### ") {
+            self.heading(number, title.trim());
+        } else if let Some(title) = line.strip_prefix("## ") {
+            self.end_step();
+            self.lesson.steps.push(Step {
+                line: number,
+                title: title.trim().to_owned(),
+                ..Step::default()
+            });
+            self.part = Part::Text;
+            self.seen.clear();
+        } else {
+            links::collect(&mut self.lesson, number, line);
+            self.prose(line);
+        }
+    }
+
+    /// `### Hint` and its like.
+    fn heading(&mut self, number: u32, title: &str) {
+        const HELP: &str = "there are Hint, What just happened and Predict; other headings begin \
+                            with `####`";
+        let Some(step) = self.lesson.steps.last_mut() else {
+            return self.problem(
+                number,
+                "a part stands before the first step",
+                "`## ` begins a step",
+            );
+        };
+        self.part = match title {
+            "Hint" => {
+                step.hints.push(String::new());
+                Part::Hint
+            }
+            "What just happened" => Part::Happened,
+            "Predict" if step.quiz.is_some() => {
+                return self.problem(number, "a step has one question", "make another step");
+            }
+            "Predict" => {
+                step.quiz = Some(Quiz {
+                    question: String::new(),
+                    answer: Pattern::nothing(),
+                    reveal: String::new(),
+                    line: 0,
+                });
+                Part::Question
+            }
+            _ => return self.problem(number, format!("there is no part `{title}`"), HELP),
+        };
+    }
+
+    /// Where prose goes now.
+    fn target(&mut self) -> &mut String {
+        let Some(step) = self.lesson.steps.last_mut() else {
+            return &mut self.lesson.intro;
+        };
+        match (self.part, &mut step.quiz, step.hints.last_mut()) {
+            (Part::Hint, _, Some(hint)) => hint,
+            (Part::Happened, ..) => &mut step.happened,
+            (Part::Question, Some(quiz), _) => &mut quiz.question,
+            (Part::Reveal, Some(quiz), _) => &mut quiz.reveal,
+            _ => &mut step.text,
+        }
+    }
+
+    fn prose(&mut self, line: &str) {
+        let target = self.target();
+        // No blank lines at the beginning.
+        if !target.is_empty() || !line.trim().is_empty() {
+            target.push_str(line.trim_end());
+            target.push('\n');
+        }
+    }
+
+    fn block(&mut self, fence: Fence) {
+        let Some(name) = BLOCKS.into_iter().find(|name| *name == fence.name) else {
+            let ticks = "`".repeat(fence.ticks);
+            self.prose(&format!("{ticks}{}", fence.name));
+            for line in &fence.lines {
+                let target = self.target();
+                target.push_str(line);
+                target.push('\n');
+            }
+            return self.prose(&ticks);
+        };
+        let line = fence.line - 1;
+        if self.seen.contains(&name) {
+            let message = format!("a second `{name}` block");
+            return self.problem(
+                line,
+                message,
+                "one is allowed here; put its lines into the first",
+            );
+        }
+        self.seen.push(name);
+        let before_steps = self.lesson.steps.is_empty();
+        if before_steps != (name == "set-up") {
+            let (message, help) = match name {
+                "set-up" => (
+                    "the set-up stands in a step",
+                    "put it before the first `## `",
+                ),
+                _ => (
+                    "a block stands before the first step",
+                    "`## ` begins a step",
+                ),
+            };
+            return self.problem(line, message, help);
+        }
+        let block = Block {
+            line: fence.line,
+            text: fence.lines.join("\n"),
+        };
+        match name {
+            "checkpoint" => self.checkpoint(&fence),
+            "answer" => self.answer(&fence),
+            _ => {
+                if let Err(problems) = Script::parse_at(&block.text, block.line) {
+                    self.problems.extend(problems);
+                }
+                match self.lesson.steps.last_mut() {
+                    Some(step) => step.solution = block,
+                    None => self.lesson.set_up = block,
+                }
+            }
+        }
+    }
+
+    fn checkpoint(&mut self, fence: &Fence) {
+        let Some(step) = self.lesson.steps.last_mut() else {
+            return;
+        };
+        for (number, text) in (fence.line..).zip(&fence.lines) {
+            match parse_condition::line(number, text, step.checkpoint.last()) {
+                Ok(line) => step.checkpoint.extend(line),
+                Err(problem) => self.problems.push(problem),
+            }
+        }
+        if self.problems.is_empty() && step.checkpoint.is_empty() {
+            let help = "write what has to be seen, like `came 701#00`";
+            self.problem(fence.line, "the checkpoint is empty", help);
+        }
+    }
+
+    fn answer(&mut self, fence: &Fence) {
+        const HELP: &str = "write the frame in one line, like `581#43 00 10 00 ..*`";
+        let quiz = self
+            .lesson
+            .steps
+            .last_mut()
+            .and_then(|step| step.quiz.as_mut());
+        let Some(quiz) = quiz else {
+            let help = "put it below a heading `### Predict`";
+            return self.problem(fence.line, "an answer without a question", help);
+        };
+        let mut lines = fence.lines.iter().filter(|line| !line.trim().is_empty());
+        let (Some(line), None) = (lines.next(), lines.next()) else {
+            return self.problem(fence.line, "an answer is one frame", HELP);
+        };
+        match Pattern::parse(line) {
+            Ok(answer) => {
+                quiz.answer = answer;
+                quiz.line = fence.line;
+                self.part = Part::Reveal;
+            }
+            Err(error) => self.problems.push(Problem {
+                line: fence.line,
+                column: error.column,
+                message: error.message,
+                help: error.help.into(),
+            }),
+        }
+    }
+
+    /// What the step that ends lacks.
+    fn end_step(&mut self) {
+        let Some(step) = self.lesson.steps.last() else {
+            return;
+        };
+        let line = step.line;
+        let quiz_open = step.quiz.as_ref().is_some_and(|quiz| quiz.line == 0);
+        let lacks = [
+            (step.title.is_empty(), "a title", "write it behind `## `"),
+            (
+                step.text.trim().is_empty(),
+                "a text",
+                "say below the heading what there is to do",
+            ),
+            (
+                !self.seen.contains(&"checkpoint"),
+                "a checkpoint",
+                "add a block that begins with three backticks and `checkpoint`",
+            ),
+            (
+                !self.seen.contains(&"solution"),
+                "a solution",
+                "add a block that begins with three backticks and `solution`",
+            ),
+            (step.hints.is_empty(), "hints", "add a heading `### Hint`"),
+            (
+                step.hints.iter().any(|hint| hint.trim().is_empty()),
+                "a text of a hint",
+                "write it below `### Hint`",
+            ),
+            (
+                step.happened.trim().is_empty(),
+                "an explanation",
+                "add a heading `### What just happened`",
+            ),
+            (
+                quiz_open && !self.seen.contains(&"answer"),
+                "an answer to its question",
+                "add a block that begins with three backticks and `answer`",
+            ),
+        ];
+        let title = step.title.clone();
+        for (missing, what, help) in lacks {
+            if missing {
+                self.problem(
+                    line,
+                    format!(
+                        "the step `{title}` has no {}",
+                        what.trim_start_matches("a ").trim_start_matches("an ")
+                    ),
+                    help,
+                );
+            }
+        }
+    }
+
+    fn end(mut self) -> Result<Lesson, Vec<Problem>> {
+        match self.fence.take() {
+            Some(fence) => {
+                let help = "close it with as many backticks";
+                self.problem(fence.line - 1, "this block has no end", help);
+            }
+            // What the block swallowed is not missing.
+            None => self.end_step(),
+        }
+        if let Some(problem) = front::missing(&self.lesson) {
+            self.problems.push(problem);
+        }
+        if self.lesson.steps.is_empty() {
+            self.problem(1, "the lesson has no step", "`## ` begins a step");
+        }
+        if self.lesson.set_up.line == 0 {
+            let help = "add a block that begins with three backticks and `set-up`, with a line \
+                        like `device gxmm node 5`";
+            self.problem(1, "the lesson has no set-up", help);
+        }
+        if self.problems.is_empty() {
+            let trim = |text: &mut String| text.truncate(text.trim_end().len());
+            trim(&mut self.lesson.intro);
+            for step in &mut self.lesson.steps {
+                trim(&mut step.text);
+                trim(&mut step.happened);
+                step.hints.iter_mut().for_each(trim);
+                if let Some(quiz) = &mut step.quiz {
+                    trim(&mut quiz.question);
+                    trim(&mut quiz.reveal);
+                }
+            }
+            return Ok(self.lesson);
+        }
+        self.problems.sort_by_key(|problem| problem.line);
+        Err(self.problems)
+    }
+}

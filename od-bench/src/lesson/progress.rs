@@ -1,0 +1,360 @@
+//! How far somebody is in a lesson.
+
+use std::collections::VecDeque;
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant};
+
+use super::condition::{Alternative, Fact, Kind, Line, What};
+use super::{Lesson, Step};
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::script::{Bench, Origin};
+
+/// One thing that the present step asks for.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Requirement {
+    /// It is so.
+    pub holds: bool,
+    /// What it is, and how it stands with it.
+    pub text: String,
+}
+
+/// What is known of one alternative since the step began.
+#[derive(Clone, Copy, Default, Debug)]
+struct Note {
+    /// Frames that counted.
+    count: u32,
+    /// The last of them.
+    last: Option<Instant>,
+    /// When there were enough.
+    done: Option<Instant>,
+    /// Since when the fact holds.
+    since: Option<Instant>,
+}
+
+/// Watches a bench while somebody takes a lesson.
+///
+/// Hand it every frame that came through, then let it look; both change nothing on the bench.
+pub struct Progress {
+    lesson: Lesson,
+    /// Number of each device that the lesson names.
+    devices: Vec<(String, usize)>,
+    step: usize,
+    began: Instant,
+    /// Where each shaft was then.
+    turns: Vec<Option<f64>>,
+    notes: Vec<Vec<Note>>,
+    /// When a frame was disturbed on the wire.
+    disturbed: Option<Instant>,
+    reached: Vec<Instant>,
+    news: VecDeque<usize>,
+}
+
+impl Progress {
+    /// At the first step, with the bench as its set-up left it.
+    pub fn new(lesson: Lesson, bench: &mut Bench) -> Self {
+        let mut devices = Vec::new();
+        for name in lesson.devices_named() {
+            if let Some(number) = bench.device(name) {
+                devices.push((name.to_owned(), number));
+            }
+        }
+        let mut progress = Self {
+            lesson,
+            devices,
+            step: 0,
+            began: Instant::ZERO,
+            turns: Vec::new(),
+            notes: Vec::new(),
+            disturbed: None,
+            reached: Vec::new(),
+            news: VecDeque::new(),
+        };
+        progress.begin(0, &bench.bus);
+        progress
+    }
+
+    /// The lesson.
+    pub fn lesson(&self) -> &Lesson {
+        &self.lesson
+    }
+
+    /// The present step, counted from 0; the number of steps when all is done.
+    pub fn step(&self) -> usize {
+        self.step
+    }
+
+    /// Is every checkpoint reached?
+    pub fn is_done(&self) -> bool {
+        self.step >= self.lesson.steps.len()
+    }
+
+    /// When each checkpoint was reached.
+    pub fn reached(&self) -> &[Instant] {
+        &self.reached
+    }
+
+    /// A checkpoint that was reached since the last call: the number of its step.
+    pub fn poll(&mut self) -> Option<usize> {
+        self.news.pop_front()
+    }
+
+    /// Does a checkpoint wait to be polled? A bench that runs by itself pauses then.
+    pub fn has_news(&self) -> bool {
+        !self.news.is_empty()
+    }
+
+    /// Goes to a step, as if those before it had just been done; what was seen so far does
+    /// not count for it.
+    pub fn begin(&mut self, step: usize, bus: &Bus) {
+        self.step = step.min(self.lesson.steps.len());
+        self.reached.truncate(self.step);
+        while self.reached.len() < self.step {
+            self.reached.push(bus.now());
+        }
+        self.began = bus.now();
+        let turns = |device: &VirtualDevice| device.shaft(bus.now()).map(|shaft| shaft.turns);
+        self.turns = bus.devices().iter().map(turns).collect();
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        let notes = |line: &Line| line.alternatives.iter().map(|_| Note::default()).collect();
+        let step = self.lesson.steps.get(self.step);
+        self.notes = step.map_or(Vec::new(), |step| {
+            step.checkpoint.iter().map(notes).collect()
+        });
+    }
+
+    /// A frame was disturbed on the wire.
+    pub fn disturbed(&mut self, at: Instant) {
+        self.disturbed = Some(at);
+    }
+
+    /// A frame came through.
+    pub fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return;
+        };
+        // A device that is not there sends nothing.
+        let device = |name: &Option<String>| {
+            let name = name.as_deref()?;
+            Some(number(&self.devices, Some(name)).unwrap_or(usize::MAX))
+        };
+        let mut again = false;
+        // From the last line to the first, so that one frame counts for one line of a row.
+        for (number, line) in step.checkpoint.iter().enumerate().rev() {
+            let before = number.checked_sub(1).and_then(|above| {
+                self.notes
+                    .get(above)?
+                    .iter()
+                    .filter_map(|note| note.done)
+                    .max()
+            });
+            for (place, one) in line.alternatives.iter().enumerate() {
+                let Some(note) = self
+                    .notes
+                    .get_mut(number)
+                    .and_then(|row| row.get_mut(place))
+                else {
+                    continue;
+                };
+                match &one.what {
+                    What::Seen(seen) if seen.matches(origin, device(&seen.device), frame) => {
+                        if one.not {
+                            again = true;
+                            continue;
+                        }
+                        if line.then {
+                            let Some(before) = before else { continue };
+                            let late = |within| at.micros_since(before) > within;
+                            if seen.within.is_some_and(late) {
+                                continue;
+                            }
+                        }
+                        note.count(at, seen.times, seen.every);
+                    }
+                    What::Fact(Fact {
+                        kind: Kind::Quiet(pattern),
+                        ..
+                    }) if pattern.matches(frame) => note.last = Some(at),
+                    _ => {}
+                }
+            }
+        }
+        if again {
+            self.forget();
+        }
+    }
+
+    /// Looks at the bench, after each frame and whenever something else happened. Answers
+    /// whether the present step is done now; the next one has begun then.
+    pub fn look(&mut self, bus: &mut Bus) -> bool {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return false;
+        };
+        let mut all = true;
+        let since = (self.began, self.disturbed);
+        for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
+            let mut any = false;
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                // What has to last is looked at each time; the rest only where it decides.
+                let lasts = matches!(&one.what, What::Fact(fact) if fact.lasting > 0);
+                if lasts || (all && !any) {
+                    let device = device_of(&self.devices, one);
+                    let turns = self.turns.get(device).copied().flatten();
+                    any |= holds(one, note, bus, device, turns, since).0;
+                }
+            }
+            all &= any;
+        }
+        if all {
+            let (done, now) = (self.step, bus.now());
+            self.news.push_back(done);
+            self.reached.push(now);
+            self.begin(done + 1, bus);
+        }
+        all
+    }
+
+    /// What the present step asks for, and what is missing of it.
+    pub fn requirements(&mut self, bus: &mut Bus) -> Vec<Requirement> {
+        let Some(step) = self.lesson.steps.get(self.step) else {
+            return Vec::new();
+        };
+        let devices = &self.devices;
+        let since = (self.began, self.disturbed);
+        let mut requirements = Vec::new();
+        for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
+            let named = |name: &str| number(devices, Some(name)).unwrap_or(0);
+            let mut text = line.words(bus.devices(), named);
+            let mut met = false;
+            let mut state = String::new();
+            for (one, note) in line.alternatives.iter().zip(notes) {
+                let device = device_of(devices, one);
+                let turns = self.turns.get(device).copied().flatten();
+                let (holds, now) = holds(one, note, bus, device, turns, since);
+                met |= holds;
+                if !now.is_empty() {
+                    state = now;
+                }
+            }
+            if !met && !state.is_empty() {
+                text.push_str(&format!(" ({state})"));
+            }
+            requirements.push(Requirement { holds: met, text });
+        }
+        requirements
+    }
+
+    /// What the checkpoints ask for that cannot be on this bench: the line, and why.
+    pub(super) fn impossible(&self, bus: &mut Bus) -> Vec<(u32, String)> {
+        let mut found = Vec::new();
+        for line in self.lesson.steps.iter().flat_map(|step| &step.checkpoint) {
+            for one in &line.alternatives {
+                let name = one.device();
+                if let Some(name) = name
+                    && number(&self.devices, Some(name)).is_none()
+                {
+                    found.push((line.line, format!("the set-up has no device `{name}`")));
+                } else if let What::Fact(fact) = &one.what
+                    && let Err(why) = fact.look(bus, device_of(&self.devices, one), None)
+                {
+                    found.push((line.line, why));
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Note {
+    fn count(&mut self, at: Instant, times: u32, every: Option<(u64, u64)>) {
+        let in_time = match (every, self.last) {
+            (Some((low, high)), Some(last)) => (low..=high).contains(&at.micros_since(last)),
+            _ => true,
+        };
+        self.count = if in_time {
+            self.count.saturating_add(1)
+        } else {
+            1
+        };
+        self.last = Some(at);
+        if self.count >= times {
+            self.done = Some(at);
+        }
+    }
+}
+
+impl Alternative {
+    fn device(&self) -> Option<&str> {
+        match &self.what {
+            What::Seen(seen) => seen.device.as_deref(),
+            What::Fact(fact) => fact.device.as_deref(),
+        }
+    }
+}
+
+impl Lesson {
+    fn devices_named(&self) -> impl Iterator<Item = &str> {
+        let lines = self.steps.iter().flat_map(|step: &Step| &step.checkpoint);
+        lines
+            .flat_map(|line| &line.alternatives)
+            .filter_map(Alternative::device)
+    }
+}
+
+fn number(devices: &[(String, usize)], name: Option<&str>) -> Option<usize> {
+    let name = name?;
+    let (_, number) = devices.iter().find(|(known, _)| known == name)?;
+    Some(*number)
+}
+
+/// The device that a fact is about: the first, where none is named.
+fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
+    number(devices, one.device()).unwrap_or(0)
+}
+
+/// Does it hold, and how does it stand?
+fn holds(
+    one: &Alternative,
+    note: &mut Note,
+    bus: &mut Bus,
+    device: usize,
+    turns: Option<f64>,
+    (began, disturbed): (Instant, Option<Instant>),
+) -> (bool, String) {
+    let now = bus.now();
+    let fact = match &one.what {
+        What::Seen(_) if one.not => return (true, String::new()),
+        What::Seen(seen) => {
+            let state = match (note.count, seen.times) {
+                (0, _) | (_, 1) => String::new(),
+                (count, times) => format!("{count} of {times} so far"),
+            };
+            return (note.done.is_some(), state);
+        }
+        What::Fact(fact) => fact,
+    };
+    if matches!(fact.kind, Kind::Quiet(_) | Kind::Undisturbed) {
+        let last = match fact.kind {
+            Kind::Undisturbed => disturbed,
+            _ => note.last,
+        };
+        let since = last.map_or(began, |last| last.max(began));
+        let quiet = now.micros_since(since) >= fact.lasting;
+        return (quiet != one.not, String::new());
+    }
+    let (is, state) = match fact.look(bus, device, turns) {
+        Ok((is, state)) => (is != one.not, state),
+        Err(why) => (false, why),
+    };
+    if !is {
+        note.since = None;
+        return (false, state);
+    }
+    let since = *note.since.get_or_insert(now);
+    (now.micros_since(since) >= fact.lasting, state)
+}

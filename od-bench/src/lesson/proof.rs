@@ -1,0 +1,235 @@
+//! That a lesson works: nothing is done at the start, its solution does it all, and every line
+//! of the solution is needed.
+
+use std::prelude::v1::*;
+use std::{format, vec};
+
+use od_runtime::{Frame, Instant, NodeId};
+
+use super::{Block, Lesson, Problem, Progress, Watched, pass, stopped};
+use crate::device::VirtualDevice;
+use crate::script::{Bench, Host, Origin, Script, run_on};
+
+/// So long nobody does anything, in microseconds; no checkpoint may be reached by that.
+const IDLE: u64 = 20_000_000;
+
+/// Proves a lesson on benches that `host` makes devices for.
+///
+/// What it finds, in order of the lines; nothing where the lesson is as it should be:
+///
+/// - the set-up and the solutions can be carried out, and what checkpoints ask for can be;
+/// - no checkpoint holds at the start, nor after a while in which nobody does anything, nor
+///   when the steps before it are done;
+/// - each step's solution reaches its checkpoint and no other;
+/// - without any one line of the solutions the lesson does not come to its end;
+/// - the frame that a question asks for comes while the step is done;
+/// - the text names no object that no device has, nor is the title or a hint missing.
+pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
+    let mut problems = match lesson.set_up(host) {
+        Ok(mut bench) => {
+            let progress = Progress::new(lesson.clone(), &mut bench);
+            let wrong = progress.impossible(&mut bench.bus).into_iter();
+            let mut problems: Vec<_> = wrong
+                .map(|(line, why)| problem(line, why, "mend the condition or the set-up"))
+                .collect();
+            problems.extend(lesson.unknown_objects(bench.bus.devices()));
+            problems
+        }
+        Err(problem) => return vec![problem],
+    };
+    if problems.is_empty() {
+        let solutions: Vec<_> = lesson
+            .steps
+            .iter()
+            .map(|step| step.solution.clone())
+            .collect();
+        nothing_by_itself(lesson, host, &mut problems);
+        solved(lesson, host, &solutions, &mut problems);
+        if problems.is_empty() {
+            every_line_is_needed(lesson, host, &solutions, &mut problems);
+        }
+    }
+    problems.sort_by_key(|problem| problem.line);
+    problems
+}
+
+fn problem(line: u32, message: impl Into<String>, help: &str) -> Problem {
+    Problem {
+        line,
+        column: 1,
+        message: message.into(),
+        help: help.into(),
+    }
+}
+
+/// A host that keeps the frames.
+struct Recorder<'a> {
+    host: &'a mut dyn Host,
+    frames: Vec<Frame>,
+}
+
+impl Host for Recorder<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        self.host.device(name, node_id)
+    }
+
+    fn frame(&mut self, _: Instant, _: Origin, frame: &Frame) {
+        self.frames.push(*frame);
+    }
+}
+
+/// Each step on its own, on the bench as the set-up leaves it.
+fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Problem>) {
+    for (number, step) in lesson.steps.iter().enumerate() {
+        let Ok(mut bench) = lesson.set_up(host) else {
+            return;
+        };
+        let mut progress = Progress::new(lesson.clone(), &mut bench);
+        progress.begin(number, &bench.bus);
+        let at_once = progress.look(&mut bench.bus);
+        pass(&mut bench.bus, &mut progress, IDLE);
+        if progress.step() > number {
+            let when = if at_once {
+                "at the start"
+            } else {
+                "by waiting alone"
+            };
+            let message = format!("the checkpoint of `{}` holds {when}", step.title);
+            problems.push(problem(
+                step.line,
+                message,
+                "ask for something that has to be done",
+            ));
+        }
+    }
+}
+
+/// Plays the solutions in their order.
+fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &mut Vec<Problem>) {
+    let Ok(mut bench) = lesson.set_up(host) else {
+        return;
+    };
+    let mut progress = Progress::new(lesson.clone(), &mut bench);
+    for (number, (step, solution)) in lesson.steps.iter().zip(solutions).enumerate() {
+        let mut recorder = Recorder {
+            host,
+            frames: Vec::new(),
+        };
+        if let Err(problem) = play(solution, &mut bench, &mut recorder, &mut progress) {
+            return problems.push(problem);
+        }
+        let frames = recorder.frames;
+        if progress.step() <= number {
+            let missing = progress.requirements(&mut bench.bus);
+            let missing: Vec<_> = missing.iter().filter(|one| !one.holds).collect();
+            let words: Vec<_> = missing.iter().map(|one| one.text.as_str()).collect();
+            let message = format!(
+                "the solution of `{}` does not reach its checkpoint; missing: {}",
+                step.title,
+                words.join("; ")
+            );
+            return problems.push(problem(solution.line, message, "mend one of the two"));
+        }
+        if progress.step() > number + 1 {
+            let message = format!("the solution of `{}` also does the next step", step.title);
+            let help = "a step asks for something that was not done before it";
+            return problems.push(problem(solution.line, message, help));
+        }
+        if let Some(quiz) = &step.quiz
+            && !frames.iter().any(|frame| quiz.answer.matches(frame))
+        {
+            let message = format!("the answer {} does not come in this step", quiz.answer);
+            problems.push(problem(
+                quiz.line,
+                message,
+                "mend the answer or the solution",
+            ));
+        }
+        if let Err(found) = waits(lesson, host, solutions, number + 1) {
+            problems.push(found);
+        }
+    }
+}
+
+/// With the first steps done, the next one is not done by waiting.
+fn waits(
+    lesson: &Lesson,
+    host: &mut dyn Host,
+    solutions: &[Block],
+    done: usize,
+) -> Result<(), Problem> {
+    let mut bench = lesson.set_up(host)?;
+    let mut progress = Progress::new(lesson.clone(), &mut bench);
+    for solution in &solutions[..done] {
+        play(solution, &mut bench, host, &mut progress)?;
+    }
+    pass(&mut bench.bus, &mut progress, IDLE);
+    match lesson.steps.get(done) {
+        Some(step) if progress.step() > done => {
+            let message = format!("the checkpoint of `{}` is reached by waiting", step.title);
+            let help = "ask for something that has to be done";
+            Err(problem(step.line, message, help))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Leaves one line after the other out.
+fn every_line_is_needed(
+    lesson: &Lesson,
+    host: &mut dyn Host,
+    solutions: &[Block],
+    problems: &mut Vec<Problem>,
+) {
+    for (number, solution) in solutions.iter().enumerate() {
+        let Ok(script) = solution.script() else {
+            return;
+        };
+        for line in script.lines().collect::<Vec<_>>() {
+            let place = (line - solution.line) as usize;
+            let mut text: Vec<_> = solution.text.lines().collect();
+            let Some(left_out) = text.get_mut(place) else {
+                continue;
+            };
+            let shown = core::mem::take(left_out).trim();
+            let mut shorter = solutions.to_vec();
+            shorter[number].text = text.join("\n");
+            if is_done(lesson, host, &shorter) {
+                let message = format!("the lesson is done without `{shown}`, too");
+                let help = "let the checkpoint ask for what it does, or leave it out";
+                problems.push(problem(line, message, help));
+            }
+        }
+    }
+}
+
+fn is_done(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block]) -> bool {
+    let Ok(mut bench) = lesson.set_up(host) else {
+        return false;
+    };
+    let mut progress = Progress::new(lesson.clone(), &mut bench);
+    for solution in solutions {
+        if play(solution, &mut bench, host, &mut progress).is_err() {
+            return false;
+        }
+    }
+    progress.is_done()
+}
+
+/// Plays a block under the eyes of a lesson.
+fn play(
+    block: &Block,
+    bench: &mut Bench,
+    host: &mut dyn Host,
+    progress: &mut Progress,
+) -> Result<(), Problem> {
+    let script: Script = block.script().map_err(|mut all| all.remove(0))?;
+    let mut watched = Watched { host, progress };
+    run_on(&script, bench, &mut watched)
+        .map(|_| ())
+        .map_err(|stop| stopped(&stop))
+}

@@ -1,0 +1,80 @@
+//! Predict, then reveal: a question about bytes that are still to come.
+
+use std::prelude::v1::*;
+use std::vec;
+
+use super::Problem;
+use crate::logs::candump;
+use crate::script::Pattern;
+
+/// A question, its answer, and why.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Quiz {
+    /// What is asked, as Markdown.
+    pub question: String,
+    /// The frame; bytes that do not matter are open.
+    pub answer: Pattern,
+    /// What to say when the answer is shown, as Markdown.
+    pub reveal: String,
+    /// Line of the answer.
+    pub line: u32,
+}
+
+/// What is right about somebody's answer.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Judgement {
+    /// All of it.
+    pub right: bool,
+    /// The identifier is another one.
+    pub wrong_identifier: bool,
+    /// The number of bytes is another one.
+    pub wrong_length: bool,
+    /// Which bytes are wrong, counted from 0.
+    pub wrong_bytes: Vec<usize>,
+}
+
+impl Quiz {
+    /// As [`judge`], with the answer of this question.
+    ///
+    /// # Errors
+    /// It is no frame.
+    pub fn judge(&self, given: &str) -> Result<Judgement, Problem> {
+        judge(&self.answer, given)
+    }
+}
+
+/// Looks at what somebody predicts: `585#43 00 10 00`, or its bytes alone.
+///
+/// # Errors
+/// It is neither.
+pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
+    let given = given.trim();
+    let whole = match given.contains('#') {
+        true => given.to_uppercase(),
+        false => std::format!("{}#{given}", answer.id()),
+    };
+    let frame = candump::parse_frame(&whole).map_err(|error| Problem {
+        line: 1,
+        column: error.column,
+        message: error.message,
+        help: error.help.into(),
+    })?;
+    let mut judgement = Judgement {
+        right: answer.matches(&frame),
+        wrong_identifier: answer.id() != frame.id(),
+        wrong_length: false,
+        wrong_bytes: vec![],
+    };
+    if let Some(bytes) = answer.bytes() {
+        judgement.wrong_length = match answer.is_open() {
+            true => frame.data().len() < bytes.len(),
+            false => frame.data().len() != bytes.len(),
+        };
+        let wrong = |(at, byte): (usize, &Option<u8>)| {
+            let given = frame.data().get(at)?;
+            byte.filter(|byte| byte != given).map(|_| at)
+        };
+        judgement.wrong_bytes = bytes.iter().enumerate().filter_map(wrong).collect();
+    }
+    Ok(judgement)
+}

@@ -1,0 +1,60 @@
+//! A script, or time, while a lesson is watched.
+
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant, NodeId};
+
+use super::Progress;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::script::{Host, Origin};
+
+/// A host whose frames a lesson sees, too.
+pub struct Watched<'a> {
+    /// Who makes the devices.
+    pub host: &'a mut dyn Host,
+    /// Who watches.
+    pub progress: &'a mut Progress,
+}
+
+impl Host for Watched<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        self.host.device(name, node_id)
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        self.host.frame(at, origin, frame);
+        self.progress.frame(at, origin, frame);
+    }
+
+    fn look(&mut self, bus: &mut Bus) {
+        self.host.look(bus);
+        while let Some(one) = bus.line.poll() {
+            self.progress.disturbed(one.at);
+        }
+        self.progress.look(bus);
+    }
+}
+
+/// Lets so many microseconds pass under the eyes of a lesson, with nobody doing anything.
+pub fn pass(bus: &mut Bus, progress: &mut Progress, micros: u64) {
+    let end = bus.now().plus_micros(micros);
+    loop {
+        let sent = bus.advance_until_sent(end);
+        while let Some(one) = bus.line.poll() {
+            progress.disturbed(one.at);
+        }
+        while let Some(sent) = bus.poll() {
+            progress.frame(sent.at, Origin::Device(sent.device), &sent.frame);
+            progress.look(bus);
+        }
+        if !sent {
+            progress.look(bus);
+            return;
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The virtual bench: devices in virtual time, their bus, candump text, frames in plain
+//! words, scenario scripts, and what adapters and daemons speak.
+//!
+//! Like the runtime it has no clock, thread, socket or file of its own; what it needs from
+//! outside comes in as an argument. So the same bench runs behind `odkit`, in a test and in
+//! a browser's worker.
+
+#![forbid(unsafe_code)]
+
+pub mod bus;
+#[cfg(feature = "eds")]
+mod configured;
+mod device;
+mod eeprom;
+pub mod faults;
+mod leds;
+pub mod lesson;
+pub mod links;
+pub mod logs;
+mod saved;
+pub mod script;
+#[cfg(test)]
+mod tests;
+mod view;
+pub mod wire;
+mod wiring;
+pub mod words;
+mod world;
+
+pub use bus::Bus;
+#[cfg(feature = "eds")]
+pub use device::EdsOptions;
+pub use device::VirtualDevice;
+pub use leds::Led;
+pub use saved::Saved;
+pub use wire::Line;
+pub use world::ShaftView;

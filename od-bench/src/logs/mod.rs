@@ -1,0 +1,3 @@
+//! Logs of a bus as text.
+
+pub mod candump;

@@ -1,0 +1,120 @@
+//! The EEPROM of a virtual device, seen from outside: its bytes, what it would bring back,
+//! and power that goes while it is written.
+
+use std::ops::Range;
+use std::prelude::v1::*;
+use std::vec;
+
+use od_model::{Address, Entry};
+use od_runtime::Store;
+use od_runtime::storage::{Memory, Storage, image};
+
+use crate::device::VirtualDevice;
+
+/// What the EEPROM would bring back at the next start.
+pub struct Saved {
+    values: Vec<u8>,
+}
+
+impl Saved {
+    /// The value at an address; `None` where it is no object that is saved.
+    pub fn bytes(&mut self, device: &VirtualDevice, address: Address) -> Option<Vec<u8>> {
+        device.saved_slot(address)?;
+        let dictionary = device.dictionary();
+        let entry = dictionary.find(address).ok()?;
+        let store = Store::new(dictionary, &mut self.values, device.node_id()).ok()?;
+        Some(store.bytes(entry, &mut [0; 8]).to_vec())
+    }
+}
+
+impl VirtualDevice {
+    /// The bytes of the EEPROM; empty where they cannot be read.
+    pub fn eeprom(&mut self) -> Vec<u8> {
+        let mut bytes = vec![0; self.storage.capacity()];
+        match self.storage.read(0, &mut bytes) {
+            Ok(()) => bytes,
+            // Without power it still holds what it holds.
+            Err(_) => match self.storage.memory() {
+                Some(memory) => memory.bytes().to_vec(),
+                None => Vec::new(),
+            },
+        }
+    }
+
+    /// Puts bytes into the EEPROM, as far as it has room. They act at the next start.
+    pub fn set_eeprom(&mut self, bytes: &[u8]) {
+        let len = bytes.len().min(self.storage.capacity());
+        // A memory that fails keeps what it has.
+        let _ = self.storage.write(0, &bytes[..len]);
+    }
+
+    /// Lets power go when so many more bytes have been written to the EEPROM and one more is
+    /// to be. Only an EEPROM of its own can be cut; answers whether this is one.
+    pub fn cut_power_after(&mut self, bytes: usize) -> bool {
+        let memory = self.storage.memory();
+        let is_own = memory.is_some();
+        if let Some(memory) = memory {
+            memory.cut_after(bytes);
+        }
+        is_own
+    }
+
+    /// What the EEPROM would bring back now.
+    pub fn saved(&mut self) -> Saved {
+        let Self {
+            source,
+            storage,
+            node,
+            profile,
+            ..
+        } = self;
+        let dictionary = source.dictionary();
+        let mut values = vec![0; dictionary.store_len()];
+        if let Ok(mut store) = Store::new(dictionary, &mut values, node.node_id()) {
+            store.reset(|_| true);
+            // Nothing that can be read: the defaults come back.
+            let _ = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
+        }
+        Saved { values }
+    }
+
+    /// What the EEPROM would hold if everything were saved as it is now.
+    pub fn image(&mut self) -> Vec<u8> {
+        let mut memory = Memory::new(vec![0xFF; self.storage.capacity()]);
+        let node_id = self.node.node_id();
+        let dictionary = self.source.dictionary();
+        if let Ok(store) = Store::new(dictionary, &mut self.values, node_id) {
+            // What does not fit is lost, as it would be in the device.
+            let _ = image::save(&mut memory, &store, &self.profile.store, 1);
+        }
+        memory.bytes().to_vec()
+    }
+
+    /// The bytes that an object would have after a start: what was saved, else the default.
+    /// `None` where there is no such object, or none that is kept.
+    pub fn saved_bytes(&self, saved: &Saved, address: Address) -> Option<Vec<u8>> {
+        let entry = self.dictionary().find(address).ok()?;
+        let start = entry.slot.offset as usize;
+        let range = start..start + usize::from(entry.slot.len);
+        let kept = entry.group != od_model::Group::None && !range.is_empty();
+        saved.values.get(range).filter(|_| kept).map(<[u8]>::to_vec)
+    }
+
+    /// Would this object have another value after a start than it has now? `None` where it is
+    /// no object that is saved.
+    pub fn is_unsaved(&self, saved: &Saved, address: Address) -> Option<bool> {
+        let range = self.saved_slot(address)?;
+        Some(saved.values.get(range.clone()) != self.values.get(range))
+    }
+
+    /// Where the value of an object that is saved stands.
+    fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
+        let dictionary = self.dictionary();
+        let entry = dictionary.find(address).ok()?;
+        if entry.group == od_model::Group::None || !entry.access.writable() || entry.slot.len == 0 {
+            return None;
+        }
+        let start = entry.slot.offset as usize;
+        Some(start..start + usize::from(entry.slot.len))
+    }
+}

@@ -1,0 +1,179 @@
+//! A frame with gaps: what an `expect` line wants.
+
+use std::prelude::v1::*;
+use std::{fmt, format};
+
+use od_runtime::{CanId, Frame};
+
+use crate::logs::candump;
+use crate::logs::candump::Error;
+
+/// An identifier and bytes of which some may be anything.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Pattern {
+    id: CanId,
+    /// `None`: a remote frame of any length.
+    bytes: Option<Vec<Option<u8>>>,
+    /// More bytes may follow.
+    open: bool,
+}
+
+const HELP: &str = "write bytes as two hex digits, `..` or `xx` for any byte, `*` for any rest";
+
+impl Pattern {
+    /// `581#43 02 60 00 .. xx *`, `701#R`, `080#`.
+    ///
+    /// # Errors
+    /// [`Error`] names the first character that does not fit.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let text = text.trim();
+        let Some((id, data)) = text.split_once('#') else {
+            return Err(Error::new(
+                1,
+                format!("`{text}` has no `#`"),
+                "write a frame like 581#60 *",
+            ));
+        };
+        let start = id.chars().count() + 2;
+        let id = candump::parse_id(id)?;
+        if data.trim() == "R" {
+            return Ok(Self {
+                id,
+                bytes: None,
+                open: false,
+            });
+        }
+        let mut pattern = Self {
+            id,
+            bytes: None,
+            open: false,
+        };
+        let mut bytes = Vec::new();
+        let mut chars = data.chars().enumerate().filter(|(_, c)| !c.is_whitespace());
+        while let Some((at, first)) = chars.next() {
+            let column = start + at;
+            if pattern.open {
+                return Err(Error::new(column, "`*` is the end of the frame", HELP));
+            }
+            if first == '*' {
+                pattern.open = true;
+                continue;
+            }
+            let pair = [Some(first), chars.next().map(|(_, c)| c)];
+            bytes.push(match pair {
+                [Some('.'), Some('.')] | [Some('x' | 'X'), Some('x' | 'X')] => None,
+                [Some(high), Some(low)] => match (high.to_digit(16), low.to_digit(16)) {
+                    (Some(high), Some(low)) => Some((high << 4 | low) as u8),
+                    _ => {
+                        return Err(Error::new(
+                            column,
+                            format!("`{high}{low}` is no byte"),
+                            HELP,
+                        ));
+                    }
+                },
+                _ => return Err(Error::new(column, "half a byte", HELP)),
+            });
+            if bytes.len() > 8 {
+                return Err(Error::new(column, "more than 8 bytes", HELP));
+            }
+        }
+        pattern.bytes = Some(bytes);
+        Ok(pattern)
+    }
+
+    /// A pattern that no frame of a device has: an NMT command of no bytes.
+    pub(crate) const fn nothing() -> Self {
+        Self {
+            id: CanId::standard(0),
+            bytes: None,
+            open: false,
+        }
+    }
+
+    /// The identifier.
+    pub const fn id(&self) -> CanId {
+        self.id
+    }
+
+    /// Its bytes, `None` for one that may be anything; no bytes at all for a remote frame.
+    pub fn bytes(&self) -> Option<&[Option<u8>]> {
+        self.bytes.as_deref()
+    }
+
+    /// May more bytes follow?
+    pub const fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Is this the frame that was meant?
+    pub fn matches(&self, frame: &Frame) -> bool {
+        let Some(bytes) = &self.bytes else {
+            return frame.id() == self.id && frame.is_remote();
+        };
+        let data = frame.data();
+        let long_enough = match self.open {
+            true => data.len() >= bytes.len(),
+            false => data.len() == bytes.len(),
+        };
+        frame.id() == self.id
+            && !frame.is_remote()
+            && long_enough
+            && bytes
+                .iter()
+                .zip(data)
+                .all(|(want, is)| want.is_none_or(|want| want == *is))
+    }
+}
+
+impl fmt::Display for Pattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}#", self.id)?;
+        let Some(bytes) = &self.bytes else {
+            return f.write_str("R");
+        };
+        for byte in bytes {
+            match byte {
+                Some(byte) => write!(f, "{byte:02X}")?,
+                None => f.write_str("..")?,
+            }
+        }
+        f.write_str(if self.open { "*" } else { "" })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_match_any_byte() {
+        let frame = candump::parse_frame("581#4302600000000020").expect("a frame");
+        for (text, holds) in [
+            ("581#43 02 60 00 00 00 00 20", true),
+            ("581#43026000..xx..20", true),
+            ("581#43*", true),
+            ("581#*", true),
+            ("581#43026000", false),
+            ("582#*", false),
+            ("581#R", false),
+            ("581#44*", false),
+        ] {
+            let pattern = Pattern::parse(text).expect(text);
+            assert_eq!(pattern.matches(&frame), holds, "{text}");
+            assert_eq!(Pattern::parse(&pattern.to_string()), Ok(pattern), "{text}");
+        }
+        let remote = candump::parse_frame("701#R4").expect("a frame");
+        assert!(Pattern::parse("701#R").expect("a pattern").matches(&remote));
+        for text in [
+            "581",
+            "581#4",
+            "581#zz",
+            "581#.",
+            "581#*40",
+            "581#11 22 33 44 55 66 77 88 99",
+        ] {
+            assert!(Pattern::parse(text).is_err(), "{text}");
+        }
+    }
+}

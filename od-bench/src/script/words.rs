@@ -1,0 +1,260 @@
+//! The words of a line, with their columns.
+
+use std::format;
+use std::prelude::v1::*;
+
+use super::Problem;
+use crate::logs::candump;
+
+/// How far a moment or a duration may go: 100 years of 365 days, in microseconds.
+const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
+
+const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
+
+/// A stretch of a line, to be taken apart from the front.
+#[derive(Clone, Copy)]
+pub(crate) struct Words<'t> {
+    line: u32,
+    column: usize,
+    text: &'t str,
+}
+
+impl<'t> Words<'t> {
+    /// The line without its comment and the blanks around it. A comment begins with `#` at
+    /// the start of a line or behind a blank; `601#40` is a frame.
+    pub(crate) fn new(line: u32, text: &'t str) -> Self {
+        let mut end = text.len();
+        let mut quoted = false;
+        let mut before = ' ';
+        for (at, c) in text.char_indices() {
+            if c == '"' {
+                quoted = !quoted;
+            }
+            if c == '#' && before.is_whitespace() && !quoted {
+                end = at;
+                break;
+            }
+            before = c;
+        }
+        let mut words = Self {
+            line,
+            column: 1,
+            text: text[..end].trim_end(),
+        };
+        words.skip();
+        words
+    }
+
+    fn skip(&mut self) {
+        let trimmed = self.text.trim_start();
+        self.column += self.text[..self.text.len() - trimmed.len()].chars().count();
+        self.text = trimmed;
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.text.is_empty()
+    }
+
+    /// All that is left.
+    pub(crate) fn rest(&self) -> &'t str {
+        self.text
+    }
+
+    pub(crate) fn peek(&self) -> &'t str {
+        self.text.split_whitespace().next().unwrap_or("")
+    }
+
+    /// The next word; empty at the end of the line.
+    pub(crate) fn next(&mut self) -> &'t str {
+        let word = self.peek();
+        self.text = &self.text[word.len()..];
+        self.column += word.chars().count();
+        self.skip();
+        word
+    }
+
+    /// Takes the next word if it is this one.
+    pub(crate) fn take(&mut self, word: &str) -> bool {
+        let here = self.peek() == word;
+        if here {
+            self.next();
+        }
+        here
+    }
+
+    /// Splits off what begins with the first of these words.
+    pub(crate) fn split_at_word(&mut self, keywords: &[&str]) -> Self {
+        let mut head = *self;
+        let mut quoted = false;
+        loop {
+            let word = self.peek();
+            if word.is_empty() || (!quoted && keywords.contains(&word)) {
+                break;
+            }
+            quoted ^= word.matches('"').count() % 2 == 1;
+            self.next();
+        }
+        head.text = head.text[..head.text.len() - self.text.len()].trim_end();
+        head
+    }
+
+    /// Splits the last word off.
+    pub(crate) fn split_last(&mut self) -> Self {
+        let at = self.text.rfind(char::is_whitespace).map_or(0, |at| at + 1);
+        let mut last = *self;
+        last.column += self.text[..at].chars().count();
+        last.text = &self.text[at..];
+        self.text = self.text[..at].trim_end();
+        last
+    }
+
+    /// Splits at the first `=`, which is dropped; `None` where there is none.
+    pub(crate) fn split_at_equals(&mut self) -> Option<Self> {
+        let at = self.text.find('=')?;
+        let mut head = *self;
+        head.text = self.text[..at].trim_end();
+        self.column += self.text[..=at].chars().count();
+        self.text = &self.text[at + 1..];
+        self.skip();
+        Some(head)
+    }
+
+    pub(crate) fn problem(&self, message: impl Into<String>, help: impl Into<String>) -> Problem {
+        Problem {
+            line: self.line,
+            column: self.column,
+            message: brief(&message.into()),
+            help: help.into(),
+        }
+    }
+
+    /// A mistake in a frame that begins at the front.
+    pub(crate) fn frame_problem(&self, error: &candump::Error) -> Problem {
+        let mut problem = self.problem(error.message.clone(), error.help);
+        problem.column += error.column - 1;
+        problem
+    }
+
+    /// Nothing may be left.
+    pub(crate) fn end(&self) -> Result<(), Problem> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        let message = format!("`{}` is too much here", self.peek());
+        Err(self.problem(
+            message,
+            "one line says one thing; a comment begins with `#`",
+        ))
+    }
+
+    /// Does a number begin here, whether it fits or not?
+    pub(crate) fn at_number(&self) -> bool {
+        let word = self.peek();
+        word.strip_prefix('-')
+            .unwrap_or(word)
+            .starts_with(|c: char| c.is_ascii_digit())
+    }
+
+    /// A moment or a duration of this line, `None` where it is past counting.
+    pub(crate) fn limited(&self, micros: Option<u64>) -> Result<u64, Problem> {
+        self.within(self.peek(), micros)
+    }
+
+    /// So many turns of a line must not take longer, either.
+    pub(crate) fn limited_turns(&self, times: u32, every: u64) -> Result<(), Problem> {
+        let micros = every.checked_mul(u64::from(times));
+        self.within(&format!("{times} times"), micros).map(|_| ())
+    }
+
+    fn within(&self, shown: &str, micros: Option<u64>) -> Result<u64, Problem> {
+        micros
+            .filter(|micros| *micros <= LONGEST)
+            .ok_or_else(|| self.problem(format!("`{shown}` is too long"), TOO_LONG))
+    }
+
+    /// A duration in microseconds: `500ms`, `1.5s`, `20us`, `2min`.
+    pub(crate) fn duration(&mut self) -> Result<u64, Problem> {
+        let here = *self;
+        let word = self.next();
+        let unit = word
+            .find(|c: char| c.is_ascii_alphabetic())
+            .unwrap_or(word.len());
+        let (number, unit) = word.split_at(unit);
+        let micros = candump::seconds(number).and_then(|micros| match unit {
+            "us" => Some(micros / 1_000_000),
+            "ms" => Some(micros / 1000),
+            "s" => Some(micros),
+            "min" => micros.checked_mul(60),
+            _ => None,
+        });
+        if micros.is_some() || (is_decimal(number) && matches!(unit, "us" | "ms" | "s" | "min")) {
+            return here.limited(micros);
+        }
+        let message = match word {
+            "" => String::from("a duration is missing"),
+            _ => format!("`{word}` is no duration"),
+        };
+        Err(here.problem(message, "write it like 500ms, 1.5s, 20us or 2min"))
+    }
+
+    /// A whole number in a range.
+    pub(crate) fn number(&mut self, low: u64, high: u64) -> Result<u64, Problem> {
+        let here = *self;
+        let word = self.next();
+        let value = od_model::values::integer(word).and_then(|value| u64::try_from(value).ok());
+        value
+            .filter(|value| (low..=high).contains(value))
+            .ok_or_else(|| {
+                let message = match word {
+                    "" => String::from("a number is missing"),
+                    _ => format!("`{word}` does not fit"),
+                };
+                here.problem(message, format!("write a number from {low} to {high}"))
+            })
+    }
+}
+
+/// Digits with at most one point among them, as many as there are.
+pub(crate) fn is_decimal(text: &str) -> bool {
+    text.matches('.').count() <= 1
+        && text.bytes().any(|byte| byte.is_ascii_digit())
+        && text
+            .bytes()
+            .all(|byte| byte.is_ascii_digit() || byte == b'.')
+}
+
+/// Characters of a line that are shown.
+const SHOWN: usize = 60;
+/// Characters of a message that are shown.
+const MESSAGE: usize = 400;
+
+/// The beginning of a text, with `…` where more of it stood.
+fn cut(text: &str, limit: usize) -> String {
+    match text.char_indices().nth(limit) {
+        Some((at, _)) => format!("{}…", &text[..at]),
+        None => text.to_owned(),
+    }
+}
+
+/// A line as messages show it.
+pub(crate) fn line(text: &str) -> String {
+    cut(text, SHOWN)
+}
+
+/// A message whose quotes are not longer than a line is shown.
+pub(crate) fn brief(message: &str) -> String {
+    if message.len() <= SHOWN {
+        return message.to_owned();
+    }
+    let mut brief = String::new();
+    for (number, piece) in message.split('`').enumerate() {
+        if number > 0 {
+            brief.push('`');
+        }
+        match number % 2 {
+            1 => brief.push_str(&line(piece)),
+            _ => brief.push_str(piece),
+        }
+    }
+    cut(&brief, MESSAGE)
+}

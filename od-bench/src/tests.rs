@@ -1,0 +1,296 @@
+//! The bench as its users see it: devices, bus, words.
+
+use std::prelude::v1::*;
+use std::{format, vec};
+
+use od_model::Address;
+use od_runtime::{Frame, Instant, NodeId};
+use od_wire::nmt::State;
+
+use crate::bus::Bus;
+use crate::device::{EdsOptions, VirtualDevice};
+use crate::leds::Led;
+use crate::logs::candump;
+use crate::words::Decoder;
+
+const STRINGS: &str = include_str!("../../tests/interop/strings.eds");
+
+fn gxmm(node_id: u8) -> VirtualDevice {
+    let kind = od_devices::find("gxmm").expect("a built-in device");
+    VirtualDevice::new(kind, NodeId::new(node_id).expect("a node ID"))
+}
+
+fn bench(devices: Vec<VirtualDevice>) -> Bus {
+    let mut bus = Bus::new();
+    for device in devices {
+        let number = bus.add(device);
+        bus.with(number, VirtualDevice::power_on);
+    }
+    bus
+}
+
+fn frame(text: &str) -> Frame {
+    candump::parse_frame(text).expect(text)
+}
+
+/// Everything on the bus since the last call.
+fn heard(bus: &mut Bus) -> Vec<String> {
+    std::iter::from_fn(|| bus.poll())
+        .map(|sent| candump::format_line(sent.at, &format!("dev{}", sent.device), &sent.frame))
+        .collect()
+}
+
+#[test]
+fn deadlines_are_met_at_their_own_moment() {
+    let mut bus = bench(vec![gxmm(1), gxmm(2)]);
+    assert_eq!(
+        heard(&mut bus),
+        ["(0.000000) dev0 701#00", "(0.000000) dev1 702#00"]
+    );
+    bus.receive(&frame("602#2B17100064000000"));
+    bus.receive(&frame(
+        "601#2B1710009600000000".get(..20).expect("eight bytes"),
+    ));
+    heard(&mut bus);
+    bus.advance(Instant::from_millis(310));
+    assert_eq!(
+        heard(&mut bus),
+        [
+            "(0.100000) dev1 702#7F",
+            "(0.150000) dev0 701#7F",
+            "(0.200000) dev1 702#7F",
+            "(0.300000) dev0 701#7F",
+            "(0.300000) dev1 702#7F",
+        ]
+    );
+    assert_eq!(bus.now(), Instant::from_millis(310));
+    assert!(bus.advance_until_sent(Instant::from_millis(1000)));
+    assert_eq!(bus.now(), Instant::from_millis(400));
+}
+
+#[test]
+fn one_device_hears_the_other() {
+    let mut bus = bench(vec![gxmm(1), gxmm(5)]);
+    heard(&mut bus);
+    // The first watches the second, whose heartbeat then stops with its power.
+    bus.receive(&frame("601#23161001C8000500"));
+    bus.receive(&frame("605#2B17100064000000"));
+    bus.advance(Instant::from_millis(450));
+    bus.with(1, VirtualDevice::power_off);
+    heard(&mut bus);
+    bus.advance(Instant::from_millis(2000));
+    assert_eq!(heard(&mut bus), ["(0.600000) dev0 081#3081110000000000"]);
+}
+
+#[test]
+fn values_are_read_without_traffic() {
+    let mut bus = bench(vec![gxmm(1)]);
+    heard(&mut bus);
+    bus.with(0, |device, now| device.set_rpm(60.0, now));
+    bus.advance(Instant::from_millis(1000));
+    let value = bus.with(0, |device, now| device.read(Address::new(0x6004, 0), now));
+    assert_eq!(value.as_deref(), Some(&[0, 0x20, 0, 0][..]));
+    let text = bus.with(0, |device, now| device.read(Address::new(0x1008, 0), now));
+    assert_eq!(text.as_deref(), Some(&b"GXMM"[..]));
+    let none = bus.with(0, |device, now| device.read(Address::new(0x2000, 0), now));
+    assert_eq!(none.as_deref(), Some(&[][..]));
+    assert!(heard(&mut bus).is_empty());
+    let shaft = bus.devices()[0].shaft(bus.now()).expect("a shaft");
+    assert_eq!((shaft.turns, shaft.rpm, shaft.raw), (1.0, 60.0, 0x2000));
+}
+
+#[test]
+fn lamps_show_the_state() {
+    let mut device = gxmm(1);
+    assert_eq!(device.leds(), (Led::Off, Led::Off));
+    device.power_on(Instant::ZERO);
+    assert_eq!(device.leds(), (Led::Flashing, Led::Off));
+    device.set_fault("battery-low", true, Instant::ZERO);
+    assert_eq!(device.leds(), (Led::Flashing, Led::Flashing));
+    assert!(device.is_broken("battery-low") && !device.set_fault("fire", true, Instant::ZERO));
+    let lit = |millis| Led::Flashing.lit(Instant::from_millis(millis));
+    assert_eq!(
+        [0, 199, 200, 399, 400].map(lit),
+        [true, true, false, false, true]
+    );
+}
+
+#[test]
+fn an_eds_is_a_device_and_a_text_is_not() {
+    let device = VirtualDevice::from_eds(STRINGS, EdsOptions::default());
+    let device = device.expect("a device");
+    assert_eq!(
+        (device.title(), device.state()),
+        ("Transfers", State::Initialising)
+    );
+    let mut bus = bench(vec![device]);
+    assert_eq!(heard(&mut bus), ["(0.000000) dev0 707#00"]);
+    assert!(bus.devices()[0].shaft(bus.now()).is_none());
+    assert_eq!(
+        bus.with(0, |device, now| device.set_rpm(1.0, now)),
+        Some(false)
+    );
+    assert!(VirtualDevice::from_eds("nothing", EdsOptions::default()).is_err());
+}
+
+#[track_caller]
+fn explained(device: VirtualDevice, frames: &[(&str, &str)]) {
+    let mut bus = bench(vec![device]);
+    let mut decoder = Decoder::default();
+    for (text, expected) in frames {
+        let words = decoder.explain(bus.devices(), &frame(text));
+        assert_eq!(words.to_string(), *expected, "{text}");
+        bus.receive(&frame(text));
+    }
+}
+
+#[test]
+fn frames_become_plain_words() {
+    explained(
+        gxmm(1),
+        &[
+            ("701#00", "NMT EC node 1: boot-up"),
+            (
+                "601#4004600000000000",
+                "SDO node 1: read 6004h Position value",
+            ),
+            (
+                "581#4304600092950700",
+                "SDO node 1: 6004h Position value is 497042 (79592h)",
+            ),
+            (
+                "601#2200600005AABBCC",
+                "SDO node 1: write 6000h Operating parameters = 43525 (AA05h)",
+            ),
+            (
+                "581#6000600000000000",
+                "SDO node 1: 6000h Operating parameters taken",
+            ),
+            (
+                "581#8000200000000206",
+                "SDO node 1: 2000h:00 aborted: 06020000h object does not exist",
+            ),
+            (
+                "581#4308100047584D4D",
+                "SDO node 1: 1008h Manufacturer device name is \"GXMM\"",
+            ),
+            ("000#0101", "NMT node 1: start"),
+            ("000#8100", "NMT: reset node, all nodes"),
+            ("080#", "SYNC: all act at once"),
+            (
+                "181#92950700",
+                "PDO node 1: TPDO1 Position value = 497042 (79592h)",
+            ),
+            ("281#R", "PDO node 1: TPDO2 asked for"),
+            ("701#7F", "NMT EC node 1: Pre-operational"),
+            ("701#R", "NMT EC node 1: which state? (guarding)"),
+            (
+                "081#00FF810000100000",
+                "EMCY node 1: FF00h battery low, error register 81h, 00 00 10 00 00",
+            ),
+            ("7E5#1105000000000000", "LSS: configure node ID 5"),
+            ("7E4#5AEC000000000000", "LSS: inquire vendor ID: ECh"),
+            ("385#0102", "PDO node 5: TPDO3 2 bytes"),
+            ("1FFFFFFF#", "?: no service has this identifier"),
+            ("000#77", "NMT: no command that CiA 301 knows"),
+        ],
+    );
+}
+
+#[test]
+fn transfers_are_followed_to_their_end() {
+    let device = VirtualDevice::from_eds(STRINGS, EdsOptions::default());
+    explained(
+        device.expect("a device"),
+        &[
+            (
+                "607#4001200000000000",
+                "SDO node 7: read 2001h Writable text",
+            ),
+            (
+                "587#4101200009000000",
+                "SDO node 7: 2001h Writable text has 9 bytes",
+            ),
+            (
+                "607#6000000000000000",
+                "SDO node 7: next segment of 2001h Writable text",
+            ),
+            (
+                "587#0061626364656667",
+                "SDO node 7: segment of 2001h Writable text, 7 bytes",
+            ),
+            (
+                "607#7000000000000000",
+                "SDO node 7: next segment of 2001h Writable text",
+            ),
+            (
+                "587#1B68690000000000",
+                "SDO node 7: last segment of 2001h Writable text: \"abcdefghi\"",
+            ),
+            (
+                "607#C602200008000000",
+                "SDO node 7: write 2002h Domain in blocks, 8 bytes",
+            ),
+            (
+                "587#A40220007F000000",
+                "SDO node 7: 2002h Domain may come in blocks of 127",
+            ),
+            (
+                "607#0101020304050607",
+                "SDO node 7: segment 1 of a block of 2002h Domain",
+            ),
+            (
+                "607#8208000000000000",
+                "SDO node 7: last segment 2 of a block of 2002h Domain",
+            ),
+            (
+                "587#A2027F0000000000",
+                "SDO node 7: block of 2002h Domain taken up to segment 2",
+            ),
+            (
+                "607#D9B4120000000000",
+                "SDO node 7: 2002h Domain is complete, CRC 12B4h",
+            ),
+            ("587#A100000000000000", "SDO node 7: 2002h Domain written"),
+            ("207#0500", "PDO node 7: RPDO1 Integer16 = 5"),
+        ],
+    );
+}
+
+#[test]
+fn no_frame_panics_anything() {
+    let strings = VirtualDevice::from_eds(STRINGS, EdsOptions::default());
+    let mut bus = bench(vec![gxmm(1), strings.expect("a device")]);
+    let mut decoder = Decoder::default();
+    let mut state = 0x2545_F491_4F6C_DD1Du64;
+    let mut random = move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state
+    };
+    let ids = [
+        0, 0x80, 0x601, 0x607, 0x581, 0x587, 0x207, 0x701, 0x7E5, 0x181, 0x123,
+    ];
+    for round in 0..10_000u64 {
+        let bits = random();
+        let id = ids[(bits % 11) as usize];
+        let mut data = random().to_le_bytes();
+        if bits & 0x700 != 0 {
+            // Mostly something that means something: a real command and a real object.
+            data[0] = [0x40, 0x2F, 0x23, 0x60, 0xA4, 0xC6, 0x01, 0x05][(bits >> 11) as usize % 8];
+            data[1..4].copy_from_slice(
+                [[0, 0x10, 0], [1, 0x20, 0], [0, 0x1A, 1], [2, 0x20, 0]][(bits >> 14) as usize % 4]
+                    .as_slice(),
+            );
+        }
+        let frame = Frame::standard(id, &data[..(bits >> 20) as usize % 9]);
+        let words = decoder.explain(bus.devices(), &frame);
+        assert!(!words.text.is_empty());
+        bus.receive(&frame);
+        while let Some(sent) = bus.poll() {
+            decoder.explain(bus.devices(), &sent.frame);
+        }
+        bus.advance(Instant::from_micros(round * 500));
+    }
+}

@@ -1,0 +1,91 @@
+//! What can be seen of a device without a frame: its values and its LEDs.
+
+use std::prelude::v1::*;
+
+use od_model::Address;
+use od_runtime::{Context, Instant, Signals, Store};
+
+use crate::device::{Behaviour, VirtualDevice};
+use crate::leds;
+use crate::leds::Led;
+
+/// Bit 4 of 1001h.
+const COMMUNICATION: u64 = 1 << 4;
+
+impl VirtualDevice {
+    /// The value at an address as an SDO would carry it now, without a frame on the bus;
+    /// empty where there is no such object. Also what a master may not read.
+    pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
+        let Self {
+            source,
+            values,
+            behaviour,
+            node,
+            ..
+        } = self;
+        let dictionary = source.dictionary();
+        let (Ok(entry), Ok(mut store)) = (
+            dictionary.find(address),
+            Store::new(dictionary, values, node.node_id()),
+        ) else {
+            return Vec::new();
+        };
+        if node.is_powered() && address.index >= 0x2000 {
+            let mut signals = Signals::default();
+            let mut context = Context {
+                store: &mut store,
+                now,
+                signals: &mut signals,
+            };
+            // What cannot be had now shows as it was.
+            let _ = behaviour.as_application().refresh(&mut context, address);
+        }
+        store.bytes(entry, &mut [0; 8]).to_vec()
+    }
+
+    /// The number that stands at an address, live values as they were last asked for.
+    pub fn stored(&self, index: u16, sub: u8) -> Option<u64> {
+        let dictionary = self.dictionary();
+        let entry = dictionary.entry(index, sub)?;
+        let start = entry.slot.offset as usize;
+        let bytes = self
+            .values
+            .get(start..start + usize::from(entry.slot.len))?;
+        match bytes {
+            [] => u64::try_from(entry.default.integer(self.node_id().raw())?).ok(),
+            bytes if bytes.len() <= 8 && !entry.is_variable() => Some(
+                bytes
+                    .iter()
+                    .rev()
+                    .fold(0, |value, byte| value << 8 | u64::from(*byte)),
+            ),
+            _ => None,
+        }
+    }
+
+    /// Does it have the dual LED? A device of an EDS file is taken to have one.
+    pub fn has_leds(&self) -> bool {
+        self.has_leds
+    }
+
+    /// What the two dies of the LED do: green, red (manual 000, chapter 7.3).
+    pub fn leds(&self) -> (Led, Led) {
+        let bits = |index| self.stored(index, 0).unwrap_or(0);
+        let warning = bits(0x6505) != 0;
+        // 1001h does not tell a warning from an error beside it; bit 4 never warns.
+        let broken = match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                let reports = encoder.profile().reports.iter();
+                let mut errors = reports.filter(|report| report.warning == 0);
+                errors.any(|report| encoder.is_broken(report.fault))
+            }
+            Behaviour::Other(_) => false,
+        };
+        let register = bits(0x1001);
+        let error = broken
+            || bits(0x6503) != 0
+            || register & COMMUNICATION != 0
+            || (register != 0 && !warning);
+        leds::dual(self.is_powered(), self.state(), warning, error)
+    }
+}

@@ -1,0 +1,129 @@
+//! Process data by the mapping that the device has now.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::Address;
+use od_runtime::{CobId, Frame};
+use od_wire::pdo::MapRepr;
+
+use super::{Service, Words, bytes};
+use crate::device::VirtualDevice;
+use od_model::values;
+
+/// PDOs of a device that are looked at: those of its dictionary, 512 at most.
+const MOST: u16 = 0x1FF;
+
+/// A frame whose identifier a PDO of one of the devices has.
+pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words> {
+    let (device, service, number, mapping) = find(devices, frame)?;
+    Some(words(device, service, number, mapping, frame))
+}
+
+/// The objects in the data of a PDO by the mapping that stands: each with its first bit and its
+/// number of bits. `None` for a frame that no PDO of these devices has.
+pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
+    let (device, _, _, mapping) = find(devices, frame)?;
+    let mut first = 0;
+    let mut parts = Vec::new();
+    for sub in 1..=device.stored(mapping, 0).unwrap_or(0).min(64) as u8 {
+        let entry = MapRepr::parse(device.stored(mapping, sub).unwrap_or(0) as u32);
+        parts.push((entry.address, first, u32::from(entry.bits)));
+        first += u32::from(entry.bits);
+    }
+    Some(parts)
+}
+
+/// The device whose PDO it is, its direction, its number from 0, and its mapping object.
+fn find<'d>(
+    devices: &'d [VirtualDevice],
+    frame: &Frame,
+) -> Option<(&'d VirtualDevice, Service, u16, u16)> {
+    for device in devices {
+        for (parameter, mapping, service) in [
+            (0x1800, 0x1A00, Service::Tpdo),
+            (0x1400, 0x1600, Service::Rpdo),
+        ] {
+            let last = (parameter..=parameter + MOST)
+                .rev()
+                .find(|index| device.dictionary().object(*index).is_some());
+            for index in parameter..=last.unwrap_or(0) {
+                let cob_id = device.stored(index, 1).map(|raw| CobId::new(raw as u32));
+                if cob_id.is_some_and(|id| id.is_valid() && id.can_id() == frame.id()) {
+                    let number = index - parameter;
+                    return Some((device, service, number, mapping + number));
+                }
+            }
+        }
+    }
+    None
+}
+
+fn words(
+    device: &VirtualDevice,
+    service: Service,
+    number: u16,
+    mapping: u16,
+    frame: &Frame,
+) -> Words {
+    let kind = if service == Service::Tpdo {
+        "TPDO"
+    } else {
+        "RPDO"
+    };
+    let node = Some(device.node_id().raw());
+    let number = number + 1;
+    if frame.is_remote() {
+        return Words::new(service, node, format!("{kind}{number} asked for"));
+    }
+    let mut raw = [0; 8];
+    raw[..frame.data().len()].copy_from_slice(frame.data());
+    let raw = u64::from_le_bytes(raw);
+    let dictionary = device.dictionary();
+    let mut parts = Vec::new();
+    let mut first = 0;
+    for sub in 1..=device.stored(mapping, 0).unwrap_or(0).min(64) as u8 {
+        let entry = MapRepr::parse(device.stored(mapping, sub).unwrap_or(0) as u32);
+        let last = first + u32::from(entry.bits);
+        if last > 8 * u32::from(frame.dlc()) || entry.bits == 0 {
+            break;
+        }
+        let mask = if entry.bits >= 64 {
+            u64::MAX
+        } else {
+            (1 << entry.bits) - 1
+        };
+        let value = (raw >> first & mask).to_le_bytes();
+        let size = usize::from(entry.bits).div_ceil(8).min(8);
+        let (name, shown) = match dictionary.find(entry.address) {
+            Ok(found) => (
+                values::name(dictionary, found),
+                values::show(found.data_type, &value[..size]),
+            ),
+            Err(_) => (entry.address.to_string(), values::hex(&value[..size])),
+        };
+        parts.push(format!("{name} = {shown}"));
+        first = last;
+    }
+    let text = match parts.is_empty() {
+        true => format!("{kind}{number} {}", bytes(frame.data().len())),
+        false => format!("{kind}{number} {}", parts.join(", ")),
+    };
+    Words::new(service, node, text)
+}
+
+/// A frame that no device of the bench knows, by the predefined connection set.
+pub(super) fn by_identifier(id: u16, frame: &Frame) -> Words {
+    let node = (id & 0x7F) as u8;
+    let number = (id >> 7) - 3;
+    let (service, kind) = match number % 2 {
+        0 => (Service::Tpdo, "TPDO"),
+        _ => (Service::Rpdo, "RPDO"),
+    };
+    let number = number / 2 + 1;
+    let text = match frame.is_remote() {
+        true => format!("{kind}{number} asked for"),
+        false => format!("{kind}{number} {}", bytes(frame.data().len())),
+    };
+    Words::new(service, (node != 0).then_some(node), text)
+}

@@ -1,0 +1,311 @@
+//! SDO requests, answers and aborts (CiA 301, chapter 7.2.4).
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::Address;
+use od_runtime::{AbortCode, Frame};
+use od_wire::sdo::{Request, Response};
+
+use super::{Service, Words, bytes};
+use crate::device::VirtualDevice;
+use od_model::values;
+
+/// Where a transfer stands, as far as the frames so far tell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Transfer {
+    address: Option<Address>,
+    data: Vec<u8>,
+    /// Segments of a block are under way: from the server, or from the client.
+    block: Option<Block>,
+    block_size: u8,
+    /// The number of the last segment of all, once it went by.
+    last: Option<u8>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Block {
+    Upload,
+    Download,
+}
+
+/// Longest value that is put together from segments; of a longer one its length is told.
+const KEPT: usize = 4096;
+
+struct Explainer<'e> {
+    transfer: &'e mut Transfer,
+    device: Option<&'e VirtualDevice>,
+    service: Service,
+    node: u8,
+}
+
+pub(super) fn explain(
+    transfer: &mut Transfer,
+    device: Option<&VirtualDevice>,
+    answer: bool,
+    node: u8,
+    frame: &Frame,
+) -> Words {
+    let service = if answer {
+        Service::SdoAnswer
+    } else {
+        Service::SdoRequest
+    };
+    let mut explainer = Explainer {
+        transfer,
+        device,
+        service,
+        node,
+    };
+    if frame.is_remote() || frame.dlc() == 0 {
+        return explainer.words("no SDO frame");
+    }
+    let segments = match explainer.transfer.block {
+        Some(Block::Upload) => answer,
+        Some(Block::Download) => !answer,
+        None => false,
+    };
+    // A block segment has no command, except that nobody may send segment 0.
+    if segments && frame.bytes()[0] & 0x7F != 0 && frame.bytes()[0] != 0x80 {
+        return explainer.segment_of_block(frame);
+    }
+    match answer {
+        true => explainer.answer(Response::parse(frame.bytes()), frame),
+        false => explainer.request(Request::parse(frame.bytes()), frame),
+    }
+}
+
+impl Explainer<'_> {
+    fn words(&self, text: impl Into<String>) -> Words {
+        let words = Words::new(self.service, Some(self.node), text);
+        match self.transfer.address {
+            Some(address) => words.about(address),
+            None => words,
+        }
+    }
+
+    fn name(&self, address: Address) -> String {
+        match self.device {
+            Some(device) => values::label(device.dictionary(), address),
+            None => address.to_string(),
+        }
+    }
+
+    fn current(&self) -> String {
+        self.transfer
+            .address
+            .map_or_else(|| "a transfer".into(), |address| self.name(address))
+    }
+
+    fn show(&self, data: &[u8]) -> String {
+        let find = |address| self.device?.dictionary().find(address).ok();
+        match self.transfer.address.and_then(find) {
+            Some(entry) => values::show(entry.data_type, data),
+            None => values::hex(data),
+        }
+    }
+
+    fn begin(&mut self, address: Address) {
+        *self.transfer = Transfer {
+            address: Some(address),
+            ..Transfer::default()
+        };
+    }
+
+    fn request(&mut self, request: Request, frame: &Frame) -> Words {
+        match request {
+            Request::InitiateUpload { address } => {
+                self.begin(address);
+                self.words(format!("read {}", self.name(address)))
+            }
+            Request::InitiateDownload {
+                address,
+                size,
+                expedited,
+            } => {
+                self.begin(address);
+                let name = self.name(address);
+                match (expedited, size) {
+                    (Some(data), size) => {
+                        let sent = frame.data().len().saturating_sub(4);
+                        let len = size.map_or(sent, |size| size as usize).min(4);
+                        let find = |device: &VirtualDevice| {
+                            device.dictionary().find(address).ok()?.data_type.size()
+                        };
+                        let own = self.device.and_then(find);
+                        let len = own.map_or(len, |own| if own < len { own } else { len });
+                        let text = format!("write {name} = {}", self.show(&data[..len]));
+                        self.words(text)
+                    }
+                    (None, Some(size)) => self.words(format!(
+                        "write {name}, {} in segments",
+                        bytes(size as usize)
+                    )),
+                    (None, None) => self.words(format!("write {name} in segments")),
+                }
+            }
+            Request::DownloadSegment {
+                data, len, last, ..
+            } => self.segment(&data[..usize::from(len.min(7))], last),
+            Request::UploadSegment { .. } => {
+                self.words(format!("next segment of {}", self.current()))
+            }
+            Request::Abort { address, code } => self.abort(address, code),
+            Request::InitiateBlockUpload {
+                address,
+                block_size,
+                ..
+            } => {
+                self.begin(address);
+                self.transfer.block_size = block_size;
+                self.words(format!(
+                    "read {} in blocks of {block_size}",
+                    self.name(address)
+                ))
+            }
+            Request::StartBlockUpload => {
+                self.transfer.block = Some(Block::Upload);
+                self.words(format!("start blocks of {}", self.current()))
+            }
+            Request::BlockUploadResponse { ack, block_size } => {
+                self.block_taken(Block::Upload, ack, block_size)
+            }
+            Request::EndBlockUpload => self.words(format!("{} is complete", self.current())),
+            Request::InitiateBlockDownload { address, size, .. } => {
+                self.begin(address);
+                let size =
+                    size.map_or_else(String::new, |size| format!(", {}", bytes(size as usize)));
+                self.words(format!("write {} in blocks{size}", self.name(address)))
+            }
+            Request::EndBlockDownload { crc, .. } => {
+                self.transfer.block = None;
+                self.words(format!("{} is complete, CRC {crc:04X}h", self.current()))
+            }
+            Request::Unknown => self
+                .words(format!("unknown command {:02X}h", frame.bytes()[0]))
+                .error(),
+        }
+    }
+
+    fn answer(&mut self, response: Response, frame: &Frame) -> Words {
+        match response {
+            Response::InitiateUpload {
+                address,
+                size,
+                expedited,
+            } => {
+                self.begin(address);
+                let name = self.name(address);
+                match (expedited, size) {
+                    (Some(data), size) => {
+                        let len = size.map_or(4, |size| size as usize).min(4);
+                        self.words(format!("{name} is {}", self.show(&data[..len])))
+                    }
+                    (None, Some(size)) => {
+                        self.words(format!("{name} has {}", bytes(size as usize)))
+                    }
+                    (None, None) => self.words(format!("{name} comes in segments")),
+                }
+            }
+            Response::InitiateDownload { address } => {
+                if self.transfer.address != Some(address) {
+                    self.begin(address);
+                }
+                self.words(format!("{} taken", self.name(address)))
+            }
+            Response::UploadSegment {
+                data, len, last, ..
+            } => self.segment(&data[..usize::from(len.min(7))], last),
+            Response::DownloadSegment { .. } => {
+                self.words(format!("segment of {} taken", self.current()))
+            }
+            Response::Abort { address, code } => self.abort(address, code),
+            Response::InitiateBlockDownload {
+                address,
+                block_size,
+                ..
+            } => {
+                self.begin(address);
+                self.transfer.block = Some(Block::Download);
+                self.transfer.block_size = block_size;
+                let name = self.name(address);
+                self.words(format!("{name} may come in blocks of {block_size}"))
+            }
+            Response::BlockDownloadResponse { ack, block_size } => {
+                self.block_taken(Block::Download, ack, block_size)
+            }
+            Response::EndBlockDownload => {
+                self.transfer.block = None;
+                self.words(format!("{} written", self.current()))
+            }
+            Response::InitiateBlockUpload { address, size, .. } => {
+                let block_size = self.transfer.block_size;
+                self.begin(address);
+                self.transfer.block_size = block_size;
+                let size = size.map_or_else(|| "data".into(), |size| bytes(size as usize));
+                self.words(format!("{} has {size}, in blocks", self.name(address)))
+            }
+            Response::EndBlockUpload { crc, .. } => {
+                self.transfer.block = None;
+                self.words(format!("end of {}, CRC {crc:04X}h", self.current()))
+            }
+            Response::Unknown => self
+                .words(format!("unknown command {:02X}h", frame.bytes()[0]))
+                .error(),
+        }
+    }
+
+    fn segment(&mut self, data: &[u8], last: bool) -> Words {
+        let room = KEPT
+            .saturating_sub(self.transfer.data.len())
+            .min(data.len());
+        self.transfer.data.extend_from_slice(&data[..room]);
+        if !last {
+            return self.words(format!(
+                "segment of {}, {}",
+                self.current(),
+                bytes(data.len())
+            ));
+        }
+        let whole = core::mem::take(&mut self.transfer.data);
+        self.words(format!(
+            "last segment of {}: {}",
+            self.current(),
+            self.show(&whole)
+        ))
+    }
+
+    fn segment_of_block(&mut self, frame: &Frame) -> Words {
+        let number = frame.bytes()[0] & 0x7F;
+        let last = frame.bytes()[0] & 0x80 != 0;
+        if last || number >= self.transfer.block_size {
+            // The block is over: what comes now has a command again.
+            self.transfer.block = None;
+        }
+        self.transfer.last = last.then_some(number);
+        let which = if last { "last segment" } else { "segment" };
+        self.words(format!("{which} {number} of a block of {}", self.current()))
+    }
+
+    /// More segments follow, unless the last one of all was taken.
+    fn block_taken(&mut self, block: Block, ack: u8, block_size: u8) -> Words {
+        let more = self.transfer.last != Some(ack);
+        self.transfer.block = more.then_some(block);
+        self.transfer.block_size = block_size;
+        let name = self.current();
+        self.words(format!("block of {name} taken up to segment {ack}"))
+    }
+
+    fn abort(&mut self, address: Address, code: u32) -> Words {
+        self.begin(address);
+        let why = match AbortCode::from_code(code) {
+            Some(code) => code.to_string(),
+            None => format!("{code:08X}h"),
+        };
+        let words = self
+            .words(format!("{} aborted: {why}", self.name(address)))
+            .error();
+        *self.transfer = Transfer::default();
+        words
+    }
+}

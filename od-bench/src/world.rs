@@ -1,0 +1,201 @@
+//! The world around a device: its shaft, its switches, what breaks.
+
+use std::prelude::v1::*;
+
+use od_runtime::Instant;
+use od_runtime::encoder::{Angle, Encoder, Fault, Shaft};
+
+use crate::device::{Behaviour, VirtualDevice};
+use crate::faults;
+
+/// 2³², the fractions of a revolution.
+const REVOLUTION: f64 = 4_294_967_296.0;
+
+/// Where a shaft is and how fast it turns.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct ShaftView {
+    /// Revolutions from the sensor's zero point.
+    pub turns: f64,
+    /// Revolutions a minute, positive clockwise.
+    pub rpm: f64,
+    /// The sensor's position in steps.
+    pub raw: u64,
+}
+
+impl VirtualDevice {
+    fn encoder(&mut self) -> Option<&mut Encoder> {
+        match &mut self.behaviour {
+            Behaviour::Encoder(encoder) => Some(encoder),
+            Behaviour::Other(_) => None,
+        }
+    }
+
+    /// Changes something outside, and lets the device notice. Answers whether there is an
+    /// encoder at all.
+    fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder)) -> bool {
+        let Some(encoder) = self.encoder() else {
+            return false;
+        };
+        act(encoder);
+        self.noticed(now);
+        true
+    }
+
+    /// Where the shaft is, if the device has one.
+    pub fn shaft(&self, now: Instant) -> Option<ShaftView> {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return None;
+        };
+        Some(ShaftView {
+            turns: encoder.angle(now).fractions() as f64 / REVOLUTION,
+            rpm: f64::from(encoder.shaft.milli_rpm_at(now)) / 1000.0,
+            raw: encoder.raw_position(now),
+        })
+    }
+
+    /// The shaft as it is, for devices that share it.
+    pub(super) fn shaft_now(&self) -> Option<Shaft> {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => Some(encoder.shaft.alone()),
+            Behaviour::Other(_) => None,
+        }
+    }
+
+    /// Another device turned the shaft that this one sits on, too.
+    pub(super) fn put_on_shaft(&mut self, shaft: Shaft, now: Instant) {
+        self.change(now, |encoder| encoder.shaft.follow(&shaft));
+    }
+
+    /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether
+    /// there is a shaft, as the next three do.
+    pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
+        self.change(now, |encoder| encoder.set_raw_position(now, raw))
+    }
+
+    /// Turns the shaft by so many revolutions; its speed stays.
+    pub fn turn(&mut self, turns: f64, now: Instant) -> bool {
+        let by = Angle::from_fractions((turns * REVOLUTION) as i64);
+        self.change(now, |encoder| encoder.shaft.turn(now, by))
+    }
+
+    /// Turns the shaft to so many revolutions from the sensor's zero point; its speed stays.
+    pub fn turn_to(&mut self, turns: f64, now: Instant) -> bool {
+        let to = Angle::from_fractions((turns * REVOLUTION) as i64);
+        self.change(now, |encoder| {
+            let by = to.minus(encoder.angle(now));
+            encoder.shaft.turn(now, by);
+        })
+    }
+
+    /// Lets the shaft turn with this speed from now on; positive is clockwise.
+    pub fn set_rpm(&mut self, rpm: f64, now: Instant) -> bool {
+        // `as` keeps what is too fast in the range, and makes 0 of what is no number.
+        self.change(now, |encoder| {
+            encoder.shaft.set_milli_rpm(now, (rpm * 1000.0) as i32)
+        })
+    }
+
+    /// Lets the shaft speed up or slow down evenly, to this speed after so many microseconds,
+    /// at most 4295 s.
+    pub fn ramp_to_rpm(&mut self, rpm: f64, micros: u64, now: Instant) -> bool {
+        let micros = u32::try_from(micros).unwrap_or(u32::MAX);
+        self.change(now, |encoder| {
+            encoder.shaft.ramp_to(now, (rpm * 1000.0) as i32, micros)
+        })
+    }
+
+    /// Sets the rotary switches of the node ID, 0–99; 0 leaves it to the EEPROM. They are
+    /// read at the next start.
+    pub fn set_node_switch(&mut self, number: u8, now: Instant) {
+        self.change(now, |encoder| {
+            let mut switches = encoder.switches();
+            switches.node_id = number.min(99);
+            encoder.set_switches(switches);
+        });
+    }
+
+    /// Sets the DIP switches of the bit rate, 0–7. They are read at the next start, and only
+    /// where the rotary switches are not 0.
+    pub fn set_bitrate_switch(&mut self, number: u8, now: Instant) {
+        self.change(now, |encoder| {
+            let mut switches = encoder.switches();
+            switches.bit_rate = number & 7;
+            encoder.set_switches(switches);
+        });
+    }
+
+    /// The switches: node ID and bit rate.
+    pub fn switches(&self) -> (u8, u8) {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                (encoder.switches().node_id, encoder.switches().bit_rate)
+            }
+            Behaviour::Other(_) => (0, 0),
+        }
+    }
+
+    /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether this
+    /// device has such a fault.
+    pub fn set_fault(&mut self, name: &str, broken: bool, now: Instant) -> bool {
+        match faults::from_name(name).filter(|fault| self.has_fault(*fault)) {
+            Some(fault) => self.change(now, |encoder| encoder.set_fault(fault, broken)),
+            None => false,
+        }
+    }
+
+    /// The names of what can break in this device.
+    pub fn faults(&self) -> Vec<&'static str> {
+        let known = Fault::NAMES.iter();
+        known
+            .filter(|(fault, _)| self.has_fault(*fault))
+            .map(|(_, name)| *name)
+            .collect()
+    }
+
+    fn has_fault(&self, fault: Fault) -> bool {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                let mut reports = encoder.profile().reports.iter();
+                reports.any(|report| report.fault == fault)
+            }
+            Behaviour::Other(_) => false,
+        }
+    }
+
+    /// Is this broken?
+    pub fn is_broken(&self, name: &str) -> bool {
+        match (&self.behaviour, faults::from_name(name)) {
+            (Behaviour::Encoder(encoder), Some(fault)) => encoder.is_broken(fault),
+            _ => false,
+        }
+    }
+
+    /// The bit rate in kbit/s, where the device has one of its own: that of the last start, or
+    /// what LSS activated since.
+    pub fn bit_rate(&self) -> Option<u16> {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => self.activated.or(encoder.bit_rate()),
+            Behaviour::Other(_) => None,
+        }
+    }
+
+    /// What a code of the device's own (2100h) stands for, in kbit/s.
+    pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return None;
+        };
+        let rate = encoder.profile().bit_rates.get(usize::from(code)).copied();
+        rate.filter(|rate| *rate != 0)
+    }
+
+    /// While a shaft turns, a device whose PDOs follow their values looks at it every
+    /// millisecond.
+    pub(super) fn watches_shaft(&self) -> bool {
+        match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                encoder.shaft.is_turning() && self.profile.pdo.event_on_change
+            }
+            Behaviour::Other(_) => false,
+        }
+    }
+}

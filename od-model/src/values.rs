@@ -1,0 +1,232 @@
+//! Values and addresses as people write and read them.
+
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::address::Address;
+use crate::dictionary::{Dictionary, Entry, Missing};
+use crate::typed::Scalar;
+use crate::types::{DataType, Kind};
+
+/// A value in words, by its type: `497042 (79592h)`, `-5`, `"GXMM"`, `01 02 03`.
+pub fn show(data_type: DataType, bytes: &[u8]) -> String {
+    if data_type.size().is_some_and(|size| size != bytes.len()) {
+        return hex(bytes);
+    }
+    match data_type.kind() {
+        Kind::Boolean => String::from(if bytes == [0] { "false" } else { "true" }),
+        Kind::Unsigned => match u64::from_wire(bytes) {
+            small @ 0..=9 => small.to_string(),
+            value => format!("{value} ({value:X}h)"),
+        },
+        Kind::Signed => i64::from_wire(bytes).to_string(),
+        Kind::Real => match *bytes {
+            [a, b, c, d] => f32::from_le_bytes([a, b, c, d]).to_string(),
+            _ => f64::from_bits(u64::from_wire(bytes)).to_string(),
+        },
+        Kind::Text => format!("{:?}", String::from_utf8_lossy(bytes)),
+        Kind::Bytes | Kind::Record => hex(bytes),
+    }
+}
+
+/// Two hex digits a byte, blanks between: `43 02 60 00`.
+pub fn hex(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .map(|byte| format!("{byte:02X}"))
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// The bytes of a value that somebody wrote: `4096`, `0x1000`, `1000h`, `-5`, `1.5`, `true`,
+/// `"text"`, or `[01 02 03]` for bytes of any type.
+///
+/// # Errors
+/// What would have been right, in words.
+pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
+    let text = text.trim();
+    if let Some(inner) = text
+        .strip_prefix('[')
+        .and_then(|rest| rest.strip_suffix(']'))
+    {
+        return parse_hex(inner).ok_or_else(|| format!("`{text}` is no list of hex bytes"));
+    }
+    let quoted = text
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    match (data_type.kind(), quoted) {
+        (Kind::Text | Kind::Bytes, Some(inner)) => return Ok(inner.as_bytes().to_vec()),
+        (Kind::Text | Kind::Bytes | Kind::Record, _) => {
+            return Err(format!(
+                "{data_type} is written as \"text\" or as [01 02 03]"
+            ));
+        }
+        (_, Some(inner)) if data_type.size() == Some(inner.len()) => {
+            return Ok(inner.as_bytes().to_vec());
+        }
+        (_, Some(_)) => return Err(format!("a text is not {data_type}")),
+        _ => {}
+    }
+    if data_type.kind() == Kind::Real {
+        let value: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+        return Ok(match data_type.size() {
+            Some(4) => (value as f32).to_le_bytes().to_vec(),
+            _ => value.to_le_bytes().to_vec(),
+        });
+    }
+    let value = match text {
+        "true" => 1,
+        "false" => 0,
+        _ => integer(text).ok_or_else(|| format!("`{text}` is no number"))?,
+    };
+    let (low, high) = data_type.integer_range().unwrap_or((0, 0));
+    if value < low || value > high {
+        return Err(format!("{data_type} goes from {low} to {high}"));
+    }
+    let size = data_type.size().unwrap_or(0).min(16);
+    Ok(value.to_le_bytes()[..size].to_vec())
+}
+
+/// Decimal, `0x` or `…h` hex, underscores between digits, a minus in front.
+pub fn integer(text: &str) -> Option<i128> {
+    let (sign, text) = match text.strip_prefix('-') {
+        Some(rest) => (-1, rest),
+        None => (1, text),
+    };
+    let digits = text.replace('_', "");
+    let hex = digits
+        .strip_prefix("0x")
+        .or_else(|| digits.strip_prefix("0X"));
+    let hex = hex.or_else(|| digits.strip_suffix(['h', 'H']));
+    let value = match hex {
+        Some(hex) => u64::from_str_radix(hex, 16).ok()?,
+        None => digits.parse::<u64>().ok()?,
+    };
+    Some(sign * i128::from(value))
+}
+
+fn parse_hex(text: &str) -> Option<Vec<u8>> {
+    let byte = |word: &str| {
+        u8::from_str_radix(word, 16)
+            .ok()
+            .filter(|_| word.len() == 2)
+    };
+    text.split_whitespace().map(byte).collect()
+}
+
+/// An address as people write it: `6004h`, `1018h:02`, `0x1018:2`, `1018sub2`. The sub-index
+/// is hex, and 0 where none is given.
+pub fn address(text: &str) -> Option<Address> {
+    let text = text.trim();
+    let (index, sub) = match text.split_once(':') {
+        Some((index, sub)) => (index, Some(sub)),
+        None => match text.find("sub") {
+            Some(at) => (&text[..at], Some(&text[at + 3..])),
+            None => (text, None),
+        },
+    };
+    let hex = |text: &str| {
+        let digits = text.strip_prefix("0x").unwrap_or(text);
+        let digits = digits.strip_suffix(['h', 'H']).unwrap_or(digits);
+        u32::from_str_radix(digits, 16)
+            .ok()
+            .filter(|_| digits.len() <= 4)
+    };
+    let index = u16::try_from(hex(index)?).ok()?;
+    let sub = u8::try_from(sub.map_or(Some(0), hex)?).ok()?;
+    Some(Address::new(index, sub))
+}
+
+/// The entry that somebody means: by [`address`], or by name in any case. A member is named
+/// by its own name if there is only one such, else as `object.member`.
+///
+/// # Errors
+/// What is the matter, in words.
+pub fn find<'a>(dictionary: Dictionary<'a>, text: &str) -> Result<&'a Entry, String> {
+    let text = text.trim();
+    if let Some(address) = address(text) {
+        return dictionary.find(address).map_err(|missing| match missing {
+            Missing::Object => format!("there is no object {:04X}h", address.index),
+            Missing::SubIndex => format!("there is no sub-index {address}"),
+        });
+    }
+    let wanted = text.trim_matches('"');
+    let mut found = dictionary.entries().iter().filter(|entry| {
+        name(dictionary, entry).eq_ignore_ascii_case(wanted)
+            || dictionary.text(entry.name).eq_ignore_ascii_case(wanted)
+    });
+    match (found.next(), found.next()) {
+        (Some(entry), None) => Ok(entry),
+        (Some(first), Some(second)) => Err(format!(
+            "`{wanted}` is the name of {} and of {}; write the address",
+            first.address, second.address
+        )),
+        (None, _) => Err(format!("no object is called `{wanted}`")),
+    }
+}
+
+/// An entry's full name: the object's, and for a member its own behind a dot.
+pub fn name(dictionary: Dictionary<'_>, entry: &Entry) -> String {
+    let own = dictionary.text(entry.name);
+    match dictionary.object(entry.address.index) {
+        Some(object) if object.code.has_members() => {
+            format!("{}.{own}", dictionary.text(object.name))
+        }
+        _ => own.to_owned(),
+    }
+}
+
+/// An address with its name, as far as the dictionary knows it: `6004h Position value`.
+pub fn label(dictionary: Dictionary<'_>, address: Address) -> String {
+    let number = match (address.sub, dictionary.object(address.index)) {
+        (0, Some(object)) if !object.code.has_members() => format!("{:04X}h", address.index),
+        _ => address.to_string(),
+    };
+    match dictionary.find(address) {
+        Ok(entry) => format!("{number} {}", name(dictionary, entry)),
+        Err(_) => number,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_come_back() {
+        for (data_type, text, bytes) in [
+            (DataType::Unsigned32, "497042", &[0x92, 0x95, 7, 0][..]),
+            (DataType::Unsigned32, "0x79592", &[0x92, 0x95, 7, 0]),
+            (DataType::Unsigned32, "79592h", &[0x92, 0x95, 7, 0]),
+            (DataType::Unsigned32, "\"save\"", b"save"),
+            (DataType::Integer16, "-5", &[0xFB, 0xFF]),
+            (DataType::Boolean, "true", &[1]),
+            (DataType::VisibleString, "\"GXMM\"", b"GXMM"),
+            (DataType::Domain, "[01 02]", &[1, 2]),
+            (DataType::Real32, "1.5", &[0, 0, 0xC0, 0x3F]),
+        ] {
+            assert_eq!(parse(data_type, text).as_deref(), Ok(bytes), "{text}");
+        }
+        assert_eq!(
+            show(DataType::Unsigned32, &[0x92, 0x95, 7, 0]),
+            "497042 (79592h)"
+        );
+        assert_eq!(show(DataType::Integer16, &[0xFB, 0xFF]), "-5");
+        assert_eq!(show(DataType::Unsigned32, &[1, 2]), "01 02");
+        assert!(parse(DataType::Unsigned8, "256").is_err());
+        assert!(parse(DataType::Unsigned8, "").is_err());
+    }
+
+    #[test]
+    fn addresses_are_written_in_many_ways() {
+        for text in ["1018h:02", "1018:2", "0x1018:02h", "1018sub2", " 1018h:2 "] {
+            assert_eq!(address(text), Some(Address::new(0x1018, 2)), "{text}");
+        }
+        assert_eq!(address("6004h"), Some(Address::new(0x6004, 0)));
+        for text in ["", "h", "10180", "1018:100", "x", "ä:1", "1018:"] {
+            assert_eq!(address(text), None, "{text}");
+        }
+    }
+}
