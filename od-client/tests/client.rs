@@ -199,7 +199,7 @@ fn nodes_come_are_lost_and_come_back() {
     assert_eq!(client.state(node(3)), Some(State::Initialising));
     assert_eq!(client.poll_timeout(), Some(at(100)));
     let operational = Event::State(node(3), State::Operational);
-    assert_eq!(beat(&mut client, 90, "05"), [operational.clone()]);
+    assert_eq!(beat(&mut client, 90, "05"), [operational]);
     assert!(beat(&mut client, 100, "05").is_empty());
     client.handle_timeout(at(199));
     assert!(events(&mut client).is_empty());
