@@ -1,0 +1,151 @@
+//! The rooms: who may use whom, and how large each may grow.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A room is a folder of the workspace.
+pub(crate) struct Room {
+    /// The folder.
+    pub(crate) name: &'static str,
+    /// Arrows lead from a higher storey to a lower one; `None` stands apart.
+    storey: Option<u8>,
+    /// Lines of `.rs` and `.ts` that it may have, tests not counted.
+    pub(crate) lines: usize,
+}
+
+const fn room(name: &'static str, storey: u8, lines: usize) -> Room {
+    Room {
+        name,
+        storey: Some(storey),
+        lines,
+    }
+}
+
+/// All rooms, from the ground up.
+pub(crate) const ROOMS: [Room; 13] = [
+    room("od-model", 1, 3_000),
+    room("od-wire", 2, 1_600),
+    room("od-eds", 2, 13_400),
+    room("od-client", 3, 1_600),
+    room("od-runtime", 3, 7_300),
+    room("od-macros", 3, 2_400),
+    room("od-bench", 4, 8_700),
+    room("odkit", 4, 200),
+    room("devices", 5, 1_900),
+    room("od-cli", 6, 2_900),
+    room("playground", 6, 6_400),
+    room("tests", 6, usize::MAX),
+    Room {
+        name: "xtask",
+        storey: None,
+        lines: 1_900,
+    },
+];
+
+/// Lines that all rooms may have together.
+pub(crate) const ALL: usize = 50_000;
+
+/// The dependencies that lead up, or to the same storey: pairs of rooms.
+pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &str)> {
+    let manifests = || {
+        files
+            .iter()
+            .filter(|(path, _)| path.ends_with("Cargo.toml"))
+    };
+    let packages: BTreeMap<&str, &str> = manifests()
+        .filter_map(|(path, text)| Some((package(text)?, room_of(path))))
+        .collect();
+    let mut found = BTreeSet::new();
+    for (path, text) in manifests() {
+        let from = room_of(path);
+        for to in dependencies(text).filter_map(|name| packages.get(name)) {
+            let leads_down = match (storey(from), storey(to)) {
+                (Some(from), Some(to)) => to < from,
+                _ => false,
+            };
+            if *to != from && !leads_down {
+                found.insert((from, *to));
+            }
+        }
+    }
+    found
+}
+
+/// The lines of each room: those of `.rs` and `.ts` that are no tests.
+pub(crate) fn lines(files: &BTreeMap<String, String>) -> BTreeMap<&'static str, usize> {
+    let mut found = BTreeMap::new();
+    for room in ROOMS.iter().filter(|room| room.name != "tests") {
+        let own = files.iter().filter(|(path, _)| {
+            let is_test = path.contains("/tests/")
+                || path.contains("/package-test/")
+                || path.ends_with("/tests.rs")
+                || path.ends_with(".test.ts");
+            room_of(path) == room.name && is_code(path) && !is_test
+        });
+        found.insert(room.name, own.map(|(_, text)| text.lines().count()).sum());
+    }
+    found
+}
+
+/// Is it a file whose lines count?
+pub(crate) fn is_code(path: &str) -> bool {
+    path.ends_with(".rs") || path.ends_with(".ts")
+}
+
+/// The room of a file: its first folder.
+fn room_of(path: &str) -> &str {
+    path.split('/').next().unwrap_or(path)
+}
+
+fn storey(name: &str) -> Option<u8> {
+    ROOMS.iter().find(|room| room.name == name)?.storey
+}
+
+/// The name in `[package]`.
+fn package(manifest: &str) -> Option<&str> {
+    let (_, body) = manifest.split_once("[package]")?;
+    let line = body.lines().find(|line| line.starts_with("name"))?;
+    line.split('"').nth(1)
+}
+
+/// What the sections of dependencies name, those for tests and for one system among them.
+fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
+    let mut is_inside = false;
+    manifest.lines().filter_map(move |line| {
+        let line = line.trim();
+        if let Some(section) = line.strip_prefix('[') {
+            let section = section.trim_end_matches(']');
+            is_inside = section.ends_with("dependencies") && section != "workspace.dependencies";
+            return None;
+        }
+        let name = line.split(['=', '.', ' ']).next()?.trim();
+        (is_inside && !name.is_empty() && !name.starts_with('#')).then_some(name)
+    })
+}
+
+#[test]
+fn an_arrow_to_the_side_leads_up_too() {
+    let file = |path: &str, text: &str| (path.to_owned(), text.to_owned());
+    let files = BTreeMap::from([
+        file("Cargo.toml", "[workspace.dependencies]\nod-cli = 1"),
+        file(
+            "od-wire/Cargo.toml",
+            "[package]\nname = \"od-wire\"\n[dependencies]\nod-model = 1",
+        ),
+        file(
+            "od-model/Cargo.toml",
+            "[package]\nname = \"od-model\"\n[dependencies]\nserde = 1",
+        ),
+        file(
+            "od-eds/Cargo.toml",
+            "[package]\nname = \"od-eds\"\n[dependencies]\nod-model.workspace = true\n\
+             [target.'cfg(unix)'.dependencies]\nod-wire = { path = \"\" }\n\
+             [dev-dependencies]\nod-cli.workspace = true",
+        ),
+        file(
+            "od-cli/Cargo.toml",
+            "[package]\nname = \"od-cli\"\n[dependencies]\nod-eds = 1",
+        ),
+    ]);
+    let found: Vec<_> = arrows_up(&files).into_iter().collect();
+    assert_eq!(found, [("od-eds", "od-cli"), ("od-eds", "od-wire")]);
+}
