@@ -44,7 +44,8 @@ pub(crate) const ROOMS: [Room; 13] = [
 /// Lines that all rooms may have together.
 pub(crate) const ALL: usize = 50_000;
 
-/// The dependencies that lead up, or to the same storey: pairs of rooms.
+/// The dependencies that lead up, or to the same storey: pairs of rooms. Those of tests may:
+/// a test stands above all that it needs.
 pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &str)> {
     let manifests = || {
         files
@@ -107,14 +108,15 @@ fn package(manifest: &str) -> Option<&str> {
     line.split('"').nth(1)
 }
 
-/// What the sections of dependencies name, those for tests and for one system among them.
+/// What the sections of dependencies name, those for one system among them.
 fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
     let mut is_inside = false;
     manifest.lines().filter_map(move |line| {
         let line = line.trim();
         if let Some(section) = line.strip_prefix('[') {
-            let section = section.trim_end_matches(']');
-            is_inside = section.ends_with("dependencies") && section != "workspace.dependencies";
+            let kind = section.trim_end_matches(']').rsplit('.').next();
+            is_inside = matches!(kind, Some("dependencies" | "build-dependencies"))
+                && section != "workspace.dependencies]";
             return None;
         }
         let name = line.split(['=', '.', ' ']).next()?.trim();
@@ -139,8 +141,10 @@ fn an_arrow_to_the_side_leads_up_too() {
             "od-eds/Cargo.toml",
             "[package]\nname = \"od-eds\"\n[dependencies]\nod-model.workspace = true\n\
              [target.'cfg(unix)'.dependencies]\nod-wire = { path = \"\" }\n\
-             [dev-dependencies]\nod-cli.workspace = true",
+             [dev-dependencies]\nod-bench.workspace = true\n\
+             [build-dependencies]\nod-cli.workspace = true",
         ),
+        file("od-bench/Cargo.toml", "[package]\nname = \"od-bench\"\n"),
         file(
             "od-cli/Cargo.toml",
             "[package]\nname = \"od-cli\"\n[dependencies]\nod-eds = 1",
