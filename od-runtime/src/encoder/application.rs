@@ -153,7 +153,7 @@ impl<M: Motion> Application for Encoder<M> {
     }
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
-        if self.shaft.due().is_some_and(|due| due <= cx.now) {
+        if self.shaft.due().is_some() {
             self.sense(cx);
         }
         self.faults.report(cx, self.profile);

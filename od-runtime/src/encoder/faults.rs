@@ -20,6 +20,8 @@ pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
 /// Sets of [`Fault`]s and of rows of [`EncoderProfile::reports`], a bit each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Faults {
+    /// Something changed that [`report`](Self::report) has not seen.
+    changed: bool,
     /// What the host broke.
     broken: u32,
     /// What keeps the sensor from telling the angle, since it last told it.
@@ -57,6 +59,7 @@ pub(super) enum Off {
 impl Faults {
     pub(super) const fn new() -> Self {
         Self {
+            changed: false,
             broken: 0,
             sensed: 0,
             at_start: 0,
@@ -71,6 +74,7 @@ impl Faults {
     }
 
     pub(super) fn set(&mut self, fault: Fault, broken: bool) {
+        self.changed = true;
         if broken {
             self.broken |= bit(fault);
         } else {
@@ -82,6 +86,7 @@ impl Faults {
 
     /// Does the memory hold something damaged?
     pub(super) fn set_damaged(&mut self, damaged: bool) {
+        self.changed = true;
         self.damaged = damaged;
     }
 
@@ -94,7 +99,9 @@ impl Faults {
             None => 0,
             Some(fault) => bit(reported(fault, reports)),
         };
-        core::mem::replace(&mut self.sensed, sensed) != sensed
+        let is_news = core::mem::replace(&mut self.sensed, sensed) != sensed;
+        self.changed |= is_news;
+        is_news
     }
 
     /// What the device can find broken now, by the host, the sensor or by itself.
@@ -109,6 +116,7 @@ impl Faults {
     /// The device starts: it knows how often what came, and whether its watchdog bit it, and
     /// checks what can be checked then.
     pub(super) fn reset(&mut self, cx: &mut Context<'_, '_>, reports: &[Report], off: Off) {
+        self.changed = true;
         self.watchdog = self.broken & bit(Fault::Watchdog) != 0;
         self.broken &= !bit(Fault::Watchdog);
         self.at_start = self.found();
@@ -148,6 +156,7 @@ impl Faults {
 
     /// 2116h takes a code that it [`knows`](Self::knows): the codes add up, and 0 ends them.
     pub(super) fn inject(&mut self, reports: &[Report], code: u32) {
+        self.changed = true;
         if code == 0 {
             self.injected = 0;
             return;
@@ -159,8 +168,11 @@ impl Faults {
         }
     }
 
-    /// Brings objects and errors up to date.
+    /// Brings objects and errors up to date where something changed.
     pub(super) fn report(&mut self, cx: &mut Context<'_, '_>, profile: &EncoderProfile) {
+        if !core::mem::take(&mut self.changed) {
+            return;
+        }
         let reports = profile.reports;
         for (row, report) in rows(reports) {
             let there = self.is_there(row, report, reports);

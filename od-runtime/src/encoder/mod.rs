@@ -9,11 +9,13 @@ mod application;
 mod configure;
 mod fault;
 mod faults;
+mod float;
 mod motion;
 mod movement;
 mod position;
 mod power;
 mod profile;
+mod sampled;
 mod shaft;
 mod timer;
 
@@ -32,6 +34,7 @@ pub use profile::{
     Counter, EncoderProfile, Gear, GearKind, Injection, Mirror, Movement, OperatingTime, Options,
     Quantity, RangeRule, Source, Total,
 };
+pub use sampled::{PositionSource, Sampled};
 pub use shaft::Shaft;
 
 /// Rotary and DIP switches in the cover.
@@ -73,8 +76,8 @@ pub struct Encoder<M = Shaft> {
     off: Option<Instant>,
     /// The last reset; `None` without power.
     started: Option<Instant>,
-    /// Periods of operation since, at whose end its time was saved.
-    kept: u64,
+    /// When the record of the device's life is saved next.
+    keep_at: Instant,
     /// Seconds of operation before `started`.
     seconds: u32,
     /// How often power came.
@@ -112,7 +115,7 @@ impl<M: Motion> Encoder<M> {
             angle: Angle::ZERO,
             off: None,
             started: None,
-            kept: 0,
+            keep_at: Instant::ZERO,
             seconds: 0,
             cycles: 0,
             measured_since: [Instant::ZERO; MOVEMENTS],

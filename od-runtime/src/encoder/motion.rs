@@ -4,6 +4,10 @@ use super::{Angle, Counter, Fault, Sensor};
 use od_wire::Instant;
 
 /// Angle, speed and acceleration of a shaft.
+///
+/// A device with a sensor implements [`PositionSource`](super::PositionSource) and uses
+/// [`Sampled`](super::Sampled); a device that measures speed by itself (a timer capture, say)
+/// implements this trait.
 pub trait Motion {
     /// Returns the angle at `now`, whole revolutions included.
     ///

@@ -32,7 +32,7 @@ impl<M: Motion> Encoder<M> {
         self.seconds = self.seconds_at(cx.now).max(stored);
         self.cycles = self.cycles.max(number(self.profile.cycles));
         self.started = Some(cx.now);
-        self.kept = 0;
+        self.keep_at = cx.now.plus_micros(SIX_MINUTES);
         let off = match (reset, self.off.take()) {
             (Reset::PowerOn, Some(at)) => Off::For(cx.now.micros_since(at)),
             (Reset::PowerOn, None) => Off::Always,
@@ -88,18 +88,16 @@ impl<M: Motion> Encoder<M> {
         store.set_unsigned(OPERATING_TIME, time.min(u32::MAX.into()));
     }
 
-    /// Every six minutes the record of the device's life is saved. Answers when it is due.
+    /// Saves the record of the device's life every six minutes. Answers when it is due.
     pub(super) fn keep_time(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         self.profile.seconds?;
-        self.show_time(cx.store, cx.now);
-        let micros = self.micros(cx.now);
-        let (periods, since) = (micros / SIX_MINUTES, micros % SIX_MINUTES);
         // A host ticks on other occasions, too.
-        if periods > self.kept {
-            self.kept = periods;
+        if self.keep_at <= cx.now {
+            self.keep_at = self.keep_at.next_period(SIX_MINUTES, cx.now);
+            self.show_time(cx.store, cx.now);
             cx.signals.keep();
         }
-        Some(cx.now.plus_micros(SIX_MINUTES - since))
+        Some(self.keep_at)
     }
 
     /// Switches rule the bit rate where they rule the node ID, unless their position has none.

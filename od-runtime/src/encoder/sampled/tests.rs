@@ -1,0 +1,240 @@
+//! A shaft that is only known by its samples.
+
+use super::*;
+
+const MS: u64 = 1_000;
+const STEPS: u32 = 0x2000;
+
+/// A shaft at some angle in each moment, and a sensor of 2¹³ steps on it.
+struct Turning<F>(F);
+
+impl<F: Fn(u64) -> f64> PositionSource for Turning<F> {
+    fn sample(&mut self, now: Instant) -> Result<Angle, Fault> {
+        let steps = (self.0)(now.as_micros()) * f64::from(STEPS);
+        // 19 bits of a revolution are below a step.
+        Ok(Angle::from_fractions((steps.floor() as i64) << 19))
+    }
+}
+
+type Shaft<F> = Sampled<Turning<F>, 64>;
+
+fn shaft<F: Fn(u64) -> f64>(turns: F, reach_ms: u32) -> Shaft<F> {
+    let mut shaft = Sampled::new(Turning(turns), Duration::from_millis(1));
+    shaft.look_back(reach_ms * 1000);
+    shaft
+}
+
+fn ask<P: PositionSource, const N: usize>(shaft: &mut Sampled<P, N>, micros: u64) {
+    shaft.angle(Instant::from_micros(micros)).unwrap();
+}
+
+/// The speed over 50 ms in steps per second.
+fn speed<P: PositionSource, const N: usize>(shaft: &Sampled<P, N>, micros: u64) -> Option<i64> {
+    shaft.speed(Instant::from_micros(micros), 50_000, Gain::steps(STEPS))
+}
+
+#[test]
+fn an_even_speed_is_known_after_one_interval() {
+    for steps_per_ms in [-100, -1, 0, 1, 3, 100] {
+        let turns = move |micros| micros as f64 / 1000.0 * f64::from(steps_per_ms);
+        let mut shaft = shaft(move |micros| turns(micros) / f64::from(STEPS), 50);
+        for ms in 0..300 {
+            ask(&mut shaft, ms * MS);
+            let expected = (ms >= 50).then_some(i64::from(steps_per_ms) * 1000);
+            assert_eq!(speed(&shaft, ms * MS), expected, "{steps_per_ms} {ms}");
+        }
+    }
+}
+
+/// Pseudo-random numbers from 0 to 1.
+fn noise(mut seed: u64) -> f64 {
+    for _ in 0..3 {
+        seed = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29) ^ 0x5DEE_CE66D;
+    }
+    (seed >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[test]
+fn a_jittering_shaft_is_within_a_step_per_interval() {
+    // 1.7 revolutions per second, and up to 3 steps beside that.
+    let turns = |micros: u64| {
+        let jitter = (noise(micros) - 0.5) * 6.0 / f64::from(STEPS);
+        1.7 * micros as f64 / 1e6 + jitter
+    };
+    let mut shaft = shaft(turns, 50);
+    for ms in 0..1000 {
+        ask(&mut shaft, ms * MS);
+        if ms < 50 {
+            continue;
+        }
+        let way = (turns(ms * MS) - turns((ms - 50) * MS)) * f64::from(STEPS);
+        let error = speed(&shaft, ms * MS).unwrap() as f64 - way * 20.0;
+        assert!(error.abs() <= 20.0, "{ms}: {error}");
+    }
+}
+
+#[test]
+fn a_host_that_is_late_does_not_change_the_speed() {
+    for turns_per_second in [0.013, 0.7, -33.3] {
+        let turns = move |micros: u64| turns_per_second * micros as f64 / 1e6;
+        let mut shaft = shaft(turns, 50);
+        let exact = turns_per_second * f64::from(STEPS);
+        for ms in 0..1000 {
+            let late = (noise(ms) * 900.0) as u64;
+            ask(&mut shaft, ms * MS + late);
+            if ms > 51 {
+                let error = speed(&shaft, ms * MS + late).unwrap() as f64 - exact;
+                assert!(error.abs() <= 20.0, "{ms}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_shaft_that_stops_has_no_speed_one_interval_later() {
+    let mut shaft = shaft(|micros| micros.min(200 * MS) as f64 / 1e6, 50);
+    for ms in 0..=250 {
+        ask(&mut shaft, ms * MS);
+        let is_turning = (50..250).contains(&ms);
+        assert_eq!(speed(&shaft, ms * MS).unwrap_or(0) > 0, is_turning, "{ms}");
+    }
+    // Sixteen samples for 50 ms are at most 4 ms apart.
+    let mut few: Sampled<_, 16> = Sampled::new(shaft.source, Duration::from_millis(1));
+    few.look_back(50_000);
+    for ms in 0..=254 {
+        ask(&mut few, ms * MS);
+        if (50..=200).contains(&ms) {
+            let error = speed(&few, ms * MS).unwrap() - i64::from(STEPS);
+            assert!(error.abs() <= 20, "{ms}: {error}");
+        }
+    }
+    assert_eq!(speed(&few, 254 * MS), Some(0));
+}
+
+#[test]
+fn an_acceleration_is_the_difference_of_two_speeds() {
+    // 100 revolutions per second squared up to 0.5 s, then even.
+    let turns = |micros: u64| {
+        let seconds = micros as f64 / 1e6;
+        let even = (seconds - 0.5).max(0.0);
+        50.0 * (seconds - even).powi(2) + 50.0 * even
+    };
+    let mut shaft = shaft(turns, 50);
+    let gain = Gain {
+        multiplier: 3,
+        divider: 7,
+        ..Gain::steps(STEPS)
+    };
+    for ms in 0..700 {
+        ask(&mut shaft, ms * MS);
+        let now = Instant::from_millis(ms);
+        let Some(found) = shaft.acceleration(now, 50_000, gain) else {
+            assert!(ms < 50);
+            continue;
+        };
+        // Two steps in 25 ms, twice.
+        let unsure = 2.0 / 0.025 / 0.025 * 3.0 / 7.0 + 1.0;
+        let exact = match ms {
+            ..=500 => 100.0 * f64::from(STEPS) * 3.0 / 7.0,
+            550.. => 0.0,
+            _ => continue,
+        };
+        assert!((found as f64 - exact).abs() <= unsure, "{ms}: {found}");
+    }
+}
+
+#[test]
+fn the_fastest_and_the_finest_fit() {
+    let now = Instant::from_millis(60_000);
+    let mut shaft: Sampled<_, 3> = Sampled::new(Angle::ZERO, Duration::from_millis(60_000));
+    shaft.look_back(60_000_000);
+    ask(&mut shaft, 0);
+    // 2³¹ − 1 revolutions in a minute.
+    shaft.source = Angle::from_fractions(i64::MAX);
+    assert_eq!(shaft.due(), Some(now));
+    ask(&mut shaft, now.as_micros());
+    let speed = |gain| shaft.speed(now, 60_000_000, gain).unwrap();
+    assert_eq!(speed(Gain::steps(60)) >> 2, i64::from(u32::MAX >> 3));
+    let most = Gain {
+        multiplier: u32::MAX,
+        ..Gain::steps(u32::MAX)
+    };
+    assert_eq!(speed(most), 1 << 62);
+    assert_eq!(speed(Gain::ratio(1 << 40, u64::MAX)), 2);
+    assert_eq!(speed(Gain::ratio(0, 0)), 0);
+}
+
+/// A sensor of as many bits of revolutions as its type says.
+struct Wraps<const BITS: u32>(i64);
+
+impl<const BITS: u32> PositionSource for Wraps<BITS> {
+    const TURN_BITS: u32 = BITS;
+
+    fn sample(&mut self, _: Instant) -> Result<Angle, Fault> {
+        Ok(Angle::from_fractions(self.0 & ((1 << (32 + BITS)) - 1)))
+    }
+}
+
+fn counts_on<const BITS: u32>() {
+    let mut shaft: Sampled<Wraps<BITS>, 64> = Sampled::new(Wraps(0), Duration::from_millis(1));
+    shaft.look_back(50_000);
+    let third = (1 << 32) / 3;
+    for (ms, way) in (0..500).chain((0..=500).rev()).enumerate() {
+        shaft.source.0 = way * third;
+        let angle = shaft.angle(Instant::from_millis(ms as u64)).unwrap();
+        assert_eq!(angle.fractions(), way * third, "{BITS}: {ms}");
+    }
+    let back = speed(&shaft, 1000 * MS).unwrap();
+    assert_eq!(back, -1000 * i64::from(STEPS) / 3, "{BITS}");
+}
+
+#[test]
+fn a_sensor_that_starts_again_at_0_is_counted_on() {
+    counts_on::<0>();
+    counts_on::<1>();
+    counts_on::<12>();
+}
+
+#[test]
+fn a_volatile_counter_starts_within_the_first_revolution() {
+    let sensor = Sensor { steps: 1, turns: 1 };
+    let mut shaft: Sampled<_> = Sampled::new(Angle::ZERO, Duration::from_millis(1));
+    let mut at = |ms, quarters: i64, start| {
+        if start {
+            shaft.start(Instant::from_millis(ms), Counter::Volatile, sensor);
+        }
+        shaft.source = Angle::from_fractions(quarters << 30);
+        shaft.angle(Instant::from_millis(ms)).unwrap().fractions() >> 30
+    };
+    assert_eq!((at(0, 21, true), at(1, 25, false)), (1, 5));
+    assert_eq!((at(2, -5, true), at(3, -9, false)), (3, -1));
+}
+
+#[test]
+fn a_sensor_that_fails_is_asked_again_and_has_no_speed() {
+    let state = core::cell::Cell::new(Ok(0));
+    let sensor = |_| state.get().map(Angle::from_fractions);
+    let mut shaft: Sampled<_> = Sampled::new(sensor, Duration::from_millis(1));
+    shaft.look_back(50_000);
+    assert_eq!(shaft.due(), Some(Instant::ZERO));
+    for ms in 0..100 {
+        state.set(Ok((ms << 32) / 8192));
+        ask(&mut shaft, ms as u64 * MS);
+    }
+    let now = Instant::from_millis;
+    state.set(Err(Fault::Internal));
+    for ms in 100..150 {
+        assert_eq!(shaft.angle(now(ms)), Err(Fault::Internal));
+        assert_eq!(shaft.due(), Some(now(ms + 1)));
+    }
+    assert_eq!(speed(&shaft, 149 * MS), Some(1000));
+    assert_eq!(speed(&shaft, 150 * MS), None);
+    state.set(Ok((160i64 << 32) / 8192));
+    ask(&mut shaft, 160 * MS);
+    assert_eq!(speed(&shaft, 160 * MS), Some(1000));
+    // Hours later the times of the track are others, and what lies between is not known.
+    let hours = 3 * 3600 * 1000 * MS;
+    ask(&mut shaft, hours);
+    ask(&mut shaft, hours + MS);
+    assert_eq!(speed(&shaft, hours + MS), None);
+}
