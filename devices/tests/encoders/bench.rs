@@ -2,7 +2,7 @@
 
 use od_devices::find;
 use od_runtime::DeviceKind;
-use od_runtime::encoder::{Angle, Encoder};
+use od_runtime::encoder::{Angle, Encoder, Motion, Shaft};
 use od_runtime::storage::{Memory, image};
 use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
 use od_wire::nmt::State;
@@ -15,11 +15,11 @@ pub(crate) const TOO_LITTLE: Result<(), u32> = Err(0x0609_0032);
 /// C-EN-11.
 pub(crate) const INCOMPATIBLE: Result<(), u32> = Err(0x0604_0043);
 
-pub(crate) struct Bench {
+pub(crate) struct Bench<M: Motion = Shaft> {
     kind: &'static DeviceKind,
     values: Vec<u8>,
     storage: Memory<Vec<u8>>,
-    pub(crate) encoder: Encoder,
+    pub(crate) encoder: Encoder<M>,
     node: Node,
     pub(crate) now: Instant,
     /// Frames that nobody asked for, in their order.
@@ -29,12 +29,42 @@ pub(crate) struct Bench {
 impl Bench {
     /// The device of this name, just switched on at time 0.
     pub(crate) fn new(name: &str) -> Self {
+        Self::on(Shaft::at_rest(Angle::ZERO), name)
+    }
+
+    pub(crate) fn rpm(&mut self, milli_rpm: i32) {
+        self.change(|encoder, now| encoder.shaft.set_milli_rpm(now, milli_rpm));
+    }
+
+    /// Turns the shaft by whole revolutions.
+    pub(crate) fn turn(&mut self, revolutions: i64) {
+        self.turn_fractions(revolutions << 32);
+    }
+
+    /// Turns the shaft by 2⁻³² revolutions.
+    pub(crate) fn turn_fractions(&mut self, fractions: i64) {
+        let by = Angle::from_fractions(fractions);
+        self.encoder.shaft.turn(self.now, by);
+    }
+
+    /// Off for so long; the shaft turns by so many revolutions meanwhile.
+    pub(crate) fn power_cycle(&mut self, off_ms: u64, revolutions: i64) {
+        self.power_off();
+        self.turn(revolutions);
+        self.now = self.now.plus_millis(off_ms);
+        self.power_on();
+    }
+}
+
+impl<M: Motion> Bench<M> {
+    /// The device of this name on a shaft, just switched on at time 0.
+    pub(crate) fn on(shaft: M, name: &str) -> Self {
         let kind = find(name).unwrap();
         let mut bench = Self {
             kind,
             values: vec![0; kind.dictionary.store_len()],
             storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: kind.new_encoder(),
+            encoder: Encoder::on(shaft, kind.encoder).with_sensor_of(kind.dictionary),
             node: Node::new(NodeId::ONE),
             now: Instant::ZERO,
             heard: Vec::new(),
@@ -74,14 +104,6 @@ impl Bench {
         self.node.power_off();
     }
 
-    /// Off for so long; the shaft turns by so many revolutions meanwhile.
-    pub(crate) fn power_cycle(&mut self, off_ms: u64, revolutions: i64) {
-        self.power_off();
-        self.turn(revolutions);
-        self.now = self.now.plus_millis(off_ms);
-        self.power_on();
-    }
-
     /// Time passes; everything that is due meanwhile is done when it is due.
     pub(crate) fn wait(&mut self, ms: u64) {
         let until = self.now.plus_millis(ms);
@@ -104,25 +126,10 @@ impl Bench {
     }
 
     /// Something in the world changed.
-    pub(crate) fn change(&mut self, act: impl FnOnce(&mut Encoder, Instant)) {
+    pub(crate) fn change(&mut self, act: impl FnOnce(&mut Encoder<M>, Instant)) {
         act(&mut self.encoder, self.now);
         self.with(|node, device, now| node.handle_change(device, now));
         self.listen();
-    }
-
-    pub(crate) fn rpm(&mut self, milli_rpm: i32) {
-        self.change(|encoder, now| encoder.shaft.set_milli_rpm(now, milli_rpm));
-    }
-
-    /// Turns the shaft by whole revolutions.
-    pub(crate) fn turn(&mut self, revolutions: i64) {
-        self.turn_fractions(revolutions << 32);
-    }
-
-    /// Turns the shaft by 2⁻³² revolutions.
-    pub(crate) fn turn_fractions(&mut self, fractions: i64) {
-        let by = Angle::from_fractions(fractions);
-        self.encoder.shaft.turn(self.now, by);
     }
 
     pub(crate) fn send(&mut self, id: u16, data: &[u8]) {

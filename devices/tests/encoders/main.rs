@@ -9,3 +9,4 @@ mod position;
 mod power;
 mod reference;
 mod reference_bus_cover;
+mod sampled;

@@ -10,6 +10,10 @@ use crate::store::Store;
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);
 
+/// The sensor does not tell the angle, and the family has no alarm for the reason: the row of
+/// [`EncoderProfile::NO_ANGLE`], and a bit beside those of faults.
+const NO_ANGLE: u32 = 1 << 31;
+
 /// Bytes 3–7 of an EMCY: 6503h, 6505h, nothing (manual 000, chapter 4.3.5).
 pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
     let [alarm_low, alarm_high] = (store.unsigned(ALARMS.index, 0) as u16).to_le_bytes();
@@ -24,7 +28,7 @@ pub(super) struct Faults {
     changed: bool,
     /// What the host broke.
     broken: u32,
-    /// What keeps the sensor from telling the angle, since it last told it.
+    /// Why the sensor does not tell the angle; see [`seen`].
     sensed: u32,
     /// What of it was there at the last start.
     at_start: u32,
@@ -91,14 +95,10 @@ impl Faults {
     }
 
     /// Takes what the sensor said when it was asked for the angle. Answers whether that is
-    /// news. A fault that the family does not report counts as its first alarm that comes and
-    /// goes while the device runs.
+    /// news.
     #[inline]
     pub(super) fn sensed(&mut self, fault: Option<Fault>, reports: &[Report]) -> bool {
-        let sensed = match fault {
-            None => 0,
-            Some(fault) => bit(reported(fault, reports)),
-        };
+        let sensed = fault.map_or(0, |fault| seen(fault, reports));
         let is_news = core::mem::replace(&mut self.sensed, sensed) != sensed;
         self.changed |= is_news;
         is_news
@@ -190,6 +190,9 @@ impl Faults {
 
     /// Is the fault of a row there, so that the row sees it?
     fn is_there(&self, row: u32, report: &Report, reports: &[Report]) -> bool {
+        if row == NO_ANGLE {
+            return self.sensed & NO_ANGLE != 0;
+        }
         let is_broken = match report.fault {
             // What the host set is for the next start.
             Fault::Watchdog => self.watchdog,
@@ -219,7 +222,7 @@ impl Faults {
             (ALARMS, (|report| report.alarm) as fn(&Report) -> u16),
             (WARNINGS, |report| report.warning),
         ] {
-            let of_table = reports.iter().fold(0, |all, report| all | bits(report));
+            let of_table = rows(reports).fold(0, |all, (_, report)| all | bits(report));
             let old = cx.store.unsigned(address.index, address.sub);
             let shown = self.shown_rows(reports);
             let new = shown.fold(0, |all, report| all | bits(report));
@@ -252,9 +255,10 @@ impl Faults {
     }
 }
 
-/// The rows of a table, each with its bit.
+/// The rows of a table, each with its bit, and the one of [`NO_ANGLE`].
 fn rows(reports: &[Report]) -> impl Iterator<Item = (u32, &Report)> {
-    (0..u32::BITS).map(|row| 1 << row).zip(reports)
+    let of_table = (0..31).map(|row| 1 << row).zip(reports);
+    of_table.chain([(NO_ANGLE, &EncoderProfile::NO_ANGLE)])
 }
 
 /// Can this device have the fault? 6504h and 6506h say so, where they are.
@@ -266,16 +270,16 @@ fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
     has(0x6504, report.alarm) && has(0x6506, report.warning)
 }
 
-/// The fault that a family reports in place of one that it does not know.
+/// The bit of a fault without which there is no angle; also [`NO_ANGLE`], unless the family has
+/// an alarm for it while the device runs.
 #[cold]
-fn reported(fault: Fault, reports: &[Report]) -> Fault {
-    let knows = |report: &Report| report.fault == fault && report.appears != Appears::Injected;
-    if reports.iter().any(knows) {
-        return fault;
-    }
-    let is_alarm = |report: &&Report| report.alarm != 0 && report.appears != Appears::Startup;
-    let alarm = reports.iter().find(is_alarm);
-    alarm.map_or(fault, |report| report.fault)
+fn seen(fault: Fault, reports: &[Report]) -> u32 {
+    let is_alarm = |report: &Report| {
+        let at_run_time = matches!(report.appears, Appears::Always | Appears::Runtime);
+        report.fault == fault && report.alarm != 0 && at_run_time
+    };
+    let unknown = !reports.iter().any(is_alarm);
+    bit(fault) | if unknown { NO_ANGLE } else { 0 }
 }
 
 const fn bit(fault: Fault) -> u32 {

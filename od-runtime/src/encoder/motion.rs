@@ -12,8 +12,8 @@ pub trait Motion {
     /// Returns the angle at `now`, whole revolutions included.
     ///
     /// # Errors
-    /// The fault that keeps the sensor from telling. The encoder reports it (6503h, EMCY) until
-    /// a call succeeds, and shows the last angle meanwhile.
+    /// The fault that keeps the sensor from telling. Until a call succeeds the encoder reports
+    /// an alarm (6503h, EMCY) and shows the last angle.
     fn angle(&mut self, now: Instant) -> Result<Angle, Fault>;
 
     /// Returns the mean speed over the `interval` in microseconds before `now`: revolutions per

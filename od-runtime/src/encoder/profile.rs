@@ -224,7 +224,7 @@ pub struct EncoderProfile {
     pub operating_time: OperatingTime,
     /// Object with the moment of the position, in microseconds modulo 65,536.
     pub time_stamp: Option<Address>,
-    /// How faults are reported; at most 32.
+    /// How faults are reported; at most 31.
     pub reports: &'static [Report],
     /// A report exists only where 6504h and 6506h have its bits (by them, variants differ);
     /// else all do.
@@ -236,6 +236,16 @@ pub struct EncoderProfile {
 }
 
 impl EncoderProfile {
+    /// Report of a position that is not to be trusted, as CiA 406 has it: bit 0 of 6503h. A
+    /// sensor that does not tell the angle is reported so where the family has no alarm for it.
+    pub const NO_ANGLE: Report = Report {
+        fault: Fault::Position,
+        code: 0x7320,
+        register: 0x01,
+        alarm: 0x0001,
+        ..Report::BASE
+    };
+
     /// Returns the profile of an encoder of an unknown family, by its dictionary; `None` if the
     /// device is not an encoder. An encoder has a position: 6004h is an UNSIGNED32 that no
     /// master can write, and 1000h, if it declares anything, declares CiA 406.
@@ -284,13 +294,7 @@ impl EncoderProfile {
         operating_time: OperatingTime::SinceStart,
         time_stamp: None,
         reports: &[
-            Report {
-                fault: Fault::Position,
-                code: 0x7320,
-                register: 0x01,
-                alarm: 0x0001,
-                ..Report::BASE
-            },
+            Self::NO_ANGLE,
             Report {
                 fault: Fault::Battery,
                 code: 0xFF00,

@@ -22,8 +22,8 @@ pub trait PositionSource {
     /// Returns the angle of the shaft at `now`, whole revolutions included.
     ///
     /// # Errors
-    /// The fault that keeps the sensor from telling. It becomes an alarm (6503h) or a warning
-    /// (6505h), as the family reports it, until a sample succeeds.
+    /// The fault that keeps the sensor from telling. It is reported as the family does, and in
+    /// any case as an alarm (6503h), until a sample succeeds.
     fn sample(&mut self, now: Instant) -> Result<Angle, Fault>;
 }
 
@@ -71,6 +71,8 @@ pub struct Sampled<P, const N: usize = 16> {
     every: u32,
     /// When the sensor was asked last.
     asked: Option<Instant>,
+    /// Why it did not tell then.
+    fault: Option<Fault>,
     /// Whole revolutions that a volatile counter forgot.
     forgotten: i64,
     /// The next sample is within the first revolution.
@@ -93,6 +95,7 @@ impl<P: PositionSource, const N: usize> Sampled<P, N> {
                 _ => u32::MAX,
             },
             asked: None,
+            fault: None,
             forgotten: 0,
             forgets: false,
             angle: None,
@@ -127,8 +130,12 @@ impl<P: PositionSource, const N: usize> Sampled<P, N> {
 
 impl<P: PositionSource, const N: usize> Motion for Sampled<P, N> {
     fn angle(&mut self, now: Instant) -> Result<Angle, Fault> {
-        if let (true, Some(angle)) = (self.asked == Some(now), self.angle) {
-            return Ok(Angle::from_fractions(angle));
+        if self.asked == Some(now) {
+            match (self.fault, self.angle) {
+                (Some(fault), _) => return Err(fault),
+                (None, Some(angle)) => return Ok(Angle::from_fractions(angle)),
+                (None, None) => {}
+            }
         }
         // The track knows times modulo 71 minutes.
         let pause = self.asked.map_or(0, |asked| now.micros_since(asked));
@@ -136,8 +143,9 @@ impl<P: PositionSource, const N: usize> Motion for Sampled<P, N> {
             self.track.clear();
         }
         self.asked = Some(now);
-        let sample = self.source.sample(now)?;
-        Ok(self.take(now, sample))
+        let sample = self.source.sample(now);
+        self.fault = sample.err();
+        Ok(self.take(now, sample?))
     }
 
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {

@@ -64,7 +64,9 @@ impl<const N: usize> Track<N> {
                 index if index < N && self.len > 0 => index as u8,
                 _ => 0,
             };
-            self.len = (self.len + 1).min(N as u8);
+            if usize::from(self.len) < N {
+                self.len += 1;
+            }
         }
         let index = usize::from(self.newest);
         if let (Some(time), Some(place)) = (self.at.get_mut(index), self.angle.get_mut(index)) {
