@@ -159,13 +159,13 @@ impl Bench {
         ]);
         if random.one_in(30) {
             let id = random.pick(&[0x181, 0x281, error_control, sdo, 0x7E5]);
-            return Frame::remote(CanId::standard(id), random.below(9) as u8);
+            return Frame::remote(CanId::standard(id), random.below(9) as u8).unwrap();
         }
         let mut bytes: [u8; 8] = std::array::from_fn(|_| random.next() as u8);
         if id == 0 {
             bytes[0] = random.pick(&[0x01, 0x01, 0x01, 0x80, 0x80, 0x02, 0x81, 0x82, 0x55]);
             bytes[1] = random.pick(&[0, node_id as u8, 126]);
-            return Frame::new(CanId::standard(0), &bytes[..2]);
+            return Frame::with_dlc(CanId::standard(0), bytes, 2);
         }
         if id == 0x7E5 {
             bytes[0] = random.pick(&[0x04, 0x11, 0x13, 0x15, 0x17, 0x4C, 0x51, 0x5A, 0x5E, 0x40]);
@@ -189,8 +189,8 @@ impl Bench {
                 bytes[5..].copy_from_slice(&random.pick(&[[0; 3], [1, 0, 0], [0, 0, 0x80]]));
             }
         }
-        let len = if random.one_in(8) { random.below(9) } else { 8 };
-        Frame::new(CanId::standard(id), &bytes[..len])
+        let dlc = if random.one_in(8) { random.below(9) } else { 8 };
+        Frame::with_dlc(CanId::standard(id), bytes, dlc as u8)
     }
 
     fn turn(&mut self, random: &mut Random) {

@@ -284,7 +284,11 @@ fn no_frame_panics_anything() {
                     .as_slice(),
             );
         }
-        let frame = Frame::standard(id, &data[..(bits >> 20) as usize % 9]);
+        let frame = Frame::with_dlc(
+            od_runtime::CanId::standard(id),
+            data,
+            (bits >> 20) as u8 % 9,
+        );
         let words = decoder.explain(bus.devices(), &frame);
         assert!(!words.text.is_empty());
         bus.receive(&frame);

@@ -32,8 +32,10 @@ mod tests {
             (emcy.code, emcy.register, emcy.info),
             (0x8130, 0x11, [1, 2, 3, 4, 5])
         );
-        assert_eq!(parse(&Frame::standard(0x85, &bytes[..7])), None);
-        assert_eq!(parse(&Frame::new(CanId::extended(0x85), &bytes)), None);
-        assert_eq!(parse(&Frame::remote(CanId::standard(0x85), 8)), None);
+        let [short @ .., _] = bytes;
+        assert_eq!(parse(&Frame::standard(0x85, &short)), None);
+        assert_eq!(parse(&Frame::full(CanId::extended(0x85), bytes)), None);
+        let remote = Frame::remote(CanId::standard(0x85), 8).unwrap();
+        assert_eq!(parse(&remote), None);
     }
 }

@@ -8,7 +8,7 @@ pub use od_wire::nmt::{Command, State};
 /// Returns the frame of a command; `None` addresses all nodes.
 pub fn frame(node: Option<NodeId>, command: Command) -> Frame {
     let node = node.map_or(0, NodeId::raw);
-    Frame::new(CanId::standard(0x000), &Repr { command, node }.emit())
+    Frame::of(CanId::standard(0x000), &Repr { command, node }.emit())
 }
 
 #[cfg(test)]

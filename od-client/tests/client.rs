@@ -6,7 +6,7 @@ use od_client::emcy::Emcy;
 use od_client::lss::{self, Answer, Task};
 use od_client::nmt::{Command, State};
 use od_client::sdo::{Options, SdoError};
-use od_client::{Client, Duration, Event, Frame, NodeId};
+use od_client::{CanId, Client, Duration, Event, Frame, NodeId};
 use od_model::Address;
 use support::bus::{Bus, Peer};
 use support::{OBJECT, at, frame, pattern};
@@ -192,7 +192,8 @@ fn nodes_come_are_lost_and_come_back() {
     client.watch(node(3), Duration::from_millis(100));
     assert_eq!((client.state(node(3)), client.poll_timeout()), (None, None));
     let beat = |client: &mut Client, millis, text| {
-        client.handle_frame(at(millis), &Frame::standard(0x703, &support::bytes(text)));
+        let frame = Frame::new(CanId::standard(0x703), &support::bytes(text)).unwrap();
+        client.handle_frame(at(millis), &frame);
         events(client)
     };
     assert_eq!(beat(&mut client, 0, "00"), [Event::BootUp(node(3))]);

@@ -4,7 +4,7 @@ mod support;
 
 use od_client::lss::Task;
 use od_client::sdo::Options;
-use od_client::{Client, Duration, Event, Frame, Instant, NodeId, lss};
+use od_client::{CanId, Client, Duration, Event, Frame, Instant, NodeId, lss};
 use od_model::Address;
 use support::{OBJECT, at, frame, pattern};
 
@@ -55,13 +55,13 @@ fn any(random: &mut Random, last: Option<Frame>) -> Frame {
     if random.below(2) == 0 {
         data[1..4].copy_from_slice(&[0x03, 0x20, 0x00]);
     }
-    let len = if random.below(16) == 0 {
-        random.below(9) as usize
+    let dlc = if random.below(16) == 0 {
+        random.below(9) as u8
     } else {
         8
     };
     let id = IDS[random.below(8) as usize];
-    Frame::standard(id, &data[..len])
+    Frame::with_dlc(CanId::standard(id), data, dlc)
 }
 
 /// Random frames until all jobs have an end; how many frames it took.

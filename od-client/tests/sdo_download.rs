@@ -145,7 +145,7 @@ fn frames_of_others_are_ignored() {
         frame("582#60032000"),
         frame("581#R"),
         Frame::standard(0x581, &[]),
-        Frame::new(od_client::CanId::extended(0x581), &[0x60, 3, 0x20, 0]),
+        Frame::of(od_client::CanId::extended(0x581), &[0x60, 3, 0x20, 0]),
     ] {
         download.handle_frame(at(0), &other);
         assert_eq!(download.outcome(), None, "{other}");

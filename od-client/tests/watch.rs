@@ -131,7 +131,7 @@ fn another_time_counts_from_the_next_heartbeat() {
 #[test]
 fn heartbeats_have_one_byte_and_a_known_state() {
     let told = |frame: &Frame| parse(frame).map(|(node, state)| (node.raw(), state));
-    let frame = |id, bytes: &[u8]| Frame::standard(id, bytes);
+    let frame = |id, bytes: &[u8]| Frame::new(CanId::standard(id), bytes).unwrap();
     for (frame, wanted) in [
         (frame(0x701, &[0x00]), Some((1, State::Initialising))),
         (frame(0x77F, &[0x7F]), Some((127, State::PreOperational))),
@@ -145,8 +145,8 @@ fn heartbeats_have_one_byte_and_a_known_state() {
         (frame(0x700, &[5]), None),
         (frame(0x780, &[5]), None),
         (frame(0x6FF, &[5]), None),
-        (Frame::new(CanId::extended(0x701), &[5]), None),
-        (Frame::remote(CanId::standard(0x701), 1), None),
+        (Frame::of(CanId::extended(0x701), &[5]), None),
+        (Frame::remote(CanId::standard(0x701), 1).unwrap(), None),
     ] {
         assert_eq!(told(&frame), wanted, "{frame}");
     }

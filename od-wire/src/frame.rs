@@ -79,6 +79,8 @@ impl fmt::Debug for CanId {
 }
 
 /// A classical CAN frame: a data frame of 0–8 bytes, or a remote frame with a DLC of 0–8.
+///
+/// The bytes behind the data are always 0, so equal frames are equal field by field.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Frame {
     id: CanId,
@@ -88,61 +90,85 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A data frame; bytes past the eighth are left out.
+    /// A data frame; `None` for more than eight bytes.
     #[inline]
-    pub fn new(id: CanId, bytes: &[u8]) -> Self {
-        let dlc = bytes.len().min(8);
-        let mut data = [0; 8];
-        data[..dlc].copy_from_slice(&bytes[..dlc]);
-        Self {
-            id,
-            dlc: dlc as u8,
-            remote: false,
-            data,
+    pub fn new(id: CanId, data: &[u8]) -> Option<Self> {
+        let mut bytes = [0; 8];
+        bytes.get_mut(..data.len())?.copy_from_slice(data);
+        // `get_mut` has seen that the length is 8 at most.
+        Some(Self::data_frame(id, bytes, data.len() as u8))
+    }
+
+    /// A data frame whose length the compiler knows: an array of more than eight bytes does
+    /// not compile.
+    ///
+    /// ```compile_fail
+    /// use od_wire::{CanId, Frame};
+    /// let frame = Frame::of(CanId::standard(0x181), &[0; 9]);
+    /// ```
+    #[inline]
+    pub const fn of<const N: usize>(id: CanId, data: &[u8; N]) -> Self {
+        const { assert!(N <= 8, "a CAN frame has at most eight bytes of data") };
+        let mut bytes = [0; 8];
+        let mut at = 0;
+        while at < N {
+            bytes[at] = data[at];
+            at += 1;
         }
+        Self::data_frame(id, bytes, N as u8)
     }
 
-    /// A data frame with an 11-bit identifier.
-    pub fn standard(id: u16, bytes: &[u8]) -> Self {
-        Self::new(CanId::standard(id), bytes)
+    /// [`Frame::of`] with the low 11 bits of `id` as its identifier.
+    #[inline]
+    pub const fn standard<const N: usize>(id: u16, data: &[u8; N]) -> Self {
+        Self::of(CanId::standard(id), data)
     }
 
-    /// A data frame of eight bytes, which is what every SDO answer is.
+    /// A data frame of eight bytes, as every SDO response is.
     #[inline]
     pub const fn full(id: CanId, data: [u8; 8]) -> Self {
-        Self {
-            id,
-            dlc: 8,
-            remote: false,
-            data,
-        }
+        Self::data_frame(id, data, 8)
     }
 
-    /// A data frame of the first `dlc` bytes of `data`, 8 at most; the rest have to be 0.
+    /// A data frame of the first `dlc` bytes of `data`. A DLC of 9–15 means eight bytes, as it
+    /// does on the bus (ISO 11898-1).
     #[inline]
     pub const fn with_dlc(id: CanId, data: [u8; 8], dlc: u8) -> Self {
+        let dlc = if dlc > 8 { 8 } else { dlc };
+        let kept = match dlc {
+            0 => 0,
+            dlc => u64::MAX >> (64 - 8 * dlc as u32),
+        };
+        let data = (u64::from_le_bytes(data) & kept).to_le_bytes();
+        Self::data_frame(id, data, dlc)
+    }
+
+    /// A remote frame that requests `dlc` bytes; `None` for more than eight.
+    pub const fn remote(id: CanId, dlc: u8) -> Option<Self> {
+        if dlc > 8 {
+            return None;
+        }
+        let mut frame = Self::data_frame(id, [0; 8], dlc);
+        frame.remote = true;
+        Some(frame)
+    }
+
+    /// `dlc` is 8 at most, and the bytes of `data` behind it are 0.
+    #[inline]
+    const fn data_frame(id: CanId, data: [u8; 8], dlc: u8) -> Self {
         Self {
             id,
-            dlc: if dlc > 8 { 8 } else { dlc },
+            dlc,
             remote: false,
             data,
         }
     }
 
-    /// A remote frame that asks for `dlc` bytes, 8 at most.
-    pub const fn remote(id: CanId, dlc: u8) -> Self {
-        Self {
-            id,
-            dlc: if dlc > 8 { 8 } else { dlc },
-            remote: true,
-            data: [0; 8],
-        }
-    }
-
-    /// Any frame of the `embedded-can` ecosystem.
-    pub fn from_can(frame: &impl embedded_can::Frame) -> Self {
+    /// A frame of any type of the `embedded-can` ecosystem; `None` if it has more than eight
+    /// bytes, so is not a classical CAN frame.
+    pub fn from_can(frame: &impl embedded_can::Frame) -> Option<Self> {
         if frame.is_remote_frame() {
-            Self::remote(frame.id().into(), frame.dlc().min(8) as u8)
+            Self::remote(frame.id().into(), u8::try_from(frame.dlc()).ok()?)
         } else {
             Self::new(frame.id().into(), frame.data())
         }
@@ -186,11 +212,11 @@ impl Frame {
 
 impl embedded_can::Frame for Frame {
     fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
-        (data.len() <= 8).then(|| Self::new(id.into().into(), data))
+        Self::new(id.into().into(), data)
     }
 
     fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
-        (dlc <= 8).then(|| Self::remote(id.into().into(), dlc as u8))
+        Self::remote(id.into().into(), u8::try_from(dlc).ok()?)
     }
 
     fn is_extended(&self) -> bool {
@@ -238,34 +264,53 @@ impl fmt::Debug for Frame {
 
 #[cfg(test)]
 mod tests {
-    extern crate std;
     use super::*;
     use std::string::ToString;
 
     #[test]
     fn prints_like_candump() {
+        let remote = |id, dlc| Frame::remote(id, dlc).unwrap().to_string();
         assert_eq!(
             Frame::standard(0x181, &[0x92, 0x95]).to_string(),
             "181#9295"
         );
-        assert_eq!(
-            Frame::remote(CanId::standard(0x701), 0).to_string(),
-            "701#R"
-        );
-        assert_eq!(
-            Frame::remote(CanId::extended(0x18F), 4).to_string(),
-            "0000018F#R4"
-        );
+        assert_eq!(remote(CanId::standard(0x701), 0), "701#R");
+        assert_eq!(remote(CanId::extended(0x18F), 4), "0000018F#R4");
     }
 
     #[test]
     fn survives_the_embedded_can_traits() {
         for frame in [
             Frame::standard(0x7FF, &[1, 2, 3]),
-            Frame::new(CanId::extended(0x1FFF_FFFF), &[9; 8]),
-            Frame::remote(CanId::standard(5), 8),
+            Frame::of(CanId::extended(0x1FFF_FFFF), &[9; 8]),
+            Frame::remote(CanId::standard(5), 8).unwrap(),
         ] {
-            assert_eq!(Frame::from_can(&frame), frame);
+            assert_eq!(Frame::from_can(&frame), Some(frame));
+        }
+    }
+
+    #[test]
+    fn refuses_what_embedded_can_refuses() {
+        let id = CanId::standard(1);
+        assert_eq!(Frame::new(id, &[7; 8]), Some(Frame::full(id, [7; 8])));
+        assert_eq!(Frame::new(id, &[7; 9]), None);
+        assert_eq!(Frame::remote(id, 9), None);
+        type Can = Frame;
+        assert_eq!(<Can as embedded_can::Frame>::new(id, &[0; 9]), None);
+        assert_eq!(<Can as embedded_can::Frame>::new_remote(id, 9), None);
+        assert_eq!(<Can as embedded_can::Frame>::new_remote(id, 256), None);
+        let longest = <Can as embedded_can::Frame>::new_remote(id, 8).unwrap();
+        assert_eq!((longest.dlc(), longest.data()), (8, &[][..]));
+    }
+
+    #[test]
+    fn bytes_behind_the_data_are_0() {
+        let id = CanId::standard(1);
+        for dlc in 0..=15u8 {
+            let len = usize::from(dlc.min(8));
+            let frame = Frame::with_dlc(id, [0xFF; 8], dlc);
+            assert_eq!(Some(frame), Frame::new(id, &[0xFF; 8][..len]));
+            assert_eq!(frame.bytes()[len..], [0; 8][len..]);
         }
     }
 }

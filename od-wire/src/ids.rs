@@ -27,10 +27,14 @@ impl NodeId {
         self.0
     }
 
-    /// `base + node ID` of the predefined connection set, for example `580h` for an SDO answer.
+    /// The CAN-ID of the predefined connection set (CiA 301, chapter 7.3.3): four bits of
+    /// function code, seven bits of node ID. `580h` is that of an SDO response.
+    ///
+    /// Only bits 7–10 of `function` count, 080h to 780h, so the CAN-ID never leaves the
+    /// 11 bits.
     #[inline]
-    pub const fn plus(self, base: u16) -> CanId {
-        CanId::standard(base + self.0 as u16)
+    pub const fn plus(self, function: u16) -> CanId {
+        CanId::standard(function & 0x780 | self.0 as u16)
     }
 }
 
@@ -124,5 +128,14 @@ mod tests {
         assert!(!CobId::new(0x0000_0800).is_consistent());
         assert!(CobId::new(0x601).is_restricted() && !CobId::new(0x181).is_restricted());
         assert!(NodeId::new(0).is_none() && NodeId::new(128).is_none());
+    }
+
+    #[test]
+    fn no_function_code_leaves_the_11_bits() {
+        let last = NodeId::new(127).unwrap();
+        assert_eq!(last.plus(0x580), CanId::standard(0x5FF));
+        assert_eq!(last.plus(0x780), CanId::standard(0x7FF));
+        assert_eq!(last.plus(u16::MAX), CanId::standard(0x7FF));
+        assert_eq!(NodeId::ONE.plus(0x5FF), CanId::standard(0x581));
     }
 }

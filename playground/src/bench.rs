@@ -96,7 +96,9 @@ impl Bus {
         remote: bool,
         micros: f64,
     ) {
-        let frame = packed::make(id, data, extended, remote);
+        let Some(frame) = packed::make(id, data, extended, remote) else {
+            return;
+        };
         self.clockwork
             .repeat(key, frame, micros.max(0.0) as u64, self.bus.now());
     }
@@ -117,7 +119,9 @@ impl Bus {
 
     /// Hands a frame to one device alone, beside the wire; what it answers goes on the bus.
     pub fn deliver(&mut self, device: usize, id: u32, data: &[u8]) {
-        let frame = packed::make(id, data, false, false);
+        let Some(frame) = packed::make(id, data, false, false) else {
+            return;
+        };
         self.bus
             .with(device, |device, now| device.handle_frame(now, &frame));
         self.collect();

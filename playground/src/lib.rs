@@ -125,7 +125,9 @@ impl Bus {
     /// Sends a frame from outside at the present moment. Of a remote frame only the
     /// number of bytes counts.
     pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
-        let frame = packed::make(id, data, extended, remote);
+        let Some(frame) = packed::make(id, data, extended, remote) else {
+            return;
+        };
         let now = self.bus.now();
         let came_through = self.bus.receive(&frame);
         self.collect_trouble();

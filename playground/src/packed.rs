@@ -51,10 +51,10 @@ pub(crate) fn push_trouble(
     at: Instant,
     device: Option<usize>,
     id: CanId,
-    what: &[u8],
+    what: &[u8; 6],
 ) {
     let start = batch.len();
-    push(batch, at, device, &Frame::new(id, what));
+    push(batch, at, device, &Frame::of(id, what));
     if let Some(flags) = batch.get_mut(start + 12) {
         *flags |= DISTURBED;
     }
@@ -65,23 +65,24 @@ pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;
     let raw = u32::from_le_bytes([packed[8], packed[9], packed[10], packed[11]]);
     let (flags, dlc) = (packed[12], packed[13].min(8));
-    Some(make(
+    make(
         raw,
         &packed[16..16 + usize::from(dlc)],
         flags & EXTENDED != 0,
         flags & REMOTE != 0,
-    ))
+    )
 }
 
-/// A frame from its parts; of a remote one only the number of bytes counts.
-pub(crate) fn make(id: u32, data: &[u8], extended: bool, remote: bool) -> Frame {
+/// A frame from its parts; of a remote one only the number of bytes counts. `None` for more
+/// than eight bytes.
+pub(crate) fn make(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame> {
     let id = if extended {
         CanId::extended(id)
     } else {
         CanId::standard(id as u16)
     };
     if remote {
-        Frame::remote(id, data.len().min(8) as u8)
+        Frame::remote(id, u8::try_from(data.len()).ok()?)
     } else {
         Frame::new(id, data)
     }
@@ -92,17 +93,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_frame_comes_back() {
+    fn a_frame_comes_back() -> Result<(), &'static str> {
         for sent in [
             make(0x601, &[0x40, 4, 0x60, 0], false, false),
             make(0x701, &[0; 3], false, true),
             make(0x1234_5678, &[1, 2, 3, 4, 5, 6, 7, 8], true, false),
         ] {
+            let sent = sent.ok_or("eight bytes at most")?;
             let mut batch = Vec::new();
             push(&mut batch, Instant::from_millis(7), Some(2), &sent);
             assert_eq!(batch.len(), LEN);
             assert_eq!(frame(&batch), Some(sent));
             assert_eq!(frame(&batch[1..]), None);
         }
+        Ok(())
     }
 }

@@ -75,7 +75,7 @@ impl Bench {
     }
 
     pub(crate) fn send(&mut self, id: u16, data: &[u8]) -> Vec<Frame> {
-        let frame = Frame::new(CanId::standard(id), data);
+        let frame = Frame::new(CanId::standard(id), data).unwrap();
         self.with(|node, device, now| node.handle_frame(device, now, &frame));
         self.sent()
     }

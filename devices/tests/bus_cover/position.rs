@@ -1,8 +1,8 @@
 //! The position of each device where its range ends (manual 000, objects 6000h to 6004h,
 //! 6501h, 6502h, 6509h), in frames.
 
+use od_runtime::Frame;
 use od_runtime::encoder::{Angle, Fault};
-use od_runtime::{CanId, Frame};
 
 use crate::bench::Bench;
 use crate::models::{MODELS, Model};
@@ -64,7 +64,7 @@ fn the_pdo_carries_all_bits() {
         bench.now = bench.now.plus_millis(0x203);
         bench.with(|node, device, now| node.handle_timeout(device, now));
         let data = (model.range - 1).to_le_bytes();
-        let pdo = Frame::new(CanId::standard(0x181), &data);
+        let pdo = Frame::standard(0x181, &data);
         assert_eq!(bench.sent(), [pdo], "{}", model.name);
     }
 }
@@ -201,7 +201,7 @@ fn sdo_and_lss_name_the_same_product() {
         bench.send(0x7E5, &[0x04, 1, 0, 0, 0, 0, 0, 0]);
         let answer = bench.send(0x7E5, &[0x5B, 0, 0, 0, 0, 0, 0, 0]);
         let [a, b, c, d] = model.product_code.to_le_bytes();
-        let expected = Frame::new(CanId::standard(0x7E4), &[0x5B, a, b, c, d, 0, 0, 0]);
+        let expected = Frame::standard(0x7E4, &[0x5B, a, b, c, d, 0, 0, 0]);
         assert_eq!(answer, [expected], "{}", model.name);
     }
 }
@@ -212,7 +212,7 @@ fn a_multiturn_alone_has_a_battery() {
     for (model, mut bench) in all() {
         bench.encoder.set_fault(Fault::Battery, true);
         bench.with(|node, device, now| node.handle_change(device, now));
-        let emcy = Frame::new(CanId::standard(0x81), &[0x00, 0xFF, 0x81, 0, 0, 0x10, 0, 0]);
+        let emcy = Frame::standard(0x81, &[0x00, 0xFF, 0x81, 0, 0, 0x10, 0, 0]);
         let (sent, warnings) = match model.is_multiturn() {
             true => (vec![emcy], 0x10),
             false => (vec![], 0),

@@ -2,8 +2,8 @@
 //! chapter 7.2.1).
 
 use od_devices::find;
+use od_runtime::Frame;
 use od_runtime::encoder::{Fault, Switches};
-use od_runtime::{CanId, Frame};
 
 use crate::bench::Bench;
 
@@ -68,7 +68,7 @@ fn statistics_survive_a_restore() {
             true => [0x20, 0x73, 0x81, 1, 0, 0, 0, 0],
             false => [0; 8],
         };
-        assert_eq!(emcy, [Frame::new(CanId::standard(0x81), &expected)]);
+        assert_eq!(emcy, [Frame::standard(0x81, &expected)]);
     }
     bench.write(0x1011, 1, LOAD).unwrap();
     assert_eq!(bench.read(0x2201, 1), 1);

@@ -57,7 +57,7 @@ fn every_answer_is_the_printed_one() {
         let data: Vec<u8> = (0..hex.len() / 2)
             .map(|at| u8::from_str_radix(&hex[2 * at..2 * at + 2], 16).unwrap())
             .collect();
-        let frame = Frame::new(id, &data);
+        let frame = Frame::new(id, &data).unwrap();
         if direction == ">" {
             assert_eq!(
                 node.poll_transmit(&mut device, now),

@@ -133,7 +133,7 @@ impl<M: Motion> Bench<M> {
     }
 
     pub(crate) fn send(&mut self, id: u16, data: &[u8]) {
-        let frame = Frame::new(CanId::standard(id), data);
+        let frame = Frame::new(CanId::standard(id), data).unwrap();
         self.with(|node, device, now| node.handle_frame(device, now, &frame));
         self.listen();
     }

@@ -95,9 +95,9 @@ fn pattern(devices: &[VirtualDevice], pattern: &Pattern) -> String {
         Some(bytes) if !pattern.is_open() => bytes.iter().copied().collect(),
         _ => None,
     };
-    match whole {
-        Some(bytes) => {
-            let said = words::explain(devices, &Frame::new(pattern.id(), &bytes));
+    match whole.and_then(|bytes| Frame::new(pattern.id(), &bytes)) {
+        Some(frame) => {
+            let said = words::explain(devices, &frame);
             format!("`{pattern}` ({said})")
         }
         None => format!("`{pattern}`"),

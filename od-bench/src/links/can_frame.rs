@@ -42,10 +42,10 @@ pub fn decode(bytes: &[u8]) -> Option<Frame> {
         0 => CanId::standard((id & 0x7FF) as u16),
         _ => CanId::extended(id),
     };
-    Some(match id & REMOTE {
+    match id & REMOTE {
         0 => Frame::new(name, &bytes[8..8 + usize::from(dlc)]),
         _ => Frame::remote(name, dlc),
-    })
+    }
 }
 
 #[cfg(test)]
@@ -57,9 +57,9 @@ mod tests {
         for frame in [
             Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
             Frame::standard(0x80, &[]),
-            Frame::new(CanId::extended(0x1FFF_FFFF), &[1]),
-            Frame::remote(CanId::standard(0x701), 0),
-            Frame::remote(CanId::extended(0x701), 8),
+            Frame::of(CanId::extended(0x1FFF_FFFF), &[1]),
+            Frame::remote(CanId::standard(0x701), 0).unwrap(),
+            Frame::remote(CanId::extended(0x701), 8).unwrap(),
         ] {
             let mut bytes = Vec::new();
             encode(&frame, &mut bytes);

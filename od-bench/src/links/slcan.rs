@@ -165,7 +165,7 @@ fn parse_frame(kind: u8, text: &[u8]) -> Option<Frame> {
     let (length, rest) = rest.split_first()?;
     let dlc = length.checked_sub(b'0').filter(|dlc| *dlc <= 8)?;
     if kind.eq_ignore_ascii_case(&b'r') {
-        return (rest.is_empty() || is_stamp(rest)).then(|| Frame::remote(id, dlc));
+        return Frame::remote(id, dlc).filter(|_| rest.is_empty() || is_stamp(rest));
     }
     let (data, rest) = rest.split_at_checked(2 * usize::from(dlc))?;
     if !rest.is_empty() && !is_stamp(rest) {
@@ -175,7 +175,7 @@ fn parse_frame(kind: u8, text: &[u8]) -> Option<Frame> {
     for (byte, digits) in bytes.iter_mut().zip(data.chunks(2)) {
         *byte = hex(digits)? as u8;
     }
-    Some(Frame::new(id, &bytes[..usize::from(dlc)]))
+    Some(Frame::with_dlc(id, bytes, dlc))
 }
 
 fn is_stamp(rest: &[u8]) -> bool {
@@ -305,9 +305,9 @@ mod tests {
         for frame in [
             Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
             Frame::standard(0x80, &[]),
-            Frame::new(CanId::extended(0x12345), &[1]),
-            Frame::remote(CanId::standard(0x701), 0),
-            Frame::remote(CanId::extended(0x701), 8),
+            Frame::of(CanId::extended(0x12345), &[1]),
+            Frame::remote(CanId::standard(0x701), 0).unwrap(),
+            Frame::remote(CanId::extended(0x701), 8).unwrap(),
         ] {
             let mut out = Vec::new();
             channel.encode(&frame, 0, &mut out);

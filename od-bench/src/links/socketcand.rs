@@ -240,20 +240,20 @@ fn data_frame(words: &[&str]) -> Option<Frame> {
     let [name, length, bytes @ ..] = words else {
         return None;
     };
-    let (id, dlc) = (id(name)?, usize::from(dlc(length)?));
+    let (id, dlc) = (id(name)?, dlc(length)?);
     let mut data = [0; 8];
-    if bytes.len() != dlc {
+    if bytes.len() != usize::from(dlc) {
         return None;
     }
     for (byte, word) in data.iter_mut().zip(bytes) {
         *byte = hex(word).and_then(|value| u8::try_from(value).ok())?;
     }
-    Some(Frame::new(id, &data[..dlc]))
+    Some(Frame::with_dlc(id, data, dlc))
 }
 
 fn remote_frame(words: &[&str]) -> Option<Frame> {
     match words {
-        [name, length] => Some(Frame::remote(id(name)?, dlc(length)?)),
+        [name, length] => Frame::remote(id(name)?, dlc(length)?),
         _ => None,
     }
 }

@@ -115,18 +115,22 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
         ));
     }
     if let Some(dlc) = data.strip_prefix(['R', 'r']) {
-        return match dlc.as_bytes() {
-            [] => Ok(Frame::remote(id, 0)),
-            [digit @ b'0'..=b'8'] => Ok(Frame::remote(id, digit - b'0')),
-            _ => Err(Error::new(
+        let length = match dlc.as_bytes() {
+            [] => Some(0),
+            [digit @ b'0'..=b'9'] => Some(digit - b'0'),
+            _ => None,
+        };
+        let frame = length.and_then(|length| Frame::remote(id, length));
+        return frame.ok_or_else(|| {
+            Error::new(
                 start + 1,
                 format!("`{dlc}` is no length"),
                 "a remote frame is R, or R and its length 0 to 8",
-            )),
-        };
+            )
+        });
     }
     let (bytes, len) = parse_data(data).map_err(|error| error.shifted(start - 1))?;
-    Ok(Frame::new(id, &bytes[..len]))
+    Ok(Frame::with_dlc(id, bytes, len as u8))
 }
 
 /// An identifier of 3 or 8 hex digits.
@@ -180,10 +184,8 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
     let length = length
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'));
-    let Some(dlc) = length
-        .and_then(|digits| digits.parse().ok())
-        .filter(|dlc| *dlc <= 8)
-    else {
+    let dlc = length.and_then(|digits| digits.parse().ok());
+    let Some(request) = dlc.and_then(|dlc| Frame::remote(id, dlc)) else {
         return Err(Error::new(
             column,
             "here stands the length",
@@ -195,17 +197,17 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
         if rest.peek() == Some("request") {
             rest.word(FRAME)?;
         }
-        return Ok(Frame::remote(id, dlc));
+        return Ok(request);
     }
     let mut data = [0; 8];
-    for byte in data.iter_mut().take(usize::from(dlc)) {
+    for byte in data.iter_mut().take(request.dlc().into()) {
         let (column, word) = rest.word("as many bytes as the length says")?;
         *byte = match (word.len(), u8::from_str_radix(word, 16)) {
             (2, Ok(byte)) => byte,
             _ => return Err(Error::new(column, format!("`{word}` is no byte"), DATA)),
         };
     }
-    Ok(Frame::new(id, &data[..usize::from(dlc)]))
+    Ok(Frame::with_dlc(id, data, request.dlc()))
 }
 
 fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {

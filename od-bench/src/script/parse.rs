@@ -398,10 +398,10 @@ pub(crate) fn command(words: &mut Words<'_>) -> Result<Command, Problem> {
 
 fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {
     let here = *words;
-    let mut data = vec![];
+    let mut frame = od_runtime::Frame::standard(0x80, &[]);
     let (mut times, mut every) = (1, 0);
     if words.take("counter") {
-        data.push(words.number(1, 240)? as u8);
+        frame = od_runtime::Frame::standard(0x80, &[words.number(1, 240)? as u8]);
     }
     if words.at_number() {
         times = words.number(1, 1_000_000)? as u32;
@@ -413,7 +413,6 @@ fn sync(words: &mut Words<'_>) -> Result<Action, Problem> {
         every = words.duration()?;
     }
     here.limited_turns(times, every)?;
-    let frame = od_runtime::Frame::standard(0x80, &data);
     Ok(Action::Send {
         frame,
         times,

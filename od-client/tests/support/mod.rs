@@ -17,9 +17,9 @@ pub fn frame(text: &str) -> Frame {
     let (id, data) = text.split_once('#').expect("id#data");
     let id = CanId::standard(u16::from_str_radix(id, 16).expect("hex"));
     if data.starts_with('R') {
-        return Frame::remote(id, 8);
+        return Frame::remote(id, 8).unwrap();
     }
-    Frame::new(id, &bytes(&format!("{data:0<16}")))
+    Frame::new(id, &bytes(&format!("{data:0<16}"))).unwrap()
 }
 
 pub fn bytes(hex: &str) -> Vec<u8> {

@@ -157,7 +157,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             return;
         };
         self.configure(&mut objects);
-        self.out.push(Frame::new(self.node_id.plus(0x700), &[0]));
+        self.out.push(Frame::of(self.node_id.plus(0x700), &[0]));
         self.state = State::PreOperational;
         self.events.push(Event::State(self.state));
         self.heartbeat

@@ -91,7 +91,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
         if self.heartbeat.handle_timeout(now) {
             self.out
-                .push(Frame::new(self.node_id.plus(0x700), &[self.state as u8]));
+                .push(Frame::of(self.node_id.plus(0x700), &[self.state as u8]));
         }
         if let Some(abort) = self.sdo.handle_timeout(now) {
             self.answer(abort);
@@ -215,7 +215,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         } else if node == self.node_id.raw()
             && let Some(answer) = self.monitor.guard(self.state, now)
         {
-            self.out.push(Frame::new(frame.id(), &[answer]));
+            self.out.push(Frame::of(frame.id(), &[answer]));
         }
     }
 

@@ -175,7 +175,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             boot_at: None,
             tick_at: None,
             sync_id: CanId::standard(0x80),
-            out: Fifo::new(Frame::remote(CanId::standard(0), 0)),
+            out: Fifo::new(Frame::standard(0, &[])),
             answer: None,
             events: Fifo::new(Event::StorageDamaged),
             sdo: sdo::Server::new(),

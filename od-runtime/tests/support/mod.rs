@@ -196,12 +196,12 @@ impl<A: Application> Bench<A> {
             _ => CanId::standard(raw as u16),
         };
         let frame = match data.strip_prefix('R') {
-            Some(dlc) => Frame::remote(id, dlc.parse().unwrap_or(0)),
+            Some(dlc) => Frame::remote(id, dlc.parse().unwrap_or(0)).expect("8 at most"),
             None => {
                 let bytes: Vec<u8> = (0..data.len() / 2)
                     .map(|i| u8::from_str_radix(&data[2 * i..2 * i + 2], 16).expect("hex"))
                     .collect();
-                Frame::new(id, &bytes)
+                Frame::new(id, &bytes).expect("eight bytes at most")
             }
         };
         self.node.handle_frame(&mut device!(self), self.now, &frame);

@@ -77,7 +77,11 @@ impl Odkit {
     /// Sends a frame and leaves what comes back.
     fn tell(&mut self, id: u16, data: &[u8]) {
         let Self { node, device, now } = self;
-        node.handle_frame(device, *now, &Frame::standard(id, data));
+        node.handle_frame(
+            device,
+            *now,
+            &Frame::new(CanId::standard(id), data).expect("8 bytes at most"),
+        );
         while node.poll_transmit(device, *now).is_some() {}
     }
 
@@ -104,7 +108,7 @@ impl Upload for Odkit {
     #[inline]
     fn upload(&mut self, request: &[u8; 8]) -> [u8; 8] {
         let id = CanId::standard(0x600 + u16::from(objects::NODE_ID));
-        self.exchange(&Frame::new(id, request), |answer| *answer.bytes())
+        self.exchange(&Frame::full(id, *request), |answer| *answer.bytes())
     }
 }
 

@@ -87,12 +87,8 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
         // Segments, and whatever else.
         20..=23 => {
             let data = [a, b, c, rest[0], rest[1], rest[2], rest[3], rest[4]];
-            let len = if rest[5] < 200 {
-                8
-            } else {
-                usize::from(rest[5]) % 9
-            };
-            Act::Frame(Frame::standard(0x600 + own, &data[..len]))
+            let dlc = if rest[5] < 200 { 8 } else { rest[5] % 9 };
+            Act::Frame(Frame::with_dlc(CanId::standard(0x600 + own), data, dlc))
         }
         24 => Act::Frame(Frame::standard(
             0x600 + own,
@@ -101,17 +97,20 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
         25 => {
             const IDS: [u16; 6] = [0x600, 0x580, 0x700, 0x180, 0x280, 0x000];
             let id = IDS[usize::from(a) % IDS.len()] + own;
-            Act::Frame(Frame::remote(CanId::standard(id), b % 9))
+            Act::Frame(Frame::remote(CanId::standard(id), b % 9).expect("8 at most"))
         }
         26 => {
             const COMMANDS: [u8; 8] = [0x01, 0x01, 0x80, 0x80, 0x02, 0x81, 0x82, 0x55];
             let to = [node, 0, node, node.wrapping_add(1)][usize::from(b) % 4];
             let command = COMMANDS[usize::from(a) % COMMANDS.len()];
-            let len = if c < 240 { 2 } else { usize::from(c) % 9 };
+            let dlc = if c < 240 { 2 } else { c % 9 };
             let data = [command, to, rest[0], 0, 0, 0, 0, 0];
-            Act::Frame(Frame::standard(0, &data[..len]))
+            Act::Frame(Frame::with_dlc(CanId::standard(0), data, dlc))
         }
-        27 => Act::Frame(Frame::standard(0x80, &[a][..usize::from(b % 8 == 0)])),
+        27 => Act::Frame(match b % 8 {
+            0 => Frame::standard(0x80, &[a]),
+            _ => Frame::standard(0x80, &[]),
+        }),
         28 => {
             const COMMANDS: [u8; 16] = [
                 0x04, 0x04, 0x11, 0x13, 0x15, 0x17, 0x5A, 0x5B, 0x5C, 0x5D, 0x5E, 0x4C, 0x51, 0x40,
@@ -137,7 +136,7 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
                 _ => CanId::extended(number),
             };
             let data = [b, c, rest[0], rest[1], rest[2], rest[3], rest[4], rest[5]];
-            Act::Frame(Frame::new(id, &data[..usize::from(b % 9)]))
+            Act::Frame(Frame::with_dlc(id, data, b % 9))
         }
         31..=34 => Act::Time(u64::from(number % 40_000)),
         35 => Act::Time(u64::from(number % 20_000_000)),

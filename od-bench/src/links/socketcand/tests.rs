@@ -58,7 +58,7 @@ fn shown(steps: Vec<Step>) -> String {
 }
 
 fn frame(data: &[u8]) -> Frame {
-    Frame::standard(0x123, data)
+    Frame::new(CanId::standard(0x123), data).unwrap()
 }
 
 fn open(mode: &str) -> Client {
@@ -90,11 +90,11 @@ fn python_can_opens_like_this() {
     );
     assert_eq!(client.hear(frame(&[])), "< frame 123 23.424242  >");
     assert_eq!(
-        client.hear(Frame::new(CanId::extended(0x123), &[1])),
+        client.hear(Frame::of(CanId::extended(0x123), &[1])),
         "< frame 00000123 23.424242 01 >"
     );
     assert_eq!(
-        client.hear(Frame::remote(CanId::standard(0x701), 4)),
+        client.hear(Frame::remote(CanId::standard(0x701), 4).unwrap()),
         "< rtr 701 23.424242 4 >"
     );
 }
