@@ -8,7 +8,7 @@ use od_model::Kind;
 use od_runtime::DeviceKind;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::{Memory, image};
-use od_runtime::{BusEvent, CanId, Device, Frame, Instant, Node, NodeId, Store};
+use od_runtime::{BusEvent, CanId, Frame, Instant, Lent, Node, NodeId, Store};
 use od_wire::nmt::State;
 
 /// xorshift64*: the same frames on every run.
@@ -61,8 +61,8 @@ impl Bench {
         bench
     }
 
-    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R) -> R {
-        let mut device = Device {
+    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R) -> R {
+        let mut device = Lent {
             dictionary: self.kind.dictionary,
             values: &mut self.values,
             application: &mut self.encoder,

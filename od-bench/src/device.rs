@@ -10,7 +10,7 @@ use od_model::{Address, Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
-    Application, BusEvent, Device, Event, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Application, BusEvent, Event, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
     Reset, Store,
 };
 use od_wire::nmt::State;
@@ -402,7 +402,7 @@ impl VirtualDevice {
         }
     }
 
-    fn parts(&mut self) -> (&mut RoomyNode, Device<'_>) {
+    fn parts(&mut self) -> (&mut RoomyNode, Lent<'_>) {
         let Self {
             source,
             values,
@@ -415,7 +415,7 @@ impl VirtualDevice {
         if let Behaviour::Encoder(encoder) = behaviour {
             storage.broken = encoder.is_broken(Fault::Memory);
         }
-        let device = Device {
+        let device = Lent {
             dictionary: source.dictionary(),
             values,
             application: behaviour.as_application(),

@@ -69,7 +69,7 @@ impl Signals {
     /// An error came: an EMCY is sent, 1001h and 1003h follow.
     ///
     /// An error that is there already, with the same bits of 1001h, is not reported again.
-    pub fn raise(&mut self, error: emcy::Error) {
+    pub fn raise(&mut self, error: emcy::Emcy) {
         self.errors.push(emcy::Change::Raised(error));
     }
 

@@ -15,7 +15,7 @@ const QUEUE: usize = 16;
 
 /// An error: what the EMCY frame says of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Error {
+pub struct Emcy {
     /// Emergency error code, for example 8130h.
     pub code: u16,
     /// The bits of 1001h that it sets while it lasts.
@@ -26,9 +26,9 @@ pub struct Error {
 
 /// An error came or went.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Change {
+pub(crate) enum Change {
     /// It came.
-    Raised(Error),
+    Raised(Emcy),
     /// The one with this code went; `info` goes into the frame that says so.
     Cleared {
         /// Emergency error code.
@@ -59,7 +59,7 @@ const NO_NEWS: Outcome = Outcome {
 /// The emergency producer.
 #[derive(Debug)]
 pub(crate) struct Producer {
-    active: Fifo<Error, ACTIVE>,
+    active: Fifo<Emcy, ACTIVE>,
     waiting: Fifo<od_wire::emcy::Repr, QUEUE>,
     blocked_until: Instant,
     /// Bits of 1001h that no EMCY stands for.
@@ -78,7 +78,7 @@ pub(crate) struct Outcome {
 impl Producer {
     pub(crate) const fn new() -> Self {
         Self {
-            active: Fifo::new(Error {
+            active: Fifo::new(Emcy {
                 code: 0,
                 register: 0,
                 info: [0; 5],
@@ -114,7 +114,7 @@ impl Producer {
             Change::Raised(error) => {
                 // Sources that share a code are told apart by what they mean for 1001h.
                 let same =
-                    |known: Error| known.code == error.code && known.register == error.register;
+                    |known: Emcy| known.code == error.code && known.register == error.register;
                 if self.active.iter().any(same) {
                     return NO_NEWS;
                 }
@@ -127,7 +127,7 @@ impl Producer {
                 register,
                 info,
             } => {
-                let is_it = |known: &Error| {
+                let is_it = |known: &Emcy| {
                     known.code == code && register.is_none_or(|bits| bits == known.register)
                 };
                 if !self.active.remove(is_it) {

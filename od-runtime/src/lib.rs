@@ -6,13 +6,13 @@
 //! # The loop
 //!
 //! A [`Node`] keeps the state of the services. What belongs to the device (dictionary,
-//! values, behaviour, storage) is lent to each call as a [`Device`]. After every input,
+//! values, behaviour, storage) is lent to each call as a [`Lent`]. After every input,
 //! [`poll_transmit`](Node::poll_transmit) until there is no frame left; then sleep until
 //! the next frame or [`poll_timeout`](Node::poll_timeout), whichever is first:
 //!
 //! ```
 //! use od_runtime::storage::Memory;
-//! use od_runtime::{Device, Frame, Instant, NoApplication, Node, NodeId, Profile};
+//! use od_runtime::{Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
 //!
 //! // In a device this is a constant that `od_macros::object_dictionary!` made of the EDS.
 //! let eds = "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0x196\n\
@@ -22,7 +22,7 @@
 //! let mut values = vec![0; tables.dictionary().store_len()];
 //! let mut application = NoApplication;
 //! let mut storage = Memory::new([0xFF; 256]);
-//! let mut device = Device {
+//! let mut device = Lent {
 //!     dictionary: tables.dictionary(),
 //!     values: &mut values,
 //!     application: &mut application,
@@ -76,6 +76,7 @@ pub mod encoder;
 mod error_control;
 mod fifo;
 mod kind;
+mod lent;
 mod limits;
 mod lss;
 mod node;
@@ -90,10 +91,10 @@ mod store;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{Application, Context, NoApplication, Reset, Signals};
-pub use emcy::{Change as ErrorChange, Error};
+pub use emcy::Emcy;
 pub use kind::DeviceKind;
+pub use lent::Lent;
 pub use node::{BusEvent, Event, Node};
-pub use objects::Device;
 pub use profile::{
     BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule, LssProfile,
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,

@@ -64,6 +64,11 @@ impl<'a> Store<'a> {
         self.node_id
     }
 
+    /// The node ID changed, so `$NODEID` defaults mean something else from now on.
+    pub(crate) fn set_node_id(&mut self, node_id: NodeId) {
+        self.node_id = node_id;
+    }
+
     /// Every value for which `which` is true becomes its default.
     pub fn reset(&mut self, mut which: impl FnMut(&Entry) -> bool) {
         for entry in self

@@ -2,13 +2,13 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::{Application, Context, Error, Instant};
+use od_runtime::{Application, Context, Emcy, Instant};
 use support::{Bench, Row, rows, unsigned};
 
 /// A device whose faults the test sets from outside.
 #[derive(Default)]
 struct Faults {
-    raise: Vec<Error>,
+    raise: Vec<Emcy>,
     clear: Vec<u16>,
 }
 
@@ -32,8 +32,8 @@ fn bench(more: &[Row]) -> Bench<Faults> {
     bench
 }
 
-fn error(code: u16, register: u8) -> Error {
-    Error {
+fn error(code: u16, register: u8) -> Emcy {
+    Emcy {
         code,
         register,
         info: [1, 2, 3, 4, 5],

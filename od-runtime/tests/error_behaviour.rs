@@ -2,13 +2,13 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::{Application, Context, Error, ErrorReset, Instant};
+use od_runtime::{Application, Context, Emcy, ErrorReset, Instant};
 use od_wire::nmt::State;
 use support::{Bench, rows, unsigned};
 
 #[derive(Default)]
 struct Faults {
-    raise: Vec<Error>,
+    raise: Vec<Emcy>,
     clear: Vec<u16>,
 }
 
@@ -44,7 +44,7 @@ fn bench(values: [u64; 3], operational_only: bool) -> Bench<Faults> {
 }
 
 fn raise(bench: &mut Bench<Faults>, code: u16, register: u8) -> Vec<String> {
-    bench.application.raise.push(Error {
+    bench.application.raise.push(Emcy {
         code,
         register,
         info: [0; 5],
@@ -143,7 +143,7 @@ fn an_error_reset_may_wait_for_the_last_error() {
 fn many_errors_at_once_are_all_told() {
     let mut bench = bench([1, 1, 1], true);
     for code in 0..20 {
-        bench.application.raise.push(Error {
+        bench.application.raise.push(Emcy {
             code: 0xFF00 + code,
             register: 1,
             info: [0; 5],

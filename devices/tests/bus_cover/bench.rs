@@ -4,7 +4,7 @@ use od_devices::find;
 use od_runtime::DeviceKind;
 use od_runtime::encoder::Encoder;
 use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
 
 /// A device on a bench of its own.
 pub(crate) struct Bench {
@@ -37,9 +37,9 @@ impl Bench {
 
     pub(crate) fn with<R>(
         &mut self,
-        call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R,
+        call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R,
     ) -> R {
-        let mut device = Device {
+        let mut device = Lent {
             dictionary: self.kind.dictionary,
             values: &mut self.values,
             application: &mut self.encoder,

@@ -4,7 +4,7 @@
 
 use od_devices::find;
 use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
 
 /// Frames of the bus in their order: identifier, data, and `<` where the encoder sends it.
 const TRACE: &str = "
@@ -43,7 +43,7 @@ fn every_answer_is_the_printed_one() {
     encoder.set_raw_position(Instant::ZERO, 0x7_9592);
     let mut node: Node = Node::new(NodeId::ONE);
     let mut now = Instant::ZERO;
-    let mut device = Device {
+    let mut device = Lent {
         dictionary: kind.dictionary,
         values: &mut values,
         application: &mut encoder,

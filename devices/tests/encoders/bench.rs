@@ -4,7 +4,7 @@ use od_devices::find;
 use od_runtime::DeviceKind;
 use od_runtime::encoder::{Angle, Encoder, Motion, Shaft};
 use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Device, Frame, Instant, Node, NodeId};
+use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
 use od_wire::nmt::State;
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
@@ -73,8 +73,8 @@ impl<M: Motion> Bench<M> {
         bench
     }
 
-    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Device<'_>, Instant) -> R) -> R {
-        let mut device = Device {
+    fn with<R>(&mut self, call: impl FnOnce(&mut Node, &mut Lent<'_>, Instant) -> R) -> R {
+        let mut device = Lent {
             dictionary: self.kind.dictionary,
             values: &mut self.values,
             application: &mut self.encoder,

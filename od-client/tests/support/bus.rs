@@ -4,7 +4,7 @@ use od_client::{Client, Event, Frame, Instant, NodeId};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, ObjectCode};
 use od_runtime::storage::Memory;
-use od_runtime::{Application, Device, LssProfile, Node, Profile, Store};
+use od_runtime::{Application, Lent, LssProfile, Node, Profile, Store};
 
 /// Most bytes of the object 2003h.
 pub const ROOM: usize = 8192;
@@ -44,7 +44,7 @@ const LSS: LssProfile = LssProfile {
 
 macro_rules! device {
     ($peer:expr) => {
-        &mut Device {
+        &mut Lent {
             dictionary: $peer.tables.dictionary(),
             values: &mut $peer.values,
             application: &mut $peer.application,

@@ -4,7 +4,7 @@ use od_model::Address;
 
 use super::{Appears, EncoderProfile, Fault, Report, Until};
 use crate::application::Context;
-use crate::emcy::Error;
+use crate::emcy::Emcy;
 use crate::store::Store;
 
 const ALARMS: Address = Address::new(0x6503, 0);
@@ -239,7 +239,7 @@ impl Faults {
                 *count = count.saturating_add(1);
                 cx.store.set_unsigned(counter, (*count).into());
             }
-            cx.signals.raise(Error {
+            cx.signals.raise(Emcy {
                 code: report.code,
                 register: report.register,
                 info,

@@ -1,60 +1,62 @@
 //! Power-on, the two NMT resets, and how the services get their configuration.
 
-use super::{BusEvent, Core, Event};
+use od_wire::nmt::State;
+use od_wire::{CobId, Instant};
+
+use super::{BusEvent, Event, Machines, Node};
 use crate::application::Reset;
-use crate::objects::{Device, Objects, Outbox};
+use crate::lent::Lent;
+use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
 use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
-use od_wire::nmt::State;
-use od_wire::{CobId, Frame, Instant};
 
-impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
-    /// See [`Node::power_on`](super::Node::power_on).
-    pub(super) fn power_on(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) -> Result<(), StoreTooSmall> {
+impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+    /// Power comes: values are taken from storage or their defaults, and the node boots up.
+    ///
+    /// # Errors
+    /// [`StoreTooSmall`] where `device.values` does not hold the dictionary's values; the
+    /// node stays without power.
+    pub fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall> {
         let needed = device.dictionary.store_len();
-        if device.values.len() < needed {
-            return Err(StoreTooSmall { needed });
-        }
-        self.now = now;
-        self.powered = true;
-        self.mute = None;
-        self.discard_frames();
-        self.reset(device, outbox, now, Reset::PowerOn);
+        let node = &mut self.machines;
+        let objects = device.objects(node.node_id, now, &mut self.outbox);
+        let mut objects = objects.ok_or(StoreTooSmall { needed })?;
+        node.now = now;
+        node.powered = true;
+        node.mute = None;
+        node.discard_frames();
+        node.reset(&mut objects, Reset::PowerOn);
         Ok(())
     }
 
     /// Power goes: silence until [`power_on`](Self::power_on).
-    pub(super) fn power_off(&mut self, outbox: &mut Outbox) {
-        self.powered = false;
-        self.drop_save(outbox);
-        self.discard_frames();
-        self.emcy.reset();
-        self.sdo.forget();
-        self.stop_pdos();
-        self.state = State::Initialising;
-        self.boot_at = None;
+    pub fn power_off(&mut self) {
+        self.outbox.saving = None;
+        let node = &mut self.machines;
+        node.powered = false;
+        node.save_at = None;
+        node.discard_frames();
+        node.emcy.reset();
+        node.sdo.forget();
+        node.stop_pdos();
+        node.state = State::Initialising;
+        node.boot_at = None;
     }
+}
 
-    pub(super) fn reset(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-        reset: Reset,
-    ) {
-        let light = reset == Reset::Node && self.is_light(device, outbox, now);
+impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+    pub(super) fn reset(&mut self, objects: &mut Objects<'_>, reset: Reset) {
+        let nmt = &objects.profile.nmt;
         let delay = match reset {
-            Reset::Node => device.profile.nmt.reset_node_us,
-            Reset::Communication => device.profile.nmt.reset_communication_us,
+            Reset::Node => nmt.reset_node_us,
+            Reset::Communication => nmt.reset_communication_us,
             Reset::PowerOn | Reset::Defaults => 0,
         };
+        // NMT reset node may begin the NMT state alone again.
+        let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
+        let light = light.is_some_and(|switch| objects.has_bits(switch));
         self.sdo.forget();
         self.stop_pdos();
         self.heartbeat.stop();
@@ -71,60 +73,46 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         self.state = State::Initialising;
         if light {
             // Nothing of the device is reset, and a save goes on.
-            self.forget_bus_errors(device, outbox, now);
+            self.forget_bus_errors(objects);
         } else {
-            self.drop_save(outbox);
+            // A save that was not complete will not be.
+            objects.outbox.saving = None;
+            self.save_at = None;
             if reset == Reset::Communication {
-                self.forget_bus_errors(device, outbox, now);
+                self.forget_bus_errors(objects);
             } else {
                 self.emcy.reset();
             }
-            self.load(device, outbox, now, reset);
+            self.load(objects, reset);
         }
         self.events.push(Event::Reset(reset, self.node_id));
-        self.boot_at = Some(now.plus_micros(delay.into()));
+        self.boot_at = Some(objects.now.plus_micros(delay.into()));
         if delay == 0 {
-            self.boot_up(device, outbox, now);
+            self.boot_up(objects);
         }
-    }
-
-    /// Does NMT reset node begin the NMT state alone anew?
-    fn is_light(&self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) -> bool {
-        let switch = device.profile.nmt.reset_node_light;
-        let objects = device.objects(self.node_id, now, outbox);
-        objects.is_some_and(|objects| switch.is_some_and(|switch| objects.has_bits(switch)))
-    }
-
-    /// A save that was not complete will not be.
-    fn drop_save(&mut self, outbox: &mut Outbox) {
-        outbox.saving = None;
-        self.save_at = None;
     }
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
     /// on the node ID, so a new one means a second pass.
-    fn load(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant, reset: Reset) {
+    fn load(&mut self, objects: &mut Objects<'_>, reset: Reset) {
         let all = reset != Reset::Communication;
-        for pass in 0..2 {
-            let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
-                return;
-            };
-            // Reset communication takes 1000h–1FFFh back, and what the device starts on the
-            // bus with, or all that can be saved or written; it leaves the errors that last.
-            let lss = objects.profile.lss;
-            let scope = objects.profile.nmt.reset_communication;
-            let which = |entry: &od_model::Entry| {
-                let starts_with =
-                    |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
-                all || match entry.address.index {
-                    0x1001 | 0x1003 => false,
-                    0x1000..=0x1FFF => true,
-                    _ if scope == CommunicationReset::Everything => {
-                        image::is_kept(entry) || entry.access.writable()
-                    }
-                    _ => lss.is_some_and(starts_with),
+        // Reset communication takes 1000h–1FFFh back, and what the device starts on the
+        // bus with, or all that can be saved or written; it leaves the errors that last.
+        let lss = objects.profile.lss;
+        let scope = objects.profile.nmt.reset_communication;
+        let which = |entry: &od_model::Entry| {
+            let starts_with =
+                |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
+            all || match entry.address.index {
+                0x1001 | 0x1003 => false,
+                0x1000..=0x1FFF => true,
+                _ if scope == CommunicationReset::Everything => {
+                    image::is_kept(entry) || entry.access.writable()
                 }
-            };
+                _ => lss.is_some_and(starts_with),
+            }
+        };
+        for pass in 0..2 {
             objects.store.reset(which);
             let profile = &objects.profile.store;
             let loaded = image::load(objects.storage, &mut objects.store, profile, &which);
@@ -140,37 +128,35 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             let sound = !matches!(loaded, Ok(Loaded::Damaged) | Err(_));
             objects.application.storage_is(sound);
             match objects.application.node_id(&objects.store) {
-                Some(node_id) if node_id != self.node_id && pass == 0 => self.node_id = node_id,
-                _ => {
-                    objects.application(|application, context| application.reset(context, reset));
-                    return;
+                Some(node_id) if node_id != self.node_id && pass == 0 => {
+                    self.node_id = node_id;
+                    objects.store.set_node_id(node_id);
                 }
+                _ => break,
             }
         }
+        objects.application(|application, context| application.reset(context, reset));
     }
 
     /// The end of initialisation: services take their configuration, the boot-up message
     /// goes out, Pre-operational begins.
-    pub(super) fn boot_up(&mut self, device: &mut Device<'_>, outbox: &mut Outbox, now: Instant) {
+    pub(super) fn boot_up(&mut self, objects: &mut Objects<'_>) {
         self.boot_at = None;
-        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
-            return;
-        };
-        self.configure(&mut objects);
-        self.out.push(Frame::of(self.node_id.plus(0x700), &[0]));
+        self.configure(objects);
+        self.push_error_control(0);
         self.state = State::PreOperational;
         self.events.push(Event::State(self.state));
         self.heartbeat
-            .configure(&objects.store, objects.profile, now);
+            .configure(&objects.store, objects.profile, objects.now);
         self.monitor.configure(&objects.store, objects.profile);
         self.tick_at = objects.application(|application, context| application.tick(context));
         let self_start = objects.profile.nmt.self_start;
         if self_start.is_some_and(|switch| objects.has_bits(switch)) {
-            self.enter(&mut objects, State::Operational);
-            self.react_to_lasting(&mut objects);
+            self.enter(objects, State::Operational);
+            self.react_to_lasting(objects);
         }
-        self.finish(&mut objects);
-        self.reset_if_due(device, outbox, now);
+        self.finish(objects);
+        self.reset_if_due(objects);
     }
 
     /// Every service reads its objects again.

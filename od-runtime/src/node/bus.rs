@@ -1,12 +1,14 @@
 //! What the CAN controller has to say, and times of silence.
 
-use super::input::PDO_LENGTH;
-use super::{Core, Event};
-use crate::application::Reset;
-use crate::objects::{Device, Objects, Outbox};
-use crate::profile::Notice;
 use od_wire::Instant;
 use od_wire::nmt::State;
+
+use super::input::PDO_LENGTH;
+use super::{Event, Machines, Node};
+use crate::application::Reset;
+use crate::lent::Lent;
+use crate::objects::Objects;
+use crate::profile::Notice;
 
 /// News of the CAN controller (CiA 301, table 26, codes 81xxh).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -55,50 +57,47 @@ impl Mute {
     };
 }
 
-impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
-    pub(super) const fn is_bus_off(&self) -> bool {
-        matches!(self.bus, BusEvent::Off)
-    }
-
-    pub(super) fn handle_bus(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-        event: BusEvent,
-    ) {
-        let now = self.advance(now);
-        // A controller that is being set up has no news.
-        if !self.powered || self.state == State::Initialising {
-            return;
-        }
-        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
+impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+    /// Reports a state change or frame loss of the CAN controller. A host that never calls
+    /// this runs the node as on an error-free bus.
+    pub fn handle_bus(&mut self, device: &mut Lent<'_>, now: Instant, event: BusEvent) {
+        let Some((node, mut objects)) = self.open(device, now) else {
             return;
         };
+        // A controller that is being set up has no news.
+        if node.state == State::Initialising {
+            return;
+        }
         let profile = objects.profile.errors;
         let restarts = profile
             .off
             .restart
             .is_none_or(|switch| objects.has_bits(switch));
-        if self.is_bus_off() {
+        if node.is_bus_off() {
             if event != BusEvent::Active || !restarts {
                 return;
             }
             if profile.off.boots {
-                self.reset(device, outbox, now, Reset::Communication);
+                node.reset(&mut objects, Reset::Communication);
             } else {
-                self.come_back(&mut objects);
-                self.finish(&mut objects);
+                node.come_back(&mut objects);
+                node.finish(&mut objects);
             }
             return;
         }
         if event == BusEvent::Off {
-            self.fall_off(&mut objects, restarts);
+            node.fall_off(&mut objects, restarts);
         } else {
-            self.take_state(&mut objects, event);
+            node.take_state(&mut objects, event);
         }
-        self.finish(&mut objects);
-        self.reset_if_due(device, outbox, now);
+        node.finish(&mut objects);
+        node.reset_if_due(&mut objects);
+    }
+}
+
+impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+    pub(super) const fn is_bus_off(&self) -> bool {
+        matches!(self.bus, BusEvent::Off)
     }
 
     /// Warning, passive, overrun, and the way back.
@@ -182,15 +181,7 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
 
     /// A reset ends the errors of communication without a word: whoever was lost is watched
     /// anew, and the CAN controller begins anew.
-    pub(super) fn forget_bus_errors(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) {
-        let Some(mut objects) = device.objects(self.node_id, now, outbox) else {
-            return;
-        };
+    pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_>) {
         let profile = objects.profile.errors;
         let optional = [
             profile.bus_warning,

@@ -1,9 +1,9 @@
 //! What the node does when an error comes: the other side is lost, or a bit of 1001h becomes
 //! set (CiA 301, object 1029h).
 
-use super::{Core, Event};
+use super::{Event, Machines};
 use crate::emcy;
-use crate::emcy::{Change as ErrorChange, Error};
+use crate::emcy::{Change, Emcy};
 use crate::objects::Objects;
 use crate::profile::Notice;
 use od_wire::nmt::State;
@@ -20,8 +20,8 @@ enum Behaviour {
 
 impl Notice {
     /// The error that the node tells of.
-    pub(super) const fn error(self, info: [u8; 5]) -> Error {
-        Error {
+    pub(super) const fn error(self, info: [u8; 5]) -> Emcy {
+        Emcy {
             code: self.code,
             register: self.register,
             info,
@@ -29,7 +29,7 @@ impl Notice {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
+impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     /// Takes over what the monitor has to say.
     #[inline]
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_>) {
@@ -103,8 +103,8 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
             set |= outcome.set;
             if outcome.is_news {
                 self.events.push(match change {
-                    ErrorChange::Raised(error) => Event::Error(error),
-                    ErrorChange::Cleared { code, .. } => Event::ErrorCleared(code),
+                    Change::Raised(error) => Event::Error(error),
+                    Change::Cleared { code, .. } => Event::ErrorCleared(code),
                 });
             }
         }

@@ -3,7 +3,7 @@
 use od_model::Address;
 
 use crate::application::Reset;
-use crate::emcy::Error;
+use crate::emcy::Emcy;
 use od_wire::NodeId;
 use od_wire::nmt::State;
 
@@ -33,7 +33,7 @@ pub enum Event {
     /// The node is back from bus-off.
     BusOn,
     /// An error came.
-    Error(Error),
+    Error(Emcy),
     /// The error with this code went.
     ErrorCleared(u16),
 }

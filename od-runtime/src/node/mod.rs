@@ -10,35 +10,38 @@
 
 mod boot;
 mod bus;
+mod effects;
 mod errors;
 mod event;
 mod input;
+mod output;
 
-use crate::fifo::Fifo;
-use crate::objects::{Device, Objects, Outbox};
-use crate::store::StoreTooSmall;
-use crate::{emcy, error_control, lss, pdo, sdo};
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
+
+use crate::fifo::Fifo;
+use crate::lent::Lent;
+use crate::objects::{Objects, Outbox};
+use crate::{emcy, error_control, lss, pdo, sdo};
 
 pub use bus::BusEvent;
 pub use event::Event;
 
 /// A CANopen slave.
 ///
-/// `PDO`: how many TPDOs and RPDOs it can have. `SDO`: bytes of the transfer buffer, the
-/// longest value that a segmented or block transfer can carry. It has no lifetime: what
-/// belongs to the device is passed to each call.
+/// `PDO` is the number of TPDOs and of RPDOs that it can have, `SDO` the bytes of the transfer
+/// buffer: the longest value that a segmented or block transfer can carry. The node has no
+/// lifetime: each call borrows the device as a [`Lent`].
 #[derive(Debug)]
 pub struct Node<const PDO: usize = 4, const SDO: usize = 128> {
-    core: Core<PDO, SDO>,
-    /// Filled while a call has the device, emptied before it returns.
+    /// [`Objects`] holds it while a call has the device, so it is not one of the machines.
     outbox: Outbox,
+    machines: Machines<PDO, SDO>,
 }
 
-/// The node without its outbox, so that the device of a call can hold that.
+/// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Debug)]
-struct Core<const PDO: usize, const SDO: usize> {
+struct Machines<const PDO: usize, const SDO: usize> {
     node_id: NodeId,
     state: State,
     powered: bool,
@@ -48,7 +51,7 @@ struct Core<const PDO: usize, const SDO: usize> {
     tick_at: Option<Instant>,
     sync_id: CanId,
     out: Fifo<Frame, 8>,
-    /// The frame before those of `out`, if it is an SDO answer: its data as one word. Most
+    /// The frame before those of `out`, if it is an SDO response: its data as one word. Most
     /// frames are, and this way they do not go through memory in pieces.
     answer: Option<u64>,
     events: Fifo<Event, 16>,
@@ -58,11 +61,11 @@ struct Core<const PDO: usize, const SDO: usize> {
     lss: lss::Slave,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<bus::Mute>,
-    /// What the CAN controller said last; overruns aside.
+    /// What the CAN controller reported last; overruns aside.
     bus: BusEvent,
-    /// The error behaviour wants a reset when the call is over.
+    /// The error behaviour requests a reset when the call is over.
     reset_due: bool,
-    /// Somebody was lost in this call, and 1029h:01 has not acted on it yet.
+    /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
     lost: bool,
     /// A save is complete then.
     save_at: Option<Instant>,
@@ -78,94 +81,57 @@ struct Core<const PDO: usize, const SDO: usize> {
 }
 
 impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
-    /// A node without power, with the ID that it starts with unless the application or
-    /// storage knows another.
+    /// A node without power. It starts with this node ID, unless the application or the saved
+    /// values set another.
     pub const fn new(node_id: NodeId) -> Self {
         Self {
-            core: Core::new(node_id),
             outbox: Outbox::new(),
+            machines: Machines::new(node_id),
         }
     }
 
     /// The NMT state.
     pub const fn state(&self) -> State {
-        self.core.state
+        self.machines.state
     }
 
-    /// Is there power?
+    /// Whether the node has power.
     pub const fn is_powered(&self) -> bool {
-        self.core.powered
+        self.machines.powered
     }
 
     /// The active node ID.
     pub const fn node_id(&self) -> NodeId {
-        self.core.node_id
+        self.machines.node_id
     }
 
-    /// Power comes: values are taken from storage or their defaults, and the node boots up.
-    ///
-    /// # Errors
-    /// [`StoreTooSmall`] where `device.values` does not hold the dictionary's values; the
-    /// node stays without power.
-    pub fn power_on(&mut self, device: &mut Device<'_>, now: Instant) -> Result<(), StoreTooSmall> {
-        self.core.power_on(device, &mut self.outbox, now)
-    }
-
-    /// Power goes: silence until [`power_on`](Self::power_on).
-    pub fn power_off(&mut self) {
-        self.core.power_off(&mut self.outbox);
-    }
-
-    /// A frame was received.
-    #[inline]
-    pub fn handle_frame(&mut self, device: &mut Device<'_>, now: Instant, frame: &Frame) {
-        self.core.handle_frame(device, &mut self.outbox, now, frame);
-    }
-
-    /// Time has passed.
-    #[inline]
-    pub fn handle_timeout(&mut self, device: &mut Device<'_>, now: Instant) {
-        self.core.handle_timeout(device, &mut self.outbox, now);
-    }
-
-    /// The world outside the bus changed (shaft, faults, switches): the application ticks.
-    pub fn handle_change(&mut self, device: &mut Device<'_>, now: Instant) {
-        self.core.handle_change(device, &mut self.outbox, now);
-    }
-
-    /// The CAN controller changed its state, or lost frames. What is not told is not known:
-    /// a host that never calls this has a bus without errors.
-    pub fn handle_bus(&mut self, device: &mut Device<'_>, now: Instant, event: BusEvent) {
-        self.core.handle_bus(device, &mut self.outbox, now, event);
-    }
-
-    /// Is the CAN controller bus-off, as far as the node was told? It neither sends nor
-    /// receives then.
+    /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
+    /// reported it. Meanwhile the node neither sends nor receives.
     pub const fn is_bus_off(&self) -> bool {
-        self.core.is_bus_off()
+        self.machines.is_bus_off()
     }
 
-    /// The next frame to send; `None` when all are out. `now` is the moment of the input
-    /// before it.
+    /// The top of every call: the device taken apart, and the machines that work on it; `None`
+    /// without power.
+    ///
+    /// Time does not run backwards here, whatever the host's clock says.
     #[inline]
-    pub fn poll_transmit(&mut self, device: &mut Device<'_>, now: Instant) -> Option<Frame> {
-        self.core.poll_transmit(device, &mut self.outbox, now)
-    }
-
-    /// When [`handle_timeout`](Self::handle_timeout) wants to be called, if at all.
-    #[inline]
-    pub fn poll_timeout(&self) -> Option<Instant> {
-        self.core.poll_timeout()
-    }
-
-    /// What happened since the last call, oldest first. Events that nobody takes are
-    /// dropped when sixteen wait.
-    pub fn poll_event(&mut self) -> Option<Event> {
-        self.core.events.pop()
+    fn open<'c>(
+        &'c mut self,
+        device: &'c mut Lent<'_>,
+        now: Instant,
+    ) -> Option<(&'c mut Machines<PDO, SDO>, Objects<'c>)> {
+        let machines = &mut self.machines;
+        if !machines.powered {
+            return None;
+        }
+        machines.now = machines.now.max(now);
+        let objects = device.objects(machines.node_id, machines.now, &mut self.outbox)?;
+        Some((machines, objects))
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
+impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     const fn new(node_id: NodeId) -> Self {
         Self {
             node_id,
@@ -197,129 +163,16 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
         }
     }
 
+    /// The TPDOs that the dictionary has.
     #[inline]
-    fn poll_transmit(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) -> Option<Frame> {
-        if self.mute.is_some() {
-            self.discard_frames();
-            return None;
-        }
-        if let Some(answer) = self.answer.take() {
-            return Some(Frame::full(self.node_id.plus(0x580), answer.to_le_bytes()));
-        }
-        if let Some(frame) = self.out.pop() {
-            return Some(frame);
-        }
-        if self.pdo_pending || self.emcy.deadline().is_some() || self.sdo.is_sending() {
-            return self.poll_services(device, outbox, now);
-        }
-        None
+    fn tpdos(&mut self) -> &mut [pdo::Tpdo] {
+        self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default()
     }
 
-    /// Sends an SDO answer, after all that waits already.
+    /// The RPDOs that the dictionary has.
     #[inline]
-    fn answer(&mut self, answer: [u8; 8]) {
-        if self.answer.is_none() && self.out.is_empty() {
-            self.answer = Some(u64::from_le_bytes(answer));
-        } else {
-            self.out.push(Frame::full(self.node_id.plus(0x580), answer));
-        }
-    }
-
-    /// What was to be sent is not.
-    fn discard_frames(&mut self) {
-        self.out.clear();
-        self.answer = None;
-    }
-
-    /// What services have to send that waits for nobody's request.
-    #[inline(never)]
-    fn poll_services(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) -> Option<Frame> {
-        if self.pdo_pending {
-            let frame = self.poll_pdo(device, outbox, now);
-            if frame.is_some() {
-                return frame;
-            }
-        }
-        if self.emcy.deadline().is_some() {
-            let frame = self.poll_emcy(device, outbox, now);
-            if frame.is_some() {
-                return frame;
-            }
-        }
-        let segment = self.sdo.poll()?;
-        Some(Frame::full(self.node_id.plus(0x580), segment))
-    }
-
-    fn poll_pdo(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) -> Option<Frame> {
-        let mut objects = device.objects(self.node_id, now.max(self.now), outbox)?;
-        let pdos = self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default();
-        let frame = pdos.iter_mut().find_map(|pdo| pdo.poll(&mut objects));
-        self.pdo_pending = pdos.iter().any(|pdo| pdo.is_ready(objects.now));
-        frame
-    }
-
-    #[cold]
-    fn poll_emcy(
-        &mut self,
-        device: &mut Device<'_>,
-        outbox: &mut Outbox,
-        now: Instant,
-    ) -> Option<Frame> {
-        if !self.sends_emcy() {
-            return None;
-        }
-        let objects = device.objects(self.node_id, now.max(self.now), outbox)?;
-        self.emcy.poll(&objects.store, objects.now)
-    }
-
-    /// EMCYs wait for the boot-up message, and for the end of Stopped.
-    fn sends_emcy(&self) -> bool {
-        matches!(self.state, State::PreOperational | State::Operational) && self.mute.is_none()
-    }
-
-    fn poll_timeout(&self) -> Option<Instant> {
-        if !self.powered {
-            return None;
-        }
-        let mut next = None;
-        let mut consider = |at: Option<Instant>| {
-            next = match (next, at) {
-                (Some(next), Some(at)) => Some(at.min(next)),
-                (next, at) => next.or(at),
-            }
-        };
-        consider(self.boot_at);
-        consider(self.tick_at);
-        consider(self.heartbeat.deadline());
-        consider(self.monitor.deadline());
-        consider(self.mute.map(|mute| mute.until));
-        consider(self.sdo.deadline());
-        consider(self.save_at);
-        if self.sends_emcy() {
-            consider(self.emcy.deadline());
-        }
-        if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
-                consider(pdo.deadline());
-            }
-        }
-        // A host that came to the end of time would be called back there for ever.
-        next.filter(|at| *at < Instant::MAX)
+    fn rpdos(&mut self) -> &mut [pdo::Rpdo] {
+        self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default()
     }
 
     fn enter(&mut self, objects: &mut Objects<'_>, state: State) {
@@ -341,20 +194,30 @@ impl<const PDO: usize, const SDO: usize> Core<PDO, SDO> {
     }
 
     fn start_pdos(&mut self, objects: &mut Objects<'_>) {
-        for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
+        self.each_tpdo(|pdo| {
             pdo.start(objects);
             pdo.announce(objects);
-            self.pdo_pending |= pdo.is_pending();
-        }
+        });
     }
 
     fn stop_pdos(&mut self) {
-        for pdo in self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default() {
+        for pdo in self.tpdos() {
             pdo.stop();
         }
-        for pdo in self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default() {
+        for pdo in self.rpdos() {
             pdo.stop();
         }
         self.pdo_pending = false;
+    }
+
+    /// Does something with each TPDO, after which it may be waiting to be sent.
+    #[inline]
+    fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo)) {
+        let mut pending = self.pdo_pending;
+        for pdo in self.tpdos() {
+            act(pdo);
+            pending |= pdo.is_pending();
+        }
+        self.pdo_pending = pending;
     }
 }

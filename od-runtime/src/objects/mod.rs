@@ -1,49 +1,21 @@
 //! The one way to read and write an object: SDO server and RPDOs come through here.
 
 mod communication;
+mod outbox;
 
-use od_model::{Address, Dictionary, Entry, Missing};
+use od_model::{Address, Entry, Missing};
 
-use crate::application::{Application, Context, Reset, Signals};
-use crate::fifo::Fifo;
+use crate::application::{Application, Context, Reset};
 use crate::limits::{self, Outside};
 use crate::profile::{Profile, SaveAnswer};
 use crate::storage::{Storage, image};
 use crate::store::Store;
-use od_wire::{AbortCode, Instant, NodeId};
+use od_wire::{AbortCode, Instant};
+
+use outbox::Saving;
 
 pub(crate) use communication::check_mapped;
-
-/// What the node needs of its device for the length of one call.
-///
-/// The caller owns all of it; the node keeps nothing between calls but its own state.
-pub struct Device<'d> {
-    /// The object dictionary.
-    pub dictionary: Dictionary<'d>,
-    /// Room for the values, [`Dictionary::store_len`] bytes or more; kept between calls.
-    pub values: &'d mut [u8],
-    /// The device's own behaviour.
-    pub application: &'d mut dyn Application,
-    /// What survives power-off.
-    pub storage: &'d mut dyn Storage,
-    /// What the family does differently.
-    pub profile: &'d Profile,
-}
-
-/// What writing an object means for the services.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) enum Effect {
-    /// The object at this address has a new value.
-    Written(Address),
-    /// 1010h: these groups were saved (sub-index).
-    Saved(u8),
-    /// 1010h: a save goes on in the background.
-    Saving,
-    /// A save that had begun failed at its end.
-    NotSaved,
-    /// 1011h: these groups were restored (sub-index), at once or at the next reset.
-    Restored(u8),
-}
+pub(crate) use outbox::{Effect, Outbox};
 
 /// The device for the length of one call, with what the services add.
 pub(crate) struct Objects<'c> {
@@ -53,68 +25,6 @@ pub(crate) struct Objects<'c> {
     pub(crate) profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
-}
-
-/// What a call leaves to be done when it is over.
-#[derive(Debug)]
-pub(crate) struct Outbox {
-    /// The application's wishes.
-    pub(crate) signals: Signals,
-    /// What was written: one object by an SDO, up to 64 by an RPDO.
-    pub(crate) effects: Fifo<Effect, 8>,
-    /// More was written than `effects` could hold.
-    pub(crate) overflow: bool,
-    /// A save that is not complete; it outlasts the call.
-    pub(crate) saving: Option<Saving>,
-    /// The request that began it is answered when it is complete.
-    pub(crate) answer_later: bool,
-}
-
-/// A save that takes its time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Saving {
-    pending: image::Pending,
-    /// Sub-index of 1010h.
-    sub: u8,
-    /// It is complete then.
-    pub(crate) due: Instant,
-}
-
-impl Outbox {
-    pub(crate) const fn new() -> Self {
-        Self {
-            signals: Signals::new(),
-            effects: Fifo::new(Effect::Saved(0)),
-            overflow: false,
-            saving: None,
-            answer_later: false,
-        }
-    }
-
-    #[inline]
-    pub(crate) const fn is_empty(&self) -> bool {
-        self.effects.is_empty() && self.signals.is_idle()
-    }
-}
-
-impl Device<'_> {
-    /// `None` where `values` is too short for the dictionary.
-    #[inline]
-    pub(crate) fn objects<'c>(
-        &'c mut self,
-        node_id: NodeId,
-        now: Instant,
-        outbox: &'c mut Outbox,
-    ) -> Option<Objects<'c>> {
-        Some(Objects {
-            store: Store::new(self.dictionary, self.values, node_id).ok()?,
-            application: self.application,
-            storage: self.storage,
-            profile: self.profile,
-            now,
-            outbox,
-        })
-    }
 }
 
 impl<'c> Objects<'c> {
@@ -230,7 +140,7 @@ impl<'c> Objects<'c> {
             crate::emcy::clear_log(&mut self.store);
         }
         self.application(|application, context| application.written(context, address));
-        self.effect(Effect::Written(address));
+        self.outbox.effect(Effect::Written(address));
         Ok(())
     }
 
@@ -270,7 +180,7 @@ impl<'c> Objects<'c> {
                 .reset(|entry| image::restores(profile, entry, sub));
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
-        self.effect(Effect::Restored(sub));
+        self.outbox.effect(Effect::Restored(sub));
         Ok(())
     }
 
@@ -287,7 +197,7 @@ impl<'c> Objects<'c> {
         });
         if profile.duration_us > 0 {
             self.outbox.answer_later = profile.answer == SaveAnswer::AfterStoring;
-            self.effect(Effect::Saving);
+            self.outbox.effect(Effect::Saving);
             Ok(())
         } else if self.complete_save() {
             Ok(())
@@ -305,7 +215,7 @@ impl<'c> Objects<'c> {
         if done {
             self.storage_is_sound();
         }
-        self.effect(if done {
+        self.outbox.effect(if done {
             Effect::Saved(sub)
         } else {
             Effect::NotSaved
@@ -326,10 +236,6 @@ impl<'c> Objects<'c> {
             // A value that cannot be had is saved as it stands.
             let _ = self.refresh(entry.address);
         }
-    }
-
-    fn effect(&mut self, effect: Effect) {
-        self.outbox.overflow |= !self.outbox.effects.push(effect);
     }
 
     /// Reading an entry of 1003h that holds no error.

@@ -5,7 +5,7 @@ use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, 
 use od_model::{Access, Address, DataType, ObjectCode};
 use od_runtime::storage::Memory;
 use od_runtime::{
-    Application, BusEvent, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
+    Application, BusEvent, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
 };
 
 /// One row of a dictionary: address, type, access, mappable, default.
@@ -141,7 +141,7 @@ pub struct Bench<A = NoApplication> {
 
 macro_rules! device {
     ($bench:expr) => {
-        Device {
+        Lent {
             dictionary: $bench.tables.dictionary(),
             values: &mut $bench.values,
             application: &mut $bench.application,

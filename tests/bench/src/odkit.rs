@@ -3,9 +3,7 @@
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, Dictionary, ObjectCode};
 use od_runtime::storage::Memory;
-use od_runtime::{
-    Application, CanId, Device, Frame, Instant, NoApplication, Node, NodeId, Profile,
-};
+use od_runtime::{Application, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
 
 use crate::contender::{Pdo, Subject, Upload};
 use crate::objects;
@@ -15,7 +13,7 @@ use crate::roster::Simulated;
 #[allow(missing_debug_implementations)] // nobody looks into it
 pub struct Odkit {
     node: Node,
-    device: Device<'static>,
+    device: Lent<'static>,
     now: Instant,
 }
 
@@ -49,7 +47,7 @@ impl Odkit {
     ) -> Self {
         let mut odkit = Self {
             node: Node::new(NodeId::new(objects::NODE_ID).expect("a node-ID")),
-            device: Device {
+            device: Lent {
                 dictionary,
                 values: leak(vec![0; dictionary.store_len()]),
                 application: leak(application),

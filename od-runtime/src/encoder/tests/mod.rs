@@ -13,7 +13,7 @@ use od_model::{Access, Address, DataType, ObjectCode};
 
 use super::*;
 use crate::application::{Application, Context, Reset, Signals};
-use crate::emcy::Change as ErrorChange;
+use crate::emcy::Change;
 use crate::store::Store;
 use od_wire::{AbortCode, NodeId};
 
@@ -179,7 +179,7 @@ impl Bench {
         self.encoder.set_raw_position(self.now, raw);
     }
 
-    fn errors(&mut self) -> Vec<ErrorChange> {
+    fn errors(&mut self) -> Vec<Change> {
         core::iter::from_fn(|| self.signals.errors.pop()).collect()
     }
 }

@@ -26,7 +26,7 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
     bench.encoder.set_fault(Fault::Watchdog, true);
     bench.with(|encoder, cx| encoder.tick(cx));
     let error = |code, register, info| {
-        ErrorChange::Raised(crate::emcy::Error {
+        Change::Raised(crate::emcy::Emcy {
             code,
             register,
             info,
@@ -40,7 +40,7 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
     assert_eq!((bench.read(0x6503, 0), bench.read(0x6505, 0)), (1, 0x10));
     bench.encoder.set_fault(Fault::Position, false);
     bench.with(|encoder, cx| encoder.tick(cx));
-    let cleared = ErrorChange::Cleared {
+    let cleared = Change::Cleared {
         code: 0x7320,
         register: Some(0x81),
         info: [0, 0, 0x10, 0, 0],

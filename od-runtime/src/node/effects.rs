@@ -1,0 +1,117 @@
+//! What follows from a call: services read changed objects again, saves end, errors go out.
+
+use od_wire::nmt::State;
+
+use super::{Event, Machines};
+use crate::error_control;
+use crate::objects::{Effect, Objects};
+use crate::storage::image;
+
+/// Sub-index of 1010h, were it one, under which the device saves its own record.
+const LIFE_RECORD: u8 = 0;
+
+impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+    /// What follows from a call: services take changed objects over, errors go out,
+    /// changed values make event-driven PDOs.
+    #[inline]
+    pub(super) fn finish(&mut self, objects: &mut Objects<'_>) {
+        if !objects.outbox.is_empty() {
+            self.empty_outbox(objects);
+        }
+        if self.watches_changes && self.state == State::Operational {
+            self.each_tpdo(|pdo| pdo.notice_change(objects));
+        }
+    }
+
+    #[cold]
+    fn empty_outbox(&mut self, objects: &mut Objects<'_>) {
+        self.apply_effects(objects);
+        if core::mem::take(&mut objects.outbox.signals.tick) {
+            self.tick_at = objects.application(|application, context| application.tick(context));
+        }
+        // A save that goes on has the record in it.
+        if core::mem::take(&mut objects.outbox.signals.keep) && objects.outbox.saving.is_none() {
+            objects.refresh_life_record();
+            let profile = &objects.profile.store;
+            if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
+                self.events.push(Event::StorageDamaged);
+            }
+        }
+        self.take_errors(objects);
+    }
+
+    /// A save that took its time is complete: its request is answered, and the one behind it.
+    #[cold]
+    pub(super) fn end_save(&mut self, objects: &mut Objects<'_>) {
+        self.save_at = None;
+        let failed = (!objects.complete_save()).then_some(objects.profile.store.failed);
+        let (answer, held) = self.sdo.finish(failed);
+        if let Some(answer) = answer {
+            self.answer(answer);
+        }
+        if let Some((data, dlc)) = held
+            && let Some(answer) = self.sdo.handle(objects, &data, dlc)
+        {
+            self.answer(answer);
+        }
+    }
+
+    fn apply_effects(&mut self, objects: &mut Objects<'_>) {
+        let overflow = core::mem::take(&mut objects.outbox.overflow);
+        let mut communication =
+            core::mem::take(&mut objects.outbox.signals.reconfigure) || overflow;
+        let mut heartbeat = overflow;
+        let mut monitor = overflow;
+        while let Some(effect) = objects.outbox.effects.pop() {
+            self.events.push(match effect {
+                Effect::Written(address) => {
+                    heartbeat |= address.index == 0x1017 || switches(objects, address.index);
+                    monitor |= error_control::is_configuration(address.index, objects.profile);
+                    communication |= is_configuration(objects, address.index);
+                    Event::Written(address)
+                }
+                Effect::Saved(sub) => Event::Saved(sub),
+                Effect::NotSaved => Event::StorageDamaged,
+                Effect::Saving => {
+                    self.save_at = objects.outbox.saving.map(|saving| saving.due);
+                    continue;
+                }
+                Effect::Restored(sub) => {
+                    let at_once = objects.profile.store.restore == crate::profile::Restore::AtOnce;
+                    communication |= at_once;
+                    heartbeat |= at_once;
+                    monitor |= at_once;
+                    Event::Restored(sub)
+                }
+            });
+        }
+        if heartbeat {
+            self.heartbeat
+                .configure(&objects.store, objects.profile, objects.now);
+        }
+        if monitor {
+            self.monitor.configure(&objects.store, objects.profile);
+            self.poll_monitor(objects);
+        }
+        if communication {
+            self.configure(objects);
+        }
+    }
+}
+
+/// Is it the object that switches from heartbeat to guarding?
+fn switches(objects: &Objects<'_>, index: u16) -> bool {
+    objects
+        .profile
+        .guarding_switch
+        .is_some_and(|(switch, _)| switch == index)
+}
+
+/// Is it an object that SYNC or a PDO takes its configuration from?
+fn is_configuration(objects: &Objects<'_>, index: u16) -> bool {
+    let repeat = objects.profile.pdo.repeat_counter;
+    let sync_only = objects.profile.pdo.sync_only;
+    matches!(index, 0x1005 | 0x1400..=0x1BFF)
+        || sync_only.is_some_and(|(switch, _)| switch == index)
+        || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))
+}

@@ -1,0 +1,70 @@
+//! What a call leaves to be done when it is over.
+
+use od_model::Address;
+use od_wire::Instant;
+
+use crate::application::Signals;
+use crate::fifo::Fifo;
+use crate::storage::image;
+
+/// What writing an object means for the services.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Effect {
+    /// The object at this address has a new value.
+    Written(Address),
+    /// 1010h: these groups were saved (sub-index).
+    Saved(u8),
+    /// 1010h: a save goes on in the background.
+    Saving,
+    /// A save that had begun failed at its end.
+    NotSaved,
+    /// 1011h: these groups were restored (sub-index), at once or at the next reset.
+    Restored(u8),
+}
+
+/// The node's part of [`Objects`](super::Objects): filled while a call has the device, emptied
+/// before it returns.
+#[derive(Debug)]
+pub(crate) struct Outbox {
+    /// The application's requests.
+    pub(crate) signals: Signals,
+    /// What was written: one object by an SDO, up to 64 by an RPDO.
+    pub(crate) effects: Fifo<Effect, 8>,
+    /// More was written than `effects` could hold.
+    pub(crate) overflow: bool,
+    /// A save that is not complete; it outlasts the call.
+    pub(crate) saving: Option<Saving>,
+    /// The request that began it is answered when it is complete.
+    pub(crate) answer_later: bool,
+}
+
+/// A save that takes its time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Saving {
+    pub(super) pending: image::Pending,
+    /// Sub-index of 1010h.
+    pub(super) sub: u8,
+    /// It is complete then.
+    pub(crate) due: Instant,
+}
+
+impl Outbox {
+    pub(crate) const fn new() -> Self {
+        Self {
+            signals: Signals::new(),
+            effects: Fifo::new(Effect::Saved(0)),
+            overflow: false,
+            saving: None,
+            answer_later: false,
+        }
+    }
+
+    #[inline]
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.effects.is_empty() && self.signals.is_idle()
+    }
+
+    pub(super) fn effect(&mut self, effect: Effect) {
+        self.overflow |= !self.effects.push(effect);
+    }
+}
