@@ -3,6 +3,7 @@
 //!
 //! `OD_RANDOM_FRAMES=10000000` plays so many frames in all.
 
+use od_bench::shaft::{self, Shaft};
 use od_devices::DEVICES;
 use od_model::Kind;
 use od_runtime::DeviceKind;
@@ -39,7 +40,7 @@ struct Bench {
     kind: &'static DeviceKind,
     values: Vec<u8>,
     storage: Memory<Vec<u8>>,
-    encoder: Encoder,
+    encoder: Encoder<Shaft>,
     node: Node,
     now: Instant,
     /// SDO requests to this node that were not answered yet.
@@ -52,7 +53,7 @@ impl Bench {
             kind,
             values: vec![0; kind.dictionary.store_len()],
             storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: kind.new_encoder(),
+            encoder: shaft::encoder(kind),
             node: Node::new(NodeId::ONE),
             now: Instant::ZERO,
             open: 0,

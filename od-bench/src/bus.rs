@@ -132,7 +132,7 @@ impl Bus {
             return;
         };
         for other in self.wiring.beside(device) {
-            self.devices[other].put_on_shaft(shaft, self.now);
+            self.devices[other].put_on_shaft(&shaft, self.now);
             self.settle(other);
         }
     }

@@ -16,6 +16,7 @@ use od_runtime::{
 use od_wire::nmt::State;
 
 use crate::eeprom::Eeprom;
+use crate::shaft::{self, Shaft};
 use od_runtime::DeviceKind;
 
 /// A node with room for what EDS files have: 64 PDOs each way, and the longest value that a
@@ -41,14 +42,14 @@ impl Source {
 
 /// What is behind the dictionary.
 pub(super) enum Behaviour {
-    Encoder(Box<Encoder>),
+    Encoder(Box<Encoder<Shaft>>),
     Other(Box<dyn Application>),
 }
 
 impl Behaviour {
     /// An encoder where there is a position (6004h), else nothing.
     fn of(dictionary: Dictionary<'_>) -> Self {
-        match Encoder::for_dictionary(dictionary) {
+        match shaft::encoder_of(dictionary) {
             Some(encoder) => Self::Encoder(Box::new(encoder)),
             None => Self::Other(Box::new(NoApplication)),
         }
@@ -103,9 +104,7 @@ const EVENTS: usize = 256;
 impl VirtualDevice {
     /// A built-in device, without power, with an empty EEPROM in memory.
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
-        let behaviour = Behaviour::Encoder(Box::new(
-            Encoder::new(kind.encoder).with_sensor_of(kind.dictionary),
-        ));
+        let behaviour = Behaviour::Encoder(Box::new(shaft::encoder(kind)));
         let source = Source::Compiled(kind.dictionary);
         let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node_id);
         Self {

@@ -19,6 +19,7 @@ pub mod links;
 pub mod logs;
 mod saved;
 pub mod script;
+pub mod shaft;
 #[cfg(test)]
 mod tests;
 mod view;

@@ -3,10 +3,11 @@
 use std::prelude::v1::*;
 
 use od_runtime::Instant;
-use od_runtime::encoder::{Angle, Encoder, Fault, Shaft};
+use od_runtime::encoder::{Angle, Encoder, Fault};
 
 use crate::device::{Behaviour, VirtualDevice};
 use crate::faults;
+use crate::shaft::Shaft;
 
 /// 2³², the fractions of a revolution.
 const REVOLUTION: f64 = 4_294_967_296.0;
@@ -23,7 +24,7 @@ pub struct ShaftView {
 }
 
 impl VirtualDevice {
-    fn encoder(&mut self) -> Option<&mut Encoder> {
+    fn encoder(&mut self) -> Option<&mut Encoder<Shaft>> {
         match &mut self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder),
             Behaviour::Other(_) => None,
@@ -32,7 +33,7 @@ impl VirtualDevice {
 
     /// Changes something outside, and lets the device notice. Answers whether there is an
     /// encoder at all.
-    fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder)) -> bool {
+    fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder<Shaft>)) -> bool {
         let Some(encoder) = self.encoder() else {
             return false;
         };
@@ -47,9 +48,9 @@ impl VirtualDevice {
             return None;
         };
         Some(ShaftView {
-            turns: encoder.angle(now).fractions() as f64 / REVOLUTION,
+            turns: encoder.shaft.seen(now).fractions() as f64 / REVOLUTION,
             rpm: f64::from(encoder.shaft.milli_rpm_at(now)) / 1000.0,
-            raw: encoder.raw_position(now),
+            raw: encoder.shaft.raw(now, encoder.sensor()),
         })
     }
 
@@ -62,14 +63,16 @@ impl VirtualDevice {
     }
 
     /// Another device turned the shaft that this one sits on, too.
-    pub(super) fn put_on_shaft(&mut self, shaft: Shaft, now: Instant) {
-        self.change(now, |encoder| encoder.shaft.follow(&shaft));
+    pub(super) fn put_on_shaft(&mut self, shaft: &Shaft, now: Instant) {
+        self.change(now, |encoder| encoder.shaft.follow(shaft));
     }
 
     /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether
     /// there is a shaft, as the next three do.
     pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
-        self.change(now, |encoder| encoder.set_raw_position(now, raw))
+        self.change(now, |encoder| {
+            encoder.shaft.set_raw(now, encoder.sensor(), raw);
+        })
     }
 
     /// Turns the shaft by so many revolutions; its speed stays.
@@ -82,7 +85,7 @@ impl VirtualDevice {
     pub fn turn_to(&mut self, turns: f64, now: Instant) -> bool {
         let to = Angle::from_fractions((turns * REVOLUTION) as i64);
         self.change(now, |encoder| {
-            let by = to.minus(encoder.angle(now));
+            let by = to.minus(encoder.shaft.seen(now));
             encoder.shaft.turn(now, by);
         })
     }

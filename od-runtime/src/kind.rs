@@ -2,7 +2,7 @@
 
 use od_model::Dictionary;
 
-use crate::encoder::{Encoder, EncoderProfile};
+use crate::encoder::{EncoderProfile, Sensor};
 use crate::profile::Profile;
 
 /// An encoder that is made: its names, its dictionary, and what its family does differently.
@@ -28,8 +28,8 @@ pub struct DeviceKind {
 }
 
 impl DeviceKind {
-    /// Returns the encoder behind the dictionary: at angle 0, nothing broken.
-    pub fn new_encoder(&self) -> Encoder {
-        Encoder::new(self.encoder).with_sensor_of(self.dictionary)
+    /// Returns the sensor that profile and dictionary describe.
+    pub fn sensor(&self) -> Sensor {
+        self.encoder.sensor_of(self.dictionary)
     }
 }

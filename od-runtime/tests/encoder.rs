@@ -2,14 +2,14 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::encoder::Encoder;
+use od_runtime::encoder::EncoderProfile;
 use support::{rows, tables, unsigned};
 
 fn is_encoder(device_type: u64, data_type: DataType, access: Access) -> bool {
     let mut rows = rows();
     rows[0].5 = unsigned(device_type);
     rows.push((0x6004, 0, data_type, access, true, None));
-    Encoder::for_dictionary(tables(rows).dictionary()).is_some()
+    EncoderProfile::for_dictionary(tables(rows).dictionary()).is_some()
 }
 
 #[test]
@@ -21,5 +21,5 @@ fn another_device_with_6004h_is_no_encoder() {
     assert!(!is_encoder(0x0002_0192, Unsigned32, Ro), "a drive");
     assert!(!is_encoder(0x0002_0196, Unsigned32, Rw));
     assert!(!is_encoder(0x0002_0196, Unsigned8, Ro));
-    assert!(Encoder::for_dictionary(tables(rows()).dictionary()).is_none());
+    assert!(EncoderProfile::for_dictionary(tables(rows()).dictionary()).is_none());
 }

@@ -1,5 +1,6 @@
 //! A whole device with node ID 1, switches at 0 and an empty EEPROM, talked to in frames.
 
+use od_bench::shaft::{self, Shaft};
 use od_devices::find;
 use od_runtime::DeviceKind;
 use od_runtime::encoder::Encoder;
@@ -11,7 +12,7 @@ pub(crate) struct Bench {
     kind: &'static DeviceKind,
     values: Vec<u8>,
     pub(crate) storage: Memory<Vec<u8>>,
-    pub(crate) encoder: Encoder,
+    pub(crate) encoder: Encoder<Shaft>,
     node: Node,
     pub(crate) now: Instant,
     /// Node ID of the last boot-up message.
@@ -26,7 +27,7 @@ impl Bench {
             kind,
             values: vec![0; kind.dictionary.store_len()],
             storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: kind.new_encoder(),
+            encoder: shaft::encoder(kind),
             node: Node::new(NodeId::ONE),
             now: Instant::ZERO,
             booted: 0,
@@ -65,6 +66,12 @@ impl Bench {
         self.storage.restore_power();
         self.with(|node, device, now| node.power_on(device, now).unwrap());
         self.sent();
+    }
+
+    /// Puts the shaft where the sensor begins to say `raw`.
+    pub(crate) fn set_raw(&mut self, raw: u64) {
+        let sensor = self.encoder.sensor();
+        self.encoder.shaft.set_raw(self.now, sensor, raw);
     }
 
     pub(crate) fn power_cycle(&mut self) {

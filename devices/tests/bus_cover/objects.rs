@@ -200,7 +200,7 @@ fn the_sensor_is_what_6501h_and_6502h_say() {
     for model in &MODELS {
         let kind = find(&model.id()).unwrap();
         assert_eq!(kind.title, format!("{}, {}", model.name, model.family));
-        let sensor = kind.new_encoder().sensor();
+        let sensor = kind.sensor();
         assert_eq!(
             (sensor.steps, sensor.turns, sensor.range()),
             (model.resolution, model.turns, model.range.into()),

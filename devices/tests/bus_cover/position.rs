@@ -14,7 +14,7 @@ const OUT_OF_RANGE: Result<(), u32> = Err(0x0609_0030);
 
 impl Bench {
     fn put(&mut self, raw: u32) {
-        self.encoder.set_raw_position(self.now, raw.into());
+        self.set_raw(raw.into());
     }
 
     /// So many steps of the sensor, on past its ends.

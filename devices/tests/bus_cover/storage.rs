@@ -1,6 +1,7 @@
 //! Save, restore and power cycles of a whole gxmm (manual 000, objects 1010h and 1011h,
 //! chapter 7.2.1).
 
+use od_bench::shaft;
 use od_devices::find;
 use od_runtime::Frame;
 use od_runtime::encoder::{Fault, Switches};
@@ -13,7 +14,7 @@ const LOAD: u32 = u32::from_le_bytes(*b"load");
 #[test]
 fn what_is_saved_is_there_after_a_power_cycle() {
     let mut bench = Bench::new("gxmm");
-    bench.encoder.set_raw_position(bench.now, 0x7_9592);
+    bench.set_raw(0x7_9592);
     bench.write(0x6003, 0, 1000).unwrap();
     bench.write(0x6200, 0, 7).unwrap();
     bench.write(0x2300, 3, 0xBEEF).unwrap();
@@ -74,7 +75,7 @@ fn statistics_survive_a_restore() {
     assert_eq!(bench.read(0x2201, 1), 1);
     assert_eq!(bench.read(0x1003, 1), 0x7320);
     bench.write(0x1010, 2, SAVE).unwrap();
-    bench.encoder = find("gxmm").unwrap().new_encoder();
+    bench.encoder = shaft::encoder(find("gxmm").unwrap());
     bench.power_cycle();
     assert_eq!(bench.read(0x2201, 1), 1, "from the EEPROM");
 }

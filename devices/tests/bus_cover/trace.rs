@@ -2,6 +2,7 @@
 //!
 //! What the print lost is put back as DECISIONS.md C-GX-52 has it.
 
+use od_bench::shaft;
 use od_devices::find;
 use od_runtime::storage::{Memory, image};
 use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
@@ -39,8 +40,10 @@ fn every_answer_is_the_printed_one() {
     let kind = find("gxmm").unwrap();
     let mut values = vec![0; kind.dictionary.store_len()];
     let mut storage = Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]);
-    let mut encoder = kind.new_encoder();
-    encoder.set_raw_position(Instant::ZERO, 0x7_9592);
+    let mut encoder = shaft::encoder(kind);
+    encoder
+        .shaft
+        .set_raw(Instant::ZERO, encoder.sensor(), 0x7_9592);
     let mut node: Node = Node::new(NodeId::ONE);
     let mut now = Instant::ZERO;
     let mut device = Lent {

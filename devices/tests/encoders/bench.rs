@@ -1,8 +1,9 @@
 //! A whole device with node ID 1 and an empty EEPROM, talked to in frames of eight bytes.
 
+use od_bench::shaft::Shaft;
 use od_devices::find;
 use od_runtime::DeviceKind;
-use od_runtime::encoder::{Angle, Encoder, Motion, Shaft};
+use od_runtime::encoder::{Angle, Encoder, Motion};
 use od_runtime::storage::{Memory, image};
 use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
 use od_wire::nmt::State;
@@ -29,7 +30,7 @@ pub(crate) struct Bench<M: Motion = Shaft> {
 impl Bench {
     /// The device of this name, just switched on at time 0.
     pub(crate) fn new(name: &str) -> Self {
-        Self::on(Shaft::at_rest(Angle::ZERO), name)
+        Self::on(Shaft::default(), name)
     }
 
     pub(crate) fn rpm(&mut self, milli_rpm: i32) {
@@ -64,7 +65,7 @@ impl<M: Motion> Bench<M> {
             kind,
             values: vec![0; kind.dictionary.store_len()],
             storage: Memory::new(vec![0xFF; image::capacity_needed(&kind.dictionary)]),
-            encoder: Encoder::on(shaft, kind.encoder).with_sensor_of(kind.dictionary),
+            encoder: Encoder::new(kind.encoder, shaft).with_sensor_of(kind.dictionary),
             node: Node::new(NodeId::ONE),
             now: Instant::ZERO,
             heard: Vec::new(),

@@ -1,9 +1,10 @@
 //! A host that has nothing but positions: what it sets, the device samples.
 
+use od_bench::VirtualDevice;
 use od_devices::DEVICES;
 use od_model::Address;
 use od_runtime::encoder::{Angle, Fault, PositionSource, Sampled};
-use od_runtime::{DeviceKind, Duration, Instant};
+use od_runtime::{DeviceKind, Duration, Instant, NodeId};
 
 use crate::bench::Bench;
 
@@ -24,7 +25,7 @@ type Shaft = Sampled<Set, 255>;
 
 /// A device that looks at its shaft every millisecond.
 fn bench(kind: &DeviceKind) -> Bench<Shaft> {
-    let steps = kind.new_encoder().sensor().steps;
+    let steps = kind.sensor().steps;
     let sensor = Set { steps, raw: Ok(0) };
     Bench::on(Sampled::new(sensor, Duration::from_millis(1)), kind.name)
 }
@@ -88,6 +89,34 @@ fn positions_of_a_host_are_a_speed() {
         assert_eq!(bench.speed(), -100_000 / divider, "{}", kind.name);
     }
     assert_eq!(names, ["eam_mt", "eam_st", "eam_red", "en580c"]);
+}
+
+/// The bench's own shaft, which a host puts somewhere every millisecond and never turns.
+#[test]
+fn positions_set_on_the_bench_are_a_speed() {
+    for (kind, interval) in with_speed() {
+        let mut device = VirtualDevice::new(kind, NodeId::ONE);
+        device.power_on(Instant::ZERO);
+        let steps = f64::from(kind.sensor().steps);
+        let shown = kind.dictionary.entry(0x6001, 0).unwrap();
+        let scale = shown.default.integer(1).unwrap() as f64 / steps;
+        for ms in 0..=3 * interval {
+            let now = Instant::from_millis(ms);
+            if ms <= 2 * interval {
+                device.set_position(100 * ms, now);
+            }
+            let value = device.read(Address::new(0x6030, 1), now);
+            let mut bytes = [0; 4];
+            bytes[..value.len()].copy_from_slice(&value);
+            let expected = match ms {
+                ms if ms < interval => 0,
+                ms if ms <= 2 * interval => (100_000.0 * scale) as u32,
+                ms if ms < 3 * interval => continue,
+                _ => 0,
+            };
+            assert_eq!(u32::from_le_bytes(bytes), expected, "{} {ms}", kind.name);
+        }
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use od_eds::{Description, Tables};
 use od_model::{Address, Kind, Literal};
-use od_runtime::encoder::Encoder;
+use od_runtime::encoder::EncoderProfile;
 
 use super::DeviceFile;
 
@@ -107,7 +107,7 @@ impl Project<'_> {
         let node_id = description.commissioned_node_id().unwrap_or(1);
         let tables = Tables::new(description);
         let dictionary = tables.dictionary();
-        let is_encoder = Encoder::for_dictionary(dictionary).is_some();
+        let is_encoder = EncoderProfile::for_dictionary(dictionary).is_some();
         let first = dictionary
             .objects()
             .first()

@@ -91,7 +91,8 @@ impl<M: Motion> Encoder<M> {
     /// The rule of the objects for the position; also 6500h, which shows 6000h, and what
     /// shows quotients of others.
     pub(super) fn configure(&mut self, store: &mut Store<'_>) {
-        self.sensor = self.sensor_of(|index| store.try_unsigned(index, 0));
+        let number = |index| store.try_unsigned(index, 0);
+        self.sensor = self.profile.sensor_by(number);
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
         let output = self.output_gear(store);

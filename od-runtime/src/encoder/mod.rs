@@ -16,7 +16,6 @@ mod position;
 mod power;
 mod profile;
 mod sampled;
-mod shaft;
 mod timer;
 
 use od_model::Dictionary;
@@ -35,7 +34,6 @@ pub use profile::{
     Quantity, RangeRule, Source, Total,
 };
 pub use sampled::{PositionSource, Sampled};
-pub use shaft::Shaft;
 
 /// Rotary and DIP switches in the cover.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -51,7 +49,7 @@ pub struct Switches {
 /// The host turns the [`Shaft`], sets switches and breaks things between calls of the
 /// node; after a change of faults it calls `Node::handle_change`.
 #[derive(Clone, Debug)]
-pub struct Encoder<M = Shaft> {
+pub struct Encoder<M> {
     profile: &'static EncoderProfile,
     /// The shaft that it sits on.
     pub shaft: M,
@@ -90,8 +88,8 @@ pub struct Encoder<M = Shaft> {
 }
 
 impl<M: Motion> Encoder<M> {
-    /// An encoder on this shaft: nothing broken, switches at 0.
-    pub const fn on(shaft: M, profile: &'static EncoderProfile) -> Self {
+    /// An encoder on a shaft: nothing broken, switches at 0.
+    pub const fn new(profile: &'static EncoderProfile, shaft: M) -> Self {
         let sensor = match profile.sensor {
             Some(sensor) => sensor,
             None => Sensor { steps: 1, turns: 1 },
@@ -128,7 +126,7 @@ impl<M: Motion> Encoder<M> {
     /// [`sensor`](Self::sensor) is known before the first power-on then.
     #[must_use]
     pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
-        self.sensor = self.sensor_of(default_of(dictionary));
+        self.sensor = self.profile.sensor_of(dictionary);
         self
     }
 
@@ -178,31 +176,6 @@ impl<M: Motion> Encoder<M> {
     /// The bit rate since the last start, in kbit/s, if the device has one of its own.
     pub const fn bit_rate(&self) -> Option<u16> {
         self.bit_rate
-    }
-
-    fn sensor_of(&self, number: impl Fn(u16) -> Option<u64>) -> Sensor {
-        if let Some(sensor) = self.profile.sensor {
-            return sensor;
-        }
-        let some = |index| number(index).filter(|number| *number > 0);
-        let steps = some(0x6501).or_else(|| some(0x6001)).unwrap_or(0x2000);
-        let total = some(0x6502).unwrap_or(1);
-        let turns = match self.profile.total {
-            Total::Steps => total / steps,
-            Total::Revolutions | Total::Shown => total,
-        };
-        Sensor {
-            steps: u32::try_from(steps).unwrap_or(u32::MAX),
-            turns: u32::try_from(turns.max(1)).unwrap_or(u32::MAX),
-        }
-    }
-}
-
-/// Default values by index.
-fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
-    move |index| {
-        let entry = dictionary.entry(index, 0)?;
-        u64::try_from(entry.default.integer(1)?).ok()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use od_model::{Address, DataType, Dictionary};
 
-use super::{Fault, Report, Sensor, default_of};
+use super::{Fault, Report, Sensor};
 use od_wire::AbortCode;
 
 /// What object 6502h counts.
@@ -267,6 +267,29 @@ impl EncoderProfile {
         Some(if in_steps { &STEPS } else { &Self::CIA406 })
     }
 
+    /// Returns the sensor that the profile or, by its default values, a dictionary describes.
+    pub fn sensor_of(&self, dictionary: Dictionary<'_>) -> Sensor {
+        self.sensor_by(default_of(dictionary))
+    }
+
+    /// Returns the sensor that the numbers at 6001h, 6002h, 6501h and 6502h describe.
+    pub(super) fn sensor_by(&self, number: impl Fn(u16) -> Option<u64>) -> Sensor {
+        if let Some(sensor) = self.sensor {
+            return sensor;
+        }
+        let some = |index| number(index).filter(|number| *number > 0);
+        let steps = some(0x6501).or_else(|| some(0x6001)).unwrap_or(0x2000);
+        let total = some(0x6502).unwrap_or(1);
+        let turns = match self.total {
+            Total::Steps => total / steps,
+            Total::Revolutions | Total::Shown => total,
+        };
+        Sensor {
+            steps: u32::try_from(steps).unwrap_or(u32::MAX),
+            turns: u32::try_from(turns.max(1)).unwrap_or(u32::MAX),
+        }
+    }
+
     /// CiA 406 and nothing else: what an encoder of an unknown EDS gets.
     pub const CIA406: Self = Self {
         sensor: None,
@@ -324,3 +347,11 @@ impl EncoderProfile {
 
 /// Number of the profile in the low half of 1000h.
 const CIA406: u64 = 406;
+
+/// Default values by index.
+fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
+    move |index| {
+        let entry = dictionary.entry(index, 0)?;
+        u64::try_from(entry.default.integer(1)?).ok()
+    }
+}

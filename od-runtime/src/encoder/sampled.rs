@@ -60,7 +60,7 @@ impl PositionSource for Angle {
 ///     None => Err(Fault::Position),
 /// };
 /// let shaft: Sampled<_, 64> = Sampled::new(sensor, Duration::from_millis(1));
-/// let encoder = Encoder::on(shaft, &EncoderProfile::CIA406);
+/// let encoder = Encoder::new(&EncoderProfile::CIA406, shaft);
 /// # let _ = encoder;
 /// ```
 #[derive(Clone, Debug)]

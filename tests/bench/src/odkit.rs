@@ -179,7 +179,7 @@ impl Seconds {
     /// whose TPDO 2 is off.
     pub fn new(Simulated { device, is_moving }: Simulated) -> Self {
         let device = od_devices::find(device).expect("one of the devices");
-        let mut encoder = device.new_encoder();
+        let mut encoder = od_bench::shaft::encoder(device);
         encoder.shaft.set_milli_rpm(Instant::ZERO, 60_000);
         let mut odkit = Odkit::start(device.dictionary, encoder, device.profile);
         let node = objects::NODE_ID;

@@ -25,7 +25,7 @@ pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
 pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     let mut facts = Vec::new();
     let profile = kind.encoder;
-    let sensor = kind.new_encoder().sensor();
+    let sensor = kind.sensor();
     let turns = match sensor.turns {
         1 => "singleturn".to_owned(),
         turns => format!("{turns} revolutions"),

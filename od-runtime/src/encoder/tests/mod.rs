@@ -108,10 +108,27 @@ fn tables(range: i128) -> Tables {
     Tables::new(&description)
 }
 
+/// A shaft that stands where a test puts it.
+struct Still(Angle);
+
+impl Motion for Still {
+    fn angle(&mut self, _: Instant) -> Result<Angle, Fault> {
+        Ok(self.0)
+    }
+
+    fn speed(&self, _: Instant, _: u32, _: Gain) -> Option<i64> {
+        None
+    }
+
+    fn acceleration(&self, _: Instant, _: u32, _: Gain) -> Option<i64> {
+        None
+    }
+}
+
 struct Bench {
     tables: Tables,
     values: Vec<u8>,
-    encoder: Encoder,
+    encoder: Encoder<Still>,
     now: Instant,
     signals: Signals,
 }
@@ -123,7 +140,7 @@ impl Bench {
         let mut bench = Self {
             tables,
             values,
-            encoder: Encoder::new(&PROFILE),
+            encoder: Encoder::new(&PROFILE, Still(Angle::ZERO)),
             now: Instant::ZERO,
             signals: Signals::default(),
         };
@@ -131,7 +148,7 @@ impl Bench {
         bench
     }
 
-    fn with<R>(&mut self, call: impl FnOnce(&mut Encoder, &mut Context<'_, '_>) -> R) -> R {
+    fn with<R>(&mut self, call: impl FnOnce(&mut Encoder<Still>, &mut Context<'_, '_>) -> R) -> R {
         let dictionary = self.tables.dictionary();
         let mut store = Store::new(dictionary, &mut self.values, NodeId::ONE).unwrap();
         let mut cx = Context {
@@ -176,7 +193,7 @@ impl Bench {
     }
 
     fn at(&mut self, raw: u64) {
-        self.encoder.set_raw_position(self.now, raw);
+        self.encoder.shaft.0 = self.encoder.sensor().angle(raw);
     }
 
     fn errors(&mut self) -> Vec<Change> {

@@ -136,9 +136,8 @@ fn two_timers_are_one() {
 fn a_dictionary_describes_its_sensor() {
     let sensor = |range| {
         let tables = tables(range);
-        Encoder::for_dictionary(tables.dictionary())
-            .unwrap()
-            .sensor()
+        let profile = EncoderProfile::for_dictionary(tables.dictionary()).unwrap();
+        profile.sensor_of(tables.dictionary())
     };
     assert_eq!(
         sensor(0x2000_0000),
@@ -154,7 +153,7 @@ fn a_dictionary_describes_its_sensor() {
             turns: 1
         }
     );
-    let mut encoder = Encoder::new(&PROFILE).with_serial_number(4711);
+    let mut encoder = Encoder::new(&PROFILE, Still(Angle::ZERO)).with_serial_number(4711);
     let mut bench = Bench::new(0x2000);
     core::mem::swap(&mut bench.encoder, &mut encoder);
     bench.reset(Reset::PowerOn);

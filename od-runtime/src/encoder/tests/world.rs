@@ -71,40 +71,6 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
 }
 
 #[test]
-fn the_shaft_turns_without_power() {
-    let mut bench = Bench::new(0x2000_0000);
-    bench.at(100);
-    bench.now = Instant::from_millis(1000);
-    bench.encoder.power_off(bench.now);
-    bench
-        .encoder
-        .shaft
-        .turn(bench.now, Angle::from_fractions(3 << 32));
-    bench.now = Instant::from_millis(5000);
-    bench.reset(Reset::PowerOn);
-    assert_eq!(bench.position(), 100 + 3 * 0x2000);
-    // Three revolutions of 1000 steps; the counter passes its end without power.
-    bench.write(0x6001, 0, 1000).unwrap();
-    bench.write(0x6002, 0, 3000).unwrap();
-    bench.encoder.set_raw_position(bench.now, 65_535 * 0x2000);
-    assert_eq!(bench.position(), 0);
-    let one = Angle::from_fractions(1 << 32);
-    bench.encoder.shaft.turn(bench.now, one);
-    assert_eq!(bench.position(), 1000, "with power it goes on");
-    bench.encoder.shaft.turn(bench.now, Angle::ZERO.minus(one));
-    bench.encoder.power_off(bench.now);
-    bench.encoder.shaft.turn(bench.now, one);
-    bench.with(|encoder, cx| encoder.reset(cx, Reset::PowerOn));
-    assert_eq!(
-        bench.position(),
-        0,
-        "it says what revolution 0 says, not 1000"
-    );
-    bench.encoder.shaft.turn(bench.now, one);
-    assert_eq!(bench.position(), 1000);
-}
-
-#[test]
 fn time_of_operation_is_without_the_time_off() {
     let mut bench = Bench::new(0x2000_0000);
     bench.now = Instant::from_millis(800_000);

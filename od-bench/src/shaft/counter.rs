@@ -1,6 +1,6 @@
 //! What a revolution counter does not see while there is no power.
 
-use super::{Angle, Counter, Sensor};
+use od_runtime::encoder::{Angle, Counter, Sensor};
 
 /// Revolutions that the counter of an encoder missed.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]

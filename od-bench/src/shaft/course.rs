@@ -1,10 +1,12 @@
 //! How a shaft turned: its speed over the time that a speed or an acceleration looks back.
 //!
-//! A way is in thousandths of a revolution per minute, times microseconds; 60·10⁹ of them are
-//! a revolution ([`PER_REVOLUTION`](super::shaft::PER_REVOLUTION)). Whoever turns the shaft by
-//! hand moves it in no time, which is no speed.
+//! A way is in thousandths of a revolution per minute, times microseconds. Who turns the shaft
+//! by hand moves it in no time, which does not count.
 
-use od_wire::Instant;
+use od_runtime::Instant;
+
+/// The way of one revolution.
+pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;
 
 /// How many changes of speed are remembered. Who changes it every 10 ms is followed for 640 ms.
 const PIECES: usize = 64;

@@ -1,0 +1,266 @@
+//! Exact shaft: its angle, speed and acceleration are pure functions of time.
+
+mod counter;
+mod course;
+mod exact;
+mod placed;
+
+use od_model::Dictionary;
+use od_runtime::encoder::{Angle, Counter, Encoder, EncoderProfile, Fault, Gain, Motion, Sensor};
+use od_runtime::{DeviceKind, Instant};
+
+use counter::Unseen;
+use course::{Course, FINE, PER_REVOLUTION, Ramp};
+use exact::exact;
+use placed::Placed;
+
+/// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
+/// speed.
+///
+/// It turns whether the encoder has power or not. Positive is clockwise, looking at
+/// the encoder's flange.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub struct Shaft {
+    angle: Angle,
+    since: Instant,
+    /// At `since`.
+    milli_rpm: i32,
+    /// How `milli_rpm` changes from there; no time where it does not.
+    ramp: Ramp,
+    course: Course,
+    placed: Placed,
+    unseen: Unseen,
+}
+
+impl Shaft {
+    /// Shaft at rest at `angle`.
+    pub const fn at_rest(angle: Angle) -> Self {
+        Self {
+            angle,
+            since: Instant::ZERO,
+            milli_rpm: 0,
+            ramp: Ramp::NONE,
+            course: Course::AT_REST,
+            placed: Placed::new(),
+            unseen: Unseen::NOTHING,
+        }
+    }
+
+    /// The shaft without what an encoder's counter missed of it.
+    #[must_use]
+    pub fn alone(&self) -> Self {
+        let unseen = Unseen::NOTHING;
+        Self {
+            unseen,
+            ..self.clone()
+        }
+    }
+
+    /// Turns as `other` does, from where `other` is now: both are ends of one shaft.
+    pub fn follow(&mut self, other: &Self) {
+        let unseen = self.unseen;
+        *self = Self {
+            unseen,
+            ..other.clone()
+        };
+    }
+
+    /// Returns the angle that the electronics know: without the revolutions that an encoder
+    /// did not count while it had no power.
+    #[inline]
+    pub fn seen(&self, now: Instant) -> Angle {
+        self.at(now).minus(self.unseen.angle())
+    }
+
+    /// Returns the angle at a moment. Before the last change it is not known any more.
+    #[inline]
+    pub fn at(&self, now: Instant) -> Angle {
+        if self.ramp.micros != 0 {
+            return self.angle_on_ramp(now);
+        }
+        if self.milli_rpm == 0 {
+            return self.angle;
+        }
+        let turned = turned(self.milli_rpm.unsigned_abs(), now.micros_since(self.since));
+        let turned = Angle::from_fractions(turned);
+        if self.milli_rpm > 0 {
+            self.angle.plus(turned)
+        } else {
+            self.angle.minus(turned)
+        }
+    }
+
+    #[cold]
+    fn angle_on_ramp(&self, now: Instant) -> Angle {
+        let micros = now.micros_since(self.since);
+        let way = self.ramp.way(self.milli_rpm, micros);
+        // Less than 2³² · 2⁶⁴ a way, so 2¹²⁸ is not reached; the angle wraps.
+        let turns = way.div_euclid(PER_REVOLUTION.into());
+        let rest = way.rem_euclid(PER_REVOLUTION.into());
+        let turned = (turns << 32) + (rest << 32) / i128::from(PER_REVOLUTION);
+        self.angle.plus(Angle::from_fractions(turned as i64))
+    }
+
+    /// Returns the position of a sensor on the shaft, before scaling, sense of rotation and
+    /// offset.
+    pub fn raw(&self, now: Instant, sensor: Sensor) -> u64 {
+        sensor.raw(self.seen(now))
+    }
+
+    /// The speed that it has, or on a ramp will have at its end, in thousandths of a
+    /// revolution per minute, positive clockwise.
+    pub const fn milli_rpm(&self) -> i32 {
+        self.ramp.to(self.milli_rpm)
+    }
+
+    /// Does it turn, or will it before its ramp ends?
+    pub const fn is_turning(&self) -> bool {
+        self.milli_rpm != 0 || self.ramp.micros != 0
+    }
+
+    /// From `now` on it turns with this speed, in thousandths of a revolution per minute.
+    pub fn set_milli_rpm(&mut self, now: Instant, milli_rpm: i32) {
+        self.ramp_to(now, milli_rpm, 0);
+    }
+
+    /// From `now` on its speed changes evenly, and is `milli_rpm` after this many
+    /// microseconds; with 0 it has it at once.
+    pub fn ramp_to(&mut self, now: Instant, milli_rpm: i32, micros: u32) {
+        let from = self.milli_rpm_at(now);
+        self.rebase(now);
+        let ramp = Ramp {
+            micros,
+            by: i64::from(milli_rpm) - i64::from(from),
+        };
+        self.milli_rpm = if micros == 0 { milli_rpm } else { from };
+        self.ramp = if micros == 0 { Ramp::NONE } else { ramp };
+        self.course.add(self.since, self.milli_rpm, self.ramp);
+    }
+
+    /// The speed at a moment since the last change of it, as [`milli_rpm`](Self::milli_rpm)
+    /// gives it, rounded to whole thousandths on a ramp.
+    pub fn milli_rpm_at(&self, now: Instant) -> i32 {
+        let micros = now.micros_since(self.since);
+        self.ramp.speed(self.milli_rpm, micros)
+    }
+
+    /// Turns it by hand; it goes on with its speed.
+    pub fn turn(&mut self, now: Instant, by: Angle) {
+        self.rebase(now);
+        self.angle = self.angle.plus(by);
+    }
+
+    /// Puts it somewhere; it goes on with its speed.
+    pub fn set_angle(&mut self, now: Instant, angle: Angle) {
+        self.rebase(now);
+        self.angle = angle;
+    }
+
+    /// Puts the shaft where a sensor begins to say `raw`; it goes on with its speed.
+    ///
+    /// Who does so again and again, at least every 20 ms, turns the shaft: speed and
+    /// acceleration are those between the positions.
+    pub fn set_raw(&mut self, now: Instant, sensor: Sensor, raw: u64) {
+        self.unseen.forget();
+        let angle = sensor.angle(raw);
+        self.placed.add(now, angle.minus(self.at(now)));
+        self.set_angle(now, angle);
+    }
+
+    /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
+    fn rebase(&mut self, now: Instant) {
+        let micros = now.micros_since(self.since);
+        self.angle = self.at(now);
+        if self.ramp.micros != 0 {
+            let from = self.ramp.speed(self.milli_rpm, micros);
+            let to = self.ramp.to(self.milli_rpm);
+            let left = u64::from(self.ramp.micros).saturating_sub(micros);
+            self.milli_rpm = from;
+            self.ramp = if left == 0 {
+                Ramp::NONE
+            } else {
+                Ramp {
+                    // What is left is not more than what there was.
+                    micros: left as u32,
+                    by: i64::from(to) - i64::from(from),
+                }
+            };
+        }
+        self.since = self.since.max(now);
+    }
+}
+
+impl Motion for Shaft {
+    #[inline]
+    fn angle(&mut self, now: Instant) -> Result<Angle, Fault> {
+        Ok(self.seen(now))
+    }
+
+    fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        let from = before(now, interval);
+        let way = self.course.way(from, now) + self.placed.way(from, now);
+        Some(exact(way, 60_000 * i128::from(interval), gain))
+    }
+
+    fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        let (from, middle) = (before(now, interval), before(now, interval / 2));
+        let interval = i128::from(interval);
+        let speed = |at| self.course.fine_speed(at);
+        let placed = self.placed.way(middle, now) - self.placed.way(from, middle);
+        let change = speed(now) - speed(from) + 4 * placed * FINE / interval;
+        Some(exact(change * 50, 3 * FINE * interval, gain))
+    }
+
+    fn look_back(&mut self, interval: u32) {
+        self.placed.look_back(interval);
+    }
+
+    fn start(&mut self, now: Instant, counter: Counter, sensor: Sensor) {
+        self.unseen.power_on(self.at(now), counter, sensor);
+    }
+
+    fn power_off(&mut self, now: Instant) {
+        self.unseen.power_off(self.at(now));
+    }
+}
+
+/// Returns the encoder of a device at angle 0, nothing broken.
+pub fn encoder(kind: &DeviceKind) -> Encoder<Shaft> {
+    Encoder::new(kind.encoder, Shaft::default()).with_sensor_of(kind.dictionary)
+}
+
+/// Returns the encoder of an unknown family, see [`EncoderProfile::for_dictionary`].
+pub fn encoder_of(dictionary: Dictionary<'_>) -> Option<Encoder<Shaft>> {
+    let profile = EncoderProfile::for_dictionary(dictionary)?;
+    Some(Encoder::new(profile, Shaft::default()).with_sensor_of(dictionary))
+}
+
+/// The moment `micros` before `now`, the origin at the earliest.
+const fn before(now: Instant, micros: u32) -> Instant {
+    Instant::from_micros(now.as_micros().saturating_sub(micros as u64))
+}
+
+/// 2⁻³² revolutions in `micros` at this speed: exact to 2⁻²⁸, rounded down.
+#[inline]
+fn turned(milli_rpm: u32, micros: u64) -> i64 {
+    // 60·10⁹ is less than 2³⁶, so its remainders have room for 28 more bits.
+    match u64::from(milli_rpm).checked_mul(micros) {
+        Some(way) => {
+            let (turns, rest) = (way / PER_REVOLUTION, way % PER_REVOLUTION);
+            (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
+        }
+        None => long_way(milli_rpm, micros),
+    }
+}
+
+#[cold]
+fn long_way(milli_rpm: u32, micros: u64) -> i64 {
+    let way = u128::from(milli_rpm) * u128::from(micros);
+    // Revolutions past 2³² do not matter: the angle wraps there.
+    let turns = (way / u128::from(PER_REVOLUTION)) as u64;
+    let rest = (way % u128::from(PER_REVOLUTION)) as u64;
+    (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
+}
+
+#[cfg(test)]
+mod tests;
