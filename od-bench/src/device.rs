@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use std::vec;
 
 #[cfg(feature = "eds")]
-use od_eds::{Diagnostic, Tables};
+use od_eds::{Finding, Tables};
 use od_model::{Address, Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
@@ -148,9 +148,9 @@ impl VirtualDevice {
     /// # Errors
     /// The diagnostics, if one of them is an error and `options` is not lenient.
     #[cfg(feature = "eds")]
-    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Diagnostic>> {
+    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Finding>> {
         let parsed = od_eds::load(text);
-        if !options.lenient && parsed.diagnostics.iter().any(Diagnostic::is_error) {
+        if !options.lenient && parsed.diagnostics.iter().any(Finding::is_error) {
             return Err(parsed.diagnostics);
         }
         let description = &parsed.description;

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.list {
         for rule in RULES {
             let (code, severity) = (rule.code, word(rule.severity));
-            let fix = rule.mending.name();
+            let fix = rule.fixability.name();
             if !output.line(&format!("{code}  {severity:<7}  {fix:<14}  {}", rule.title))? {
                 break;
             }
@@ -79,7 +79,7 @@ fn text(rule: &Rule) -> String {
             }
         }
     }
-    let fix = match rule.mending.name() {
+    let fix = match rule.fixability.name() {
         "by hand" => "by hand; nobody but you knows what is meant".to_owned(),
         "safe" => "`odkit check --fix`".to_owned(),
         "unsafe" => "`odkit check --unsafe-fixes`; look at the result".to_owned(),

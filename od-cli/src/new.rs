@@ -6,7 +6,7 @@ mod mend;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_eds::{Description, Diagnostic};
+use od_eds::{Description, Finding};
 
 use crate::output::{self, Output};
 use crate::source::Source;
@@ -109,7 +109,7 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
-    if !loaded.diagnostics.iter().any(Diagnostic::is_error) {
+    if !loaded.diagnostics.iter().any(Finding::is_error) {
         let device = DeviceFile {
             ending,
             bytes: bytes.unwrap_or_else(|| od_eds::canonical(&description).into_bytes()),

@@ -1,13 +1,13 @@
-//! Diagnostics with their source line and a caret.
+//! Findings with their source line and a caret.
 
 use std::borrow::Cow;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use od_eds::{Diagnostic, Severity, Span};
+use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
 
-/// A file's diagnostics as text, an empty line behind each.
-pub(crate) fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours: bool) -> String {
+/// A file's findings as text, an empty line behind each.
+pub(crate) fn render(path: &str, text: &str, findings: &[Finding], colours: bool) -> String {
     let renderer = if colours {
         Renderer::styled()
     } else {
@@ -15,31 +15,32 @@ pub(crate) fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours
     };
     let renderer = renderer.decor_style(DecorStyle::Ascii);
     let mut out = String::new();
-    for diagnostic in diagnostics {
-        out.push_str(&renderer.render(&[group(path, text, diagnostic)]));
+    for finding in findings {
+        let sentence = say(finding, &Eds);
+        out.push_str(&renderer.render(&[group(path, text, &sentence)]));
         out.push_str("\n\n");
     }
     out
 }
 
-fn group<'a>(path: &'a str, text: &'a str, diagnostic: &'a Diagnostic) -> Group<'a> {
-    let level = match diagnostic.severity {
+fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence) -> Group<'a> {
+    let level = match sentence.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
         Severity::Info => Level::INFO,
     };
     let mut group = level
-        .primary_title(short(&diagnostic.message))
-        .id(diagnostic.code)
-        .elements(snippet(path, text, diagnostic));
-    if diagnostic.span.is_none() {
+        .primary_title(short(&sentence.message))
+        .id(sentence.code)
+        .elements(snippet(path, text, sentence));
+    if sentence.span.is_none() {
         group = group.element(annotate_snippets::Origin::path(path));
     }
-    if let Some(address) = diagnostic.address {
+    if let Some(address) = sentence.address {
         group = group.element(Level::NOTE.message(format!("object {address}")));
     }
-    if !diagnostic.help.is_empty() {
-        group = group.element(Level::HELP.message(diagnostic.help.as_str()));
+    if !sentence.help.is_empty() {
+        group = group.element(Level::HELP.message(sentence.help.as_str()));
     }
     group
 }
@@ -59,14 +60,14 @@ fn short(message: &str) -> Cow<'_, str> {
     }
 }
 
-/// The lines that the diagnostic is about, and no more of the file.
+/// The lines that the finding is about, and no more of the file.
 fn snippet<'a>(
     path: &'a str,
     text: &'a str,
-    diagnostic: &'a Diagnostic,
+    sentence: &'a Sentence,
 ) -> Option<Snippet<'a, annotate_snippets::Annotation<'a>>> {
-    let main = diagnostic.span?;
-    let labels = diagnostic.labels.iter();
+    let main = sentence.span?;
+    let labels = sentence.labels.iter();
     let first = labels
         .clone()
         .map(|label| label.span)
@@ -97,7 +98,7 @@ fn snippet<'a>(
         .line_start(first.line as usize)
         .path(path)
         .annotation(AnnotationKind::Primary.span(range(main)));
-    Some(snippet.annotations(diagnostic.labels.iter().map(|label| {
+    Some(snippet.annotations(sentence.labels.iter().map(|label| {
         AnnotationKind::Context
             .span(range(label.span))
             .label(label.text.as_str())
@@ -105,10 +106,10 @@ fn snippet<'a>(
 }
 
 /// `1 error, 3 warnings`; `None` where there is nothing to say.
-pub(crate) fn count<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>) -> Option<String> {
+pub(crate) fn count<'d>(findings: impl Iterator<Item = &'d Finding>) -> Option<String> {
     let mut counts = [0usize; 3];
-    for diagnostic in diagnostics {
-        counts[match diagnostic.severity {
+    for finding in findings {
+        counts[match finding.severity() {
             Severity::Error => 0,
             Severity::Warning => 1,
             Severity::Info => 2,

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use crate::diagnostic::Span;
 use crate::read::Parsed;
 use crate::scan::encoding::{Encoding, decode, detect};
+use crate::span::Span;
 
 mod keys;
 mod objects;

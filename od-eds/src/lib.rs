@@ -9,8 +9,8 @@
 //! use od_model::Address;
 //!
 //! let loaded = od_eds::load("[2300]\nParameterName=Reset\nDataType=0x0005\nAccessType=rw\nDefaultValue=300\n");
-//! let fault = &loaded.diagnostics.iter().find(|d| d.code == "E0412").unwrap();
-//! assert_eq!(fault.span.unwrap().line, 5);
+//! let fault = &loaded.diagnostics.iter().find(|d| d.code() == "E0412").unwrap();
+//! assert_eq!(fault.span().unwrap().line, 5);
 //! let reset = loaded.description.entry(Address::new(0x2300, 0)).unwrap();
 //! assert_eq!(reset.default.as_ref().unwrap().value, Value::Unsigned(300));
 //! ```
@@ -21,11 +21,13 @@
 extern crate alloc;
 extern crate std;
 
+mod catalogue;
 pub mod check;
 mod description;
-mod diagnostic;
 pub mod diff;
 mod document;
+mod fact;
+mod finding;
 pub mod fix;
 mod load;
 mod overlay;
@@ -33,22 +35,27 @@ pub mod patch;
 mod read;
 mod rules;
 mod scan;
+mod span;
 mod write;
 #[cfg(feature = "xdd")]
 pub mod xdd;
 
+pub use catalogue::{Eds, Label, Sentence, Vocabulary, say};
 pub use description::tables::Tables;
 pub use description::{
     Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
 };
-pub use diagnostic::{Diagnostic, Label, Severity, Span, Spanned};
+
 pub use document::{Document, Edit, EditError};
+pub use fact::{Fact, Key};
+pub use finding::{Finding, Form, Place, Related, Severity};
 pub use load::load;
 pub use overlay::{Origin, Overlaid, overlay};
 pub use read::Parsed;
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use read::sorted::parse;
 pub use scan::encoding::{Encoding, decode};
+pub use span::{Span, Spanned, token, token_of};
 pub use write::canonical::{canonical, complete};
 pub use write::describe::{About, describe};
 pub use write::eds::write;

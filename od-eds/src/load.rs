@@ -14,7 +14,7 @@ pub(crate) fn checked(mut parsed: Parsed, text: &str) -> Parsed {
     parsed
         .diagnostics
         .extend(crate::check::check(&parsed.description));
-    crate::check::sort(&mut parsed.diagnostics);
+    crate::finding::sort(&mut parsed.diagnostics);
     crate::check::Allows::of(text).apply(&mut parsed.diagnostics);
     #[cfg(feature = "xdd")]
     if crate::xdd::is_xml(text) {

@@ -18,8 +18,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Span};
+use crate::finding::{Finding, Place};
 use crate::scan::names::{List, object_of};
+use crate::span::Span;
 
 /// Which of the two files a line comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -61,16 +62,16 @@ impl Overlaid {
 
     /// A finding of the text as one of the file that it is about. Second places in the other
     /// file are left out, and so is a fix: it would have to change two files.
-    pub fn place(&self, mut finding: Diagnostic) -> (Origin, Diagnostic) {
-        let (origin, span) = match finding.span {
-            Some(span) => self.locate(span),
-            None => return (Origin::Base, finding),
+    pub fn place(&self, mut finding: Finding) -> (Origin, Finding) {
+        let Place::Text(span) = finding.place else {
+            return (Origin::Base, finding);
         };
-        finding.span = Some(span);
+        let (origin, span) = self.locate(span);
+        finding.place = Place::Text(span);
         finding.fix = None;
-        finding.labels.retain_mut(|label| {
-            let (other, span) = self.locate(label.span);
-            label.span = span;
+        finding.related.retain_mut(|related| {
+            let (other, span) = self.locate(related.span);
+            related.span = span;
             other == origin
         });
         (origin, finding)

@@ -90,7 +90,7 @@ pub(crate) fn object(index: u16, object: &ObjectDescription, files: Option<&File
 }
 
 fn place(text: &mut String, span: Span, files: Option<&Files>) {
-    let written = span.line != 0 && od_eds::patch::token_of(span).is_none();
+    let written = span.line != 0 && od_eds::token_of(span).is_none();
     if let Some(files) = files.filter(|_| written) {
         text.push_str(&format!("\n\n`{}`", files.line(span)));
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use od_eds::patch;
-use od_eds::{Description, Diagnostic, Tables};
+use od_eds::{Description, Finding, Key, Tables};
 use proc_macro2::Span;
 
 use crate::files::Files;
@@ -51,8 +51,8 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
     );
     let standing = source.findings.iter();
     let standing = standing.filter(|finding| !mended(finding, &base, &input.statements));
-    let mut eds: Vec<Diagnostic> = standing.cloned().chain(found).collect();
-    eds.sort_by_key(|finding| finding.span.map_or(0, |span| span.start));
+    let mut eds: Vec<Finding> = standing.cloned().chain(found).collect();
+    eds.sort_by_key(|finding| finding.span().map_or(0, |span| span.start));
     source.allows.clone().filter(&mut eds);
     told.tell(&eds, &base, report);
     if let (Some(profile), false) = (&input.profile, quiet) {
@@ -85,26 +85,18 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
 
 /// Did the module's statements replace what the reader could not read? So a file that
 /// cannot be changed is mended in the call.
-fn mended(finding: &Diagnostic, base: &Description, statements: &[Statement]) -> bool {
-    let Some(address) = finding.address else {
+fn mended(finding: &Finding, base: &Description, statements: &[Statement]) -> bool {
+    let Some(address) = finding.object else {
         return false;
     };
     if base.entry(address).is_none() && !base.objects.contains_key(&address.index) {
         return true;
     }
-    let key = [
-        ("DefaultValue", "default"),
-        ("ParameterValue", "default"),
-        ("LowLimit", "low"),
-        ("HighLimit", "high"),
-    ]
-    .into_iter()
-    .find(|(key, _)| finding.message.starts_with(key));
-    let key = match (key, finding.code) {
-        (Some((_, field)), _) => field,
-        (None, "E0402") => "type",
-        (None, "E0405") => "access",
-        (None, _) => return false,
+    // An edit of the default takes the place of a DCF's value, too.
+    let key = match finding.key {
+        Some(Key::ParameterValue) => Key::DefaultValue,
+        Some(key) if finding.is_error() => key,
+        _ => return false,
     };
     statements.iter().any(|statement| match statement {
         Statement::Edit { target, fields, .. } => {
@@ -174,7 +166,7 @@ impl Findings<'_> {
         home: Span,
         context: &str,
         report: &mut Report,
-    ) -> Vec<Diagnostic> {
+    ) -> Vec<Finding> {
         let first = report.numbers();
         let edits = lower::edits(statements, report);
         let mut findings = patch::apply(description, &edits);
@@ -198,7 +190,7 @@ impl Findings<'_> {
             true => Vec::new(),
             false => od_eds::check::check(before),
         };
-        known.retain(Diagnostic::is_error);
+        known.retain(Finding::is_error);
         let (old, new): (Vec<_>, Vec<_>) = found
             .into_iter()
             .partition(|f| !f.is_error() || known.contains(f));
@@ -213,7 +205,7 @@ impl Findings<'_> {
         if context.is_empty() { old } else { Vec::new() }
     }
 
-    fn tell(&self, findings: &[Diagnostic], description: &Description, report: &mut Report) {
+    fn tell(&self, findings: &[Finding], description: &Description, report: &mut Report) {
         findings::tell(findings, self.home, self.files, description, report);
     }
 }

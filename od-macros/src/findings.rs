@@ -3,8 +3,8 @@
 
 use std::ops::Range;
 
-use od_eds::patch::{Action, Edit, token_of};
-use od_eds::{Description, Diagnostic};
+use od_eds::patch::{Action, Edit, Target};
+use od_eds::{Description, Eds, Finding, Key, Sentence, Vocabulary, say, token_of};
 use od_model::Address;
 use proc_macro2::Span;
 
@@ -17,7 +17,7 @@ const SHOWN: usize = 20;
 /// Tells the findings of the reader and of the checks about the file: those about
 /// what an edit wrote at its token, the others at `home`, the path.
 pub(crate) fn tell(
-    findings: &[Diagnostic],
+    findings: &[Finding],
     home: Span,
     files: Option<&Files>,
     description: &Description,
@@ -27,7 +27,7 @@ pub(crate) fn tell(
     let mut hidden = 0usize;
     for finding in findings.iter().filter(|f| f.is_error()) {
         if let Some(place) = report.token(finding) {
-            report.at(place, at_token(finding, description, None));
+            report.at(place, at_token(&say(finding, &Row), description, None));
         } else if shown < SHOWN {
             shown += 1;
             report.at(home, in_file(finding, description, files));
@@ -58,45 +58,45 @@ impl Patch<'_> {
     /// Tells what the edits made unsound.
     pub(crate) fn blame(
         &self,
-        findings: &[Diagnostic],
+        findings: &[Finding],
         description: &Description,
         report: &mut Report,
     ) {
         for finding in findings.iter().filter(|f| f.is_error()) {
-            let own = finding.span.and_then(token_of);
+            let own = finding.span().and_then(token_of);
             let own = own.filter(|id| self.tokens.contains(id));
-            let mut finding = finding.clone();
-            let place = match (own, self.culprit(&finding)) {
+            let mut told = say(finding, &Row);
+            let place = match (own, self.culprit(finding)) {
                 (None, Some(edit)) => {
                     if edit.action == Action::Remove {
-                        finding.help = without(edit, &finding);
+                        told.help = without(edit, &told);
                     }
                     report.span(edit.target.span)
                 }
-                _ => report.token(&finding),
+                _ => report.token(finding),
             };
-            let text = at_token(&finding, description, self.files);
+            let text = at_token(&told, description, self.files);
             let place = place.unwrap_or(Place::from(self.home));
             report.at(place, format!("{}{text}", self.context));
         }
     }
 
     /// The last edit of an object that the finding is about, or that it names.
-    fn culprit(&self, finding: &Diagnostic) -> Option<&Edit> {
+    fn culprit(&self, finding: &Finding) -> Option<&Edit> {
         let last = |index: u16| self.edits.iter().rev().find(|e| e.target.index == index);
-        let about = finding.address.and_then(|address| last(address.index));
+        let about = finding.object.and_then(|address| last(address.index));
         about.or_else(|| {
-            self.edits.iter().rev().find(|edit| {
-                finding
-                    .message
-                    .contains(&format!("{:04X}h", edit.target.index))
-            })
+            let message = say(finding, &Eds).message;
+            self.edits
+                .iter()
+                .rev()
+                .find(|edit| message.contains(&format!("{:04X}h", edit.target.index)))
         })
     }
 }
 
 /// How to mend what a `remove` made.
-fn without(edit: &Edit, finding: &Diagnostic) -> String {
+fn without(edit: &Edit, finding: &Sentence) -> String {
     let target = *edit.target;
     let about = finding.address.map(|address| address.index);
     match about == Some(target.index) {
@@ -106,7 +106,7 @@ fn without(edit: &Edit, finding: &Diagnostic) -> String {
 }
 
 /// `[E0414] object 2300h:09 "Reset": message`, the help below.
-fn at_token(finding: &Diagnostic, description: &Description, files: Option<&Files>) -> String {
+fn at_token(finding: &Sentence, description: &Description, files: Option<&Files>) -> String {
     let mut text = heading(finding, description);
     let written = finding.span.filter(|span| token_of(*span).is_none());
     if let (Some(files), Some(span)) = (files, written) {
@@ -119,16 +119,17 @@ fn at_token(finding: &Diagnostic, description: &Description, files: Option<&File
 }
 
 /// `file:line:column: [E0412] object 2300h:09 "Reset": message`, notes and help below.
-fn in_file(finding: &Diagnostic, description: &Description, files: Option<&Files>) -> String {
+fn in_file(finding: &Finding, description: &Description, files: Option<&Files>) -> String {
     let Some(files) = files else {
-        return at_token(finding, description, None);
+        return at_token(&say(finding, &Row), description, None);
     };
+    let finding = say(finding, &Eds);
     let mut text = match finding.span {
         Some(span) => files.place(span),
         None => files.shown(),
     };
     text.push_str(": ");
-    text.push_str(&heading(finding, description));
+    text.push_str(&heading(&finding, description));
     for label in &finding.labels {
         let place = files.place(label.span);
         text.push_str(&format!("\nnote: {place}: {}", label.text));
@@ -141,7 +142,7 @@ fn in_file(finding: &Diagnostic, description: &Description, files: Option<&Files
 
 /// Code, object and message. Findings of a patch, and those about what is missing,
 /// name their object themselves.
-fn heading(finding: &Diagnostic, description: &Description) -> String {
+fn heading(finding: &Sentence, description: &Description) -> String {
     let about = finding
         .address
         .and_then(|address| label(address, description));
@@ -159,6 +160,38 @@ fn label(address: Address, description: &Description) -> Option<String> {
         Some(entry) if object.code.has_members() => format!("{address} {:?}", *entry.name),
         _ => format!("{:04X}h {:?}", address.index, *object.name),
     })
+}
+
+/// The words of a macro call: `low = 5` in the row of an object.
+struct Row;
+
+impl Vocabulary for Row {
+    fn key(&self, key: Key) -> &'static str {
+        match key {
+            Key::ParameterName => "`name`",
+            Key::ObjectType => "`code`",
+            Key::DataType => "`type`",
+            Key::AccessType => "`access`",
+            Key::PdoMapping => "`mappable`",
+            Key::DefaultValue => "`default`",
+            Key::LowLimit => "`low`",
+            Key::HighLimit => "`high`",
+            Key::StorageLocation => "`save`",
+            other => other.name(),
+        }
+    }
+
+    fn set(&self, key: Key, value: &str) -> String {
+        match (key, value) {
+            (Key::PdoMapping, "0") => "mappable = false".into(),
+            (Key::PdoMapping, "1") => "mappable = true".into(),
+            _ => format!("{} = {value}", self.key(key).trim_matches('`')),
+        }
+    }
+
+    fn section(&self, index: u16, sub: Option<u8>) -> String {
+        format!("`add {} {{ … }}`", Target { index, sub })
+    }
 }
 
 /// The checks speak of the keys of an EDS; beside a row they are its fields.

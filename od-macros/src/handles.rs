@@ -283,7 +283,7 @@ pub(crate) fn check_renames(
     statements: &[Statement],
     description: &Description,
     report: &mut Report,
-) -> Vec<od_eds::Diagnostic> {
+) -> Vec<od_eds::Finding> {
     let mut findings = Vec::new();
     let mut seen = BTreeSet::new();
     for statement in statements {

@@ -1,7 +1,6 @@
 //! All faults of a call, each at its token.
 
-use od_eds::Diagnostic;
-use od_eds::patch::token_of;
+use od_eds::{Finding, token_of};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, TokenStreamExt};
 
@@ -54,7 +53,7 @@ impl Report {
 
     /// A span for the model that leads back to this token.
     pub(crate) fn number(&mut self, place: impl Into<Place>) -> od_eds::Span {
-        let span = od_eds::patch::token(self.numbers());
+        let span = od_eds::token(self.numbers());
         self.tokens.push(place.into());
         span
     }
@@ -66,8 +65,8 @@ impl Report {
     }
 
     /// The token behind a finding, if it came from one.
-    pub(crate) fn token(&self, finding: &Diagnostic) -> Option<Place> {
-        self.span(finding.span?)
+    pub(crate) fn token(&self, finding: &Finding) -> Option<Place> {
+        self.span(finding.span()?)
     }
 
     /// The token behind a span of the model.

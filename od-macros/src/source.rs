@@ -17,7 +17,7 @@ pub(crate) struct Source {
     /// The files for `include_bytes!`; empty where none was read.
     pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
-    pub(crate) findings: Vec<od_eds::Diagnostic>,
+    pub(crate) findings: Vec<od_eds::Finding>,
     /// What the file says is as it should be.
     pub(crate) allows: od_eds::check::Allows,
     /// What the file describes; empty without one.

@@ -1,7 +1,6 @@
 //! Fixes of findings, by places that JavaScript counts: UTF-16 units of the text.
 
-use od_eds::Diagnostic;
-use od_eds::fix::Applicability;
+use od_eds::fix::{Applicability, Fix};
 use wasm_bindgen::prelude::*;
 
 use crate::record::{self, Record};
@@ -32,8 +31,7 @@ impl<'a> Places<'a> {
     }
 
     /// The edits that mend a finding, or null.
-    pub(crate) fn fix(&self, one: &Diagnostic) -> JsValue {
-        let fix = one.fix.as_ref();
+    pub(crate) fn fix(&self, fix: Option<&Fix>) -> JsValue {
         let Some((fix, edits)) = fix.and_then(|fix| Some((fix, fix.text_edits(self.text)?))) else {
             return JsValue::NULL;
         };

@@ -34,7 +34,7 @@ use od_bench::VirtualDevice;
 use od_bench::words;
 use od_bench::words::{Service, Words};
 #[cfg(feature = "eds")]
-use od_eds::{Diagnostic, Severity};
+use od_eds::{Eds, Finding, Severity, say};
 use od_model::Address;
 use od_runtime::{Instant, NodeId};
 use od_wire::nmt::State;
@@ -429,13 +429,14 @@ fn valid(node_id: u8) -> Result<NodeId, JsError> {
 }
 
 #[cfg(feature = "eds")]
-fn diagnostics(found: &[Diagnostic], text: &str) -> JsValue {
+fn diagnostics(found: &[Finding], text: &str) -> JsValue {
     let places = Places::of(text);
     record::list(found.iter().map(|one| diagnostic(one, &places)))
 }
 
 #[cfg(feature = "eds")]
-fn diagnostic(one: &Diagnostic, places: &Places<'_>) -> JsValue {
+fn diagnostic(one: &Finding, places: &Places<'_>) -> JsValue {
+    let one = say(one, &Eds);
     let span = one.span.unwrap_or_default();
     Record::new()
         .with("code", one.code)
@@ -457,6 +458,6 @@ fn diagnostic(one: &Diagnostic, places: &Places<'_>) -> JsValue {
                 .map(|address| address.to_string())
                 .unwrap_or_default(),
         )
-        .with("fix", places.fix(one))
+        .with("fix", places.fix(one.fix.as_ref()))
         .done()
 }

@@ -109,7 +109,7 @@ impl File {
     fn codes(&self) -> BTreeMap<&'static str, usize> {
         let mut codes = BTreeMap::new();
         for finding in &self.loaded.diagnostics {
-            *codes.entry(finding.code).or_default() += 1;
+            *codes.entry(finding.code()).or_default() += 1;
         }
         codes
     }
@@ -200,7 +200,7 @@ fn docs(files: &[File]) -> String {
     let loading = files.iter().filter(|file| file.loads()).count();
     let clean = |file: &&File| {
         let mut findings = file.loaded.diagnostics.iter();
-        !findings.any(od_eds::Diagnostic::is_error)
+        !findings.any(od_eds::Finding::is_error)
     };
     let _ = writeln!(
         text,
@@ -220,7 +220,7 @@ fn docs(files: &[File]) -> String {
         let count = |severity| {
             let findings = files.iter().flat_map(|file| &file.loaded.diagnostics);
             findings
-                .filter(|finding| finding.severity == severity)
+                .filter(|finding| finding.severity() == severity)
                 .count()
         };
         let _ = writeln!(

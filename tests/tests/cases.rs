@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use od_eds::{Document, Parsed};
-use od_eds::{Severity, Tables, check};
+use od_eds::{Eds, Severity, Tables, check, say};
 
 #[test]
 fn diagnostics_are_as_accepted() {
@@ -62,7 +62,7 @@ fn the_corpus_loads_and_comes_back() {
         assert!(!loaded.description.objects.is_empty(), "{name}: no objects");
         let mut codes = BTreeMap::new();
         for finding in &loaded.diagnostics {
-            *codes.entry(finding.code).or_insert(0) += 1;
+            *codes.entry(finding.code()).or_insert(0) += 1;
         }
         if env::var_os("ODKIT_VERBOSE").is_some() {
             let entries = loaded.description.entries().count();
@@ -190,6 +190,7 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
     }
     let mut line = 0;
     for finding in &loaded.diagnostics {
+        let finding = say(finding, &Eds);
         if check::rule(finding.code).is_none_or(|rule| rule.severity != finding.severity) {
             return Err(format!("{} is no rule", finding.code));
         }
@@ -214,7 +215,8 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
 
 fn rendered(document: &Document) -> String {
     let mut out = String::new();
-    for finding in document.load().diagnostics {
+    for finding in &document.load().diagnostics {
+        let finding = say(finding, &Eds);
         let place = match finding.span {
             Some(span) => format!("{}:{}", span.line, span.column),
             None => "-".into(),

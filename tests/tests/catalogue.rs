@@ -10,9 +10,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_eds::Document;
-use od_eds::check::{Mending, RULES, Rule};
+use od_eds::check::{Fixability, RULES, Rule};
 use od_eds::fix::{Applicability, mend};
-use od_eds::{Description, Diagnostic};
+use od_eds::{Description, Eds, Finding, say};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/rules")
@@ -28,7 +28,10 @@ fn file(rule: &Rule, name: &str) -> Document {
 }
 
 fn of_files() -> impl Iterator<Item = &'static Rule> {
-    RULES.iter().filter(|rule| !rule.code.starts_with("E07"))
+    RULES
+        .iter()
+        .copied()
+        .filter(|rule| !rule.code.starts_with("E07"))
 }
 
 #[track_caller]
@@ -41,15 +44,16 @@ fn every_rule_has_a_pair() {
     let mut faults = Vec::new();
     for rule in of_files() {
         let bad = file(rule, "bad").load().diagnostics;
-        if !bad.iter().any(|finding| finding.code == rule.code) {
-            let codes: Vec<_> = bad.iter().map(|finding| finding.code).collect();
+        if !bad.iter().any(|finding| finding.code() == rule.code) {
+            let codes: Vec<_> = bad.iter().map(|finding| finding.code()).collect();
             faults.push(format!("{}: bad has only {codes:?}", rule.code));
         }
         for left in file(rule, "mended").load().diagnostics {
-            let (code, line) = (left.code, left.span.map_or(0, |span| span.line));
+            let (code, line) = (left.code(), left.span().map_or(0, |span| span.line));
             faults.push(format!(
                 "{}: mended:{line} has {code}: {}",
-                rule.code, left.message
+                rule.code,
+                say(&left, &Eds).message
             ));
         }
     }
@@ -115,7 +119,7 @@ fn rules_about_edits_are_shown_by_rustc() {
     }
 }
 
-fn find(document: &Document) -> Vec<Diagnostic> {
+fn find(document: &Document) -> Vec<Finding> {
     document.load().diagnostics
 }
 
@@ -126,26 +130,31 @@ fn fixes_do_what_they_say() {
     for rule in of_files() {
         let bad = file(rule, "bad");
         let findings = find(&bad);
-        let own = findings.iter().filter(|finding| finding.code == rule.code);
+        let own = findings
+            .iter()
+            .filter(|finding| finding.code() == rule.code);
         let levels: BTreeSet<_> = own
             .filter_map(|finding| finding.fix.as_ref())
             .map(|fix| fix.applicability)
             .collect();
-        let expected = match rule.mending {
-            Mending::None => levels.is_empty(),
-            Mending::Safe => levels == BTreeSet::from([Applicability::Safe]),
-            Mending::Unsafe => levels == BTreeSet::from([Applicability::Unsafe]),
-            Mending::Either => !levels.is_empty(),
+        let expected = match rule.fixability {
+            Fixability::None => levels.is_empty(),
+            Fixability::Safe => levels == BTreeSet::from([Applicability::Safe]),
+            Fixability::Unsafe => levels == BTreeSet::from([Applicability::Unsafe]),
+            Fixability::Either => !levels.is_empty(),
         };
         if !expected {
-            faults.push(format!("{}: {:?}, but {levels:?}", rule.code, rule.mending));
+            faults.push(format!(
+                "{}: {:?}, but {levels:?}",
+                rule.code, rule.fixability
+            ));
         }
         let Some(level) = levels.last() else { continue };
         let mended = mend(&bad, *level, find);
         if mended
             .findings
             .iter()
-            .any(|finding| finding.code == rule.code)
+            .any(|finding| finding.code() == rule.code)
         {
             faults.push(format!("{}: it stays", rule.code));
         }
@@ -190,7 +199,7 @@ fn fixes_keep_what_was_read() {
                 mended.document.bytes(),
                 "{name}: {level:?}"
             );
-            let errors = |all: &[Diagnostic]| all.iter().filter(|d| d.is_error()).count();
+            let errors = |all: &[Finding]| all.iter().filter(|d| d.is_error()).count();
             assert!(
                 errors(&mended.findings) <= errors(&find(&document)),
                 "{name}: {level:?}"

@@ -71,8 +71,8 @@ fn an_illegal_value_never_goes_unnamed() {
         let loaded = od_eds::load(&changed.join("\n"));
         let line = at as u32 + 1;
         let named = loaded.diagnostics.iter().any(|finding| {
-            finding.span.is_some_and(|span| span.line == line)
-                || finding.labels.iter().any(|label| label.span.line == line)
+            finding.span().is_some_and(|span| span.line == line)
+                || finding.related.iter().any(|other| other.span.line == line)
         });
         assert!(named, "{name}:{line}: `{}` became `{illegal}`", lines[at]);
     }

@@ -52,7 +52,7 @@ fn page() -> String {
                 Severity::Warning => "warning",
                 Severity::Info => "remark",
             };
-            let (code, fix) = (rule.code, rule.mending.name());
+            let (code, fix) = (rule.code, rule.fixability.name());
             let (title, source) = (cell(rule.title), cell(rule.source));
             let _ = writeln!(page, "| {code} | {severity} | {title} | {fix} | {source} |");
         }

@@ -1,6 +1,6 @@
 //! Workflow commands of GitHub Actions: an annotation at the line of each finding.
 
-use od_eds::{Diagnostic, Severity};
+use od_eds::{Eds, Sentence, Severity, say};
 
 use super::Checked;
 
@@ -8,11 +8,11 @@ pub(super) fn lines(checked: &Checked, remarks: bool) -> impl Iterator<Item = St
     checked
         .findings
         .iter()
-        .filter(move |finding| remarks || finding.severity > Severity::Info)
-        .map(|finding| line(&checked.path, checked.document.text(), finding))
+        .filter(move |finding| remarks || finding.severity() > Severity::Info)
+        .map(|finding| line(&checked.path, checked.document.text(), &say(finding, &Eds)))
 }
 
-fn line(path: &str, text: &str, finding: &Diagnostic) -> String {
+fn line(path: &str, text: &str, finding: &Sentence) -> String {
     let command = match finding.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -54,22 +54,28 @@ fn property(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use od_eds::{Diagnostic, Span};
+    use od_eds::Span;
     use od_model::Address;
 
     use super::*;
 
     #[test]
     fn nothing_breaks_out_of_a_command() {
-        let finding = Diagnostic::warning("W0109", "100 %\n::error::x")
-            .with_address(Address::new(0x2000, 1))
-            .with_span(Span {
+        let finding = Sentence {
+            code: "W0109",
+            severity: Severity::Warning,
+            message: "100 %\n::error::x".into(),
+            span: Some(Span {
                 start: 0,
                 end: 3,
                 line: 4,
                 column: 2,
-            })
-            .with_help("write, or not");
+            }),
+            address: Some(Address::new(0x2000, 1)),
+            labels: Vec::new(),
+            help: "write, or not".into(),
+            fix: None,
+        };
         assert_eq!(
             line("a,b:c.eds", "µx", &finding),
             "::warning file=a%2Cb%3Ac.eds,line=4,endLine=4,col=2,endColumn=4,title=W0109::\

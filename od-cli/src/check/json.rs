@@ -1,6 +1,6 @@
 //! The report as one JSON object; `version` counts what breaks its readers.
 
-use od_eds::Diagnostic;
+use od_eds::{Eds, Finding, say};
 use serde_json::{Value, json};
 
 use super::{Checked, Summary};
@@ -35,7 +35,8 @@ fn file(checked: &Checked) -> Value {
 }
 
 /// Bytes are counted from 0 in the text as UTF-8, lines and columns from 1.
-fn finding(finding: &Diagnostic, text: &str) -> Value {
+fn finding(finding: &Finding, text: &str) -> Value {
+    let finding = say(finding, &Eds);
     let labels: Vec<Value> = finding
         .labels
         .iter()

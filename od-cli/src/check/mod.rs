@@ -4,7 +4,7 @@ use od_eds::Document;
 use od_eds::check::parse_allow;
 use od_eds::fix;
 use od_eds::fix::Applicability;
-use od_eds::{Diagnostic, Severity};
+use od_eds::{Finding, Severity};
 
 use crate::output::{self, Output};
 use crate::source::Source;
@@ -68,7 +68,7 @@ enum Format {
 struct Checked {
     path: String,
     document: Document,
-    findings: Vec<Diagnostic>,
+    findings: Vec<Finding>,
     /// What a text report shows of it, made where many can be made at once.
     shown: String,
     /// Places that were mended.
@@ -97,12 +97,12 @@ impl Args {
         }
     }
 
-    fn find(&self, document: &Document) -> Vec<Diagnostic> {
+    fn find(&self, document: &Document) -> Vec<Finding> {
         let mut findings = document.load().diagnostics;
         findings.retain(|finding| {
-            let index = finding.address.map(|address| address.index);
+            let index = finding.object.map(|address| address.index);
             let allows = |(code, object): &(&str, Option<u16>)| {
-                *code == finding.code && (object.is_none() || *object == index)
+                *code == finding.code() && (object.is_none() || *object == index)
             };
             !self.allow.iter().any(allows)
         });
@@ -147,7 +147,7 @@ impl Args {
             }
         }
         if self.format == Format::Text && !self.diff {
-            let wanted = |finding: &&Diagnostic| self.remarks || finding.severity > Severity::Info;
+            let wanted = |finding: &&Finding| self.remarks || finding.severity() > Severity::Info;
             let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
             let text = checked.document.text();
             checked.shown = report::render(path, text, &wanted, output::colours());
@@ -176,7 +176,7 @@ impl Args {
             finding.fix = None;
         }
         if self.format == Format::Text {
-            let wanted = |finding: &&Diagnostic| self.remarks || finding.severity > Severity::Info;
+            let wanted = |finding: &&Finding| self.remarks || finding.severity() > Severity::Info;
             let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
             checked.shown = file.render(&wanted, output::colours());
         }
@@ -185,7 +185,7 @@ impl Args {
     fn summary(&self, checked: &[Checked]) -> Summary {
         let count = |severity| {
             let all = checked.iter().flat_map(|file| &file.findings);
-            all.filter(|finding| finding.severity == severity).count()
+            all.filter(|finding| finding.severity() == severity).count()
         };
         Summary {
             files: checked.iter().filter(|file| file.failed.is_none()).count(),

@@ -2,7 +2,7 @@
 
 use od_eds::check::RULES;
 use od_eds::fix::TextEdit;
-use od_eds::{Diagnostic, Severity, Span};
+use od_eds::{Eds, Finding, Severity, Span, say};
 use serde_json::{Value, json};
 
 use super::Checked;
@@ -65,7 +65,8 @@ const fn level(severity: Severity) -> &'static str {
     }
 }
 
-fn result(file: &Checked, finding: &Diagnostic) -> Value {
+fn result(file: &Checked, finding: &Finding) -> Value {
+    let finding = say(finding, &Eds);
     let text = file.document.text();
     let mut message = finding.message.clone();
     if let Some(address) = finding.address {

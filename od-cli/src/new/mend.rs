@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_eds::{Description, Diagnostic, EntryDescription, ObjectDescription, Spanned, Value};
+use od_eds::{Description, Eds, EntryDescription, Finding, ObjectDescription, Spanned, Value, say};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// What was changed, a sentence each.
@@ -15,19 +15,19 @@ const ROUNDS: usize = 100;
 ///
 /// # Errors
 /// The findings that are left where nothing can be done.
-pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnostic>> {
+pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Finding>> {
     let mut notes = Notes::new();
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
         let found = od_eds::load(&od_eds::canonical(description)).diagnostics;
-        let errors: Vec<Diagnostic> = found.into_iter().filter(Diagnostic::is_error).collect();
+        let errors: Vec<Finding> = found.into_iter().filter(Finding::is_error).collect();
         if errors.is_empty() {
             return Ok(notes);
         }
         let mut progress = false;
         for error in &errors {
-            let tries = tries.entry((error.code, error.address)).or_default();
+            let tries = tries.entry((error.code(), error.object)).or_default();
             *tries = tries.saturating_add(1);
             if let Some(note) = step(description, error, *tries) {
                 notes.push(note);
@@ -39,7 +39,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Diagnosti
         }
     }
     let left = od_eds::load(&od_eds::canonical(description)).diagnostics;
-    Err(left.into_iter().filter(Diagnostic::is_error).collect())
+    Err(left.into_iter().filter(Finding::is_error).collect())
 }
 
 /// Entries without a type, and fields whose text is none of theirs, have no meaning to keep.
@@ -88,8 +88,8 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
 }
 
 /// One change for one error; `None` where nothing is left to change.
-fn step(description: &mut Description, error: &Diagnostic, tries: u8) -> Option<String> {
-    let mandatory = match error.code {
+fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<String> {
+    let mandatory = match error.code() {
         "E0601" => Some(0x1000),
         "E0602" => Some(0x1001),
         "E0603" => Some(0x1018),
@@ -99,10 +99,10 @@ fn step(description: &mut Description, error: &Diagnostic, tries: u8) -> Option<
         description.objects.insert(index, standard(index)?);
         return Some(format!("{index:04X}h: added, every device has it"));
     }
-    let address = error.address?;
+    let address = error.object?;
     let Address { index, sub } = address;
     let object = description.objects.get_mut(&index)?;
-    match (error.code, tries) {
+    match (error.code(), tries) {
         ("E0305", 1) => object.code = Spanned::from(ObjectCode::Record),
         ("E0309" | "E0310", 1) => count(object),
         (code, 1) if code.starts_with("E04") => {
@@ -127,15 +127,18 @@ fn step(description: &mut Description, error: &Diagnostic, tries: u8) -> Option<
         (_, 2) if sub > 0 => {
             object.entries.remove(&sub)?;
             count(object);
-            return Some(format!("{address}: left out, {}", error.message));
+            return Some(format!("{address}: left out, {}", say(error, &Eds).message));
         }
         (_, ..=3) if standard(index).is_none() => {
             description.objects.remove(&index)?;
-            return Some(format!("{index:04X}h: left out, {}", error.message));
+            return Some(format!(
+                "{index:04X}h: left out, {}",
+                say(error, &Eds).message
+            ));
         }
         _ => return None,
     }
-    Some(format!("{address}: changed, {}", error.message))
+    Some(format!("{address}: changed, {}", say(error, &Eds).message))
 }
 
 /// Sub-index 0 says the highest sub-index.

@@ -1,6 +1,6 @@
 //! The text of a description, perhaps of two files, and findings shown where they are.
 
-use od_eds::{Description, Diagnostic};
+use od_eds::{Description, Finding};
 use od_eds::{Origin, Overlaid};
 
 use crate::{Failure, output, report};
@@ -53,7 +53,7 @@ impl Text {
     }
 
     /// What it describes, and what was found; a text that describes nothing is a failure.
-    pub(crate) fn parse(&self) -> Result<(Description, Vec<Diagnostic>), Failure> {
+    pub(crate) fn parse(&self) -> Result<(Description, Vec<Finding>), Failure> {
         let parsed = od_eds::parse(&self.text);
         if parsed.description.objects.is_empty() {
             return Err(Failure::Failed(format!(
@@ -65,7 +65,7 @@ impl Text {
     }
 
     /// Findings of the text with line and caret, each in the file that it is about.
-    pub(crate) fn render(&self, findings: &[Diagnostic], colours: bool) -> String {
+    pub(crate) fn render(&self, findings: &[Finding], colours: bool) -> String {
         let Some(laid) = &self.overlay else {
             return report::render(&self.path, &self.text, findings, colours);
         };
@@ -73,7 +73,7 @@ impl Text {
             .iter()
             .map(|finding| laid.made.place(finding.clone()))
             .collect();
-        let of = |origin| -> Vec<Diagnostic> {
+        let of = |origin| -> Vec<Finding> {
             let own = placed.iter().filter(|(from, _)| *from == origin);
             own.map(|(_, finding)| finding.clone()).collect()
         };

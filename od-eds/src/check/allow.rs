@@ -10,10 +10,12 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::sort;
-use crate::diagnostic::{Diagnostic, Span};
+use crate::finding::Finding;
+use crate::finding::Rule;
 use crate::fix::Fix;
 use crate::rules;
-use crate::rules::{Rule, rule};
+use crate::rules::rule;
+use crate::span::Span;
 
 /// The word that makes a comment one of ours.
 const WORD: &str = "odkit-allow";
@@ -40,7 +42,7 @@ enum Scope {
 #[derive(Clone, Debug, Default)]
 pub struct Allows {
     allows: Vec<Allow>,
-    findings: Vec<Diagnostic>,
+    findings: Vec<Finding>,
 }
 
 impl Allows {
@@ -99,7 +101,7 @@ impl Allows {
         if reason.is_empty() {
             self.findings.push(
                 rules::W0802
-                    .at(
+                    .told(
                         span(text),
                         format!("`{text}` is to be allowed without a reason"),
                     )
@@ -119,7 +121,7 @@ impl Allows {
                 }),
                 None => self.findings.push(
                     rules::W0801
-                        .at(span(given), format!("`{given}` is no code of a finding"))
+                        .told(span(given), format!("`{given}` is no code of a finding"))
                         .with_help(
                             "write a code such as `W0311`; `odkit explain --list` has them all",
                         ),
@@ -129,14 +131,14 @@ impl Allows {
     }
 
     /// Takes out what is allowed, and adds what is to be said about the comments.
-    pub fn apply(mut self, findings: &mut Vec<Diagnostic>) {
+    pub fn apply(mut self, findings: &mut Vec<Finding>) {
         self.filter(findings);
         for allow in self.allows.iter().filter(|allow| !allow.used) {
             self.findings.push(
                 rules::I0803
-                    .at(allow.span, format!("there is no {} to allow", allow.code))
+                    .told(allow.span, format!("there is no {} to allow", allow.code))
                     .with_help("leave it out")
-                    .with_fix(Fix::guess().remove_line(allow.span)),
+                    .fix(Fix::unsafe_fix().remove_line(allow.span)),
             );
         }
         if !self.findings.is_empty() {
@@ -146,25 +148,25 @@ impl Allows {
     }
 
     /// Takes out what is allowed.
-    pub fn filter(&mut self, findings: &mut Vec<Diagnostic>) {
+    pub fn filter(&mut self, findings: &mut Vec<Finding>) {
         if !self.allows.is_empty() {
             findings.retain(|finding| !self.allowed(finding));
         }
     }
 
-    fn allowed(&mut self, finding: &Diagnostic) -> bool {
+    fn allowed(&mut self, finding: &Finding) -> bool {
         let mut allowed = false;
         for allow in &mut self.allows {
             let here = match allow.scope {
                 Scope::File => true,
                 Scope::Section(start, end, index) => {
-                    let about = finding.address.map(|address| address.index);
-                    let at = finding.span.map(|span| span.line);
+                    let about = finding.object.map(|address| address.index);
+                    let at = finding.span().map(|span| span.line);
                     at.is_some_and(|line| (start..end).contains(&line))
                         || (index.is_some() && about == index)
                 }
             };
-            if here && allow.code == finding.code {
+            if here && allow.code == finding.rule.code {
                 allow.used = true;
                 allowed = true;
             }
@@ -215,7 +217,7 @@ mod tests {
         let findings = crate::load::load(text).diagnostics;
         findings
             .iter()
-            .map(|finding| finding.code)
+            .map(|finding| finding.rule.code)
             .filter(|code| !code.starts_with("E06") && !matches!(*code, "W0203" | "I0240"))
             .collect()
     }

@@ -10,8 +10,9 @@ use alloc::vec::Vec;
 
 use super::{place, start_value};
 use crate::description::{Description, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::finding::Finding;
 use crate::rules;
+use crate::span::Span;
 use od_model::Address;
 
 /// The bit of a COB-ID that says "not valid"; of 1005h and 1012h it says "producer".
@@ -19,7 +20,7 @@ const INVALID: u32 = 1 << 31;
 /// The bit that says 29-bit identifier.
 const EXTENDED: u32 = 1 << 29;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut used: BTreeMap<(bool, u32), (Address, Span)> = BTreeMap::new();
     let services = [0x1005, 0x1012, 0x1014].map(|index| Address::new(index, 0));
     let pdos = description
@@ -51,11 +52,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         if number & EXTENDED == 0 && identifier > 0x7FF {
             findings.push(
                 rules::W0522
-                    .at(
+                    .told(
                         span,
                         format!("0x{identifier:X} has more than 11 bits, and bit 29 is 0"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write an identifier up to 0x7FF, or set bit 29 (0x20000000)"),
             );
             continue;
@@ -65,8 +66,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             if identifier != 0 {
                 findings.push(
                     rules::W0520
-                        .at(span, format!("{identifier:03X}h is an identifier of another service"))
-                        .with_address(address)
+                        .told(span, format!("{identifier:03X}h is an identifier of another service"))
+                        .about(address)
                         .with_help("write an identifier that CiA 301 leaves free, such as 0x181 to 0x57F for PDOs"),
                 );
             }
@@ -79,8 +80,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             None => drop(used.insert((formula, identifier), (address, span))),
             Some((first, place)) => findings.push(
                 rules::W0521
-                    .at(span, format!("{:04X}h has the COB-ID of {:04X}h", address.index, first.index))
-                    .with_address(address)
+                    .told(span, format!("{:04X}h has the COB-ID of {:04X}h", address.index, first.index))
+                    .about(address)
                     .with_label(*place, "it is used here")
                     .with_help("write another COB-ID, or set bit 31 (0x80000000) for a PDO that is not used"),
             ),
@@ -91,11 +92,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         if !formula && fixed && predefined && first_four {
             findings.push(
                 rules::I0531
-                    .at(
+                    .told(
                         span,
                         format!("{identifier:03X}h does not follow the node ID"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(format!(
                         "write `$NODEID+0x{:X}`, if every device has its own",
                         identifier & 0x780

@@ -9,11 +9,11 @@ use alloc::vec::Vec;
 
 use super::place;
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::rules;
 use od_model::{Address, Kind, ObjectCode};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in &description.objects {
         if matches!(
             *object.code,
@@ -31,17 +31,17 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                     .any(|(key, _)| key.eq_ignore_ascii_case("DataType")) => {}
                 None => findings.push(
                     rules::E0401
-                        .at(entry.span, "there is no DataType")
-                        .with_address(address)
+                        .told(entry.span, "there is no DataType")
+                        .about(address)
                         .with_help("write `DataType=` and the code of a type, for example `0x0007` for UNSIGNED32"),
                 ),
                 Some(data_type) if data_type.kind() == Kind::Record => findings.push(
                     rules::E0403
-                        .at(
+                        .told(
                             place(&[data_type.span, entry.span]),
                             format!("{} is the type of a whole object", data_type.name()),
                         )
-                        .with_address(address)
+                        .about(address)
                         .with_help("write the type of this one value, for example `DataType=0x0007` for UNSIGNED32"),
                 ),
                 Some(_) => {}

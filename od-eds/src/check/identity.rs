@@ -9,13 +9,13 @@ use alloc::vec::Vec;
 
 use super::start_number;
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
 use od_model::Address;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(info) = description.section("DeviceInfo") else {
         return;
     };
@@ -36,14 +36,14 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         let value = object.value;
         findings.push(
             rules::W0607
-                .at(
+                .told(
                     given.span,
                     format!("{key} is 0x{number:X}, but {address} is 0x{value:X}"),
                 )
-                .with_address(address)
+                .about(address)
                 .with_label(object.span, "the object's value is here")
                 .with_help(format!("write `{key}=0x{value:X}`, or mend the object"))
-                .with_fix(Fix::guess().replace(given.span, format!("0x{value:X}"))),
+                .fix(Fix::unsafe_fix().replace(given.span, format!("0x{value:X}"))),
         );
     }
 }

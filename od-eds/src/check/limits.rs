@@ -10,13 +10,13 @@ use core::cmp::Ordering;
 
 use super::{place, text};
 use crate::description::{Description, Value};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
-use crate::patch::token_of;
 use crate::rules;
+use crate::span::{Spanned, token_of};
 use od_model::DataType;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (address, entry) in description.entries() {
         let Some(data_type) = entry.data_type else {
             continue;
@@ -28,7 +28,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         {
             findings.push(
                 rules::E0415
-                    .at(
+                    .told(
                         place(&[low.span, entry.span]),
                         format!(
                             "LowLimit {} is greater than HighLimit {}",
@@ -36,11 +36,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                             text::shown(high)
                         ),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_label(high.span, "HighLimit is here")
                     .with_help("swap the two, or leave both empty")
-                    .with_fix(
-                        Fix::guess()
+                    .fix(
+                        Fix::unsafe_fix()
                             .replace(low.span, text::shown(high))
                             .replace(high.span, text::shown(low)),
                     ),
@@ -68,15 +68,15 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 let own = |span| token_of(span).is_some();
                 let fails = key == "ParameterValue" || own(value.span) || own(limit.span);
                 let rule = match fails {
-                    true => rules::E0414,
-                    false => rules::W0452,
+                    true => &rules::E0414,
+                    false => &rules::W0452,
                 };
                 findings.push(
-                    rule.at(
+                    rule.told(
                         place(&[value.span, entry.span]),
                         format!("{key} {shown} is {side} {bound}"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_label(limit.span, "the limit is here")
                     .with_help(format!(
                         "write a {key} within the limits, or mend the limit"

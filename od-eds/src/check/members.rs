@@ -8,12 +8,12 @@ use alloc::vec::Vec;
 
 use super::place;
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use od_model::{Address, ObjectCode};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in &description.objects {
         if !object.code.has_members() || *object.code == ObjectCode::DefStruct {
             continue;
@@ -26,8 +26,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             }
             findings.push(
                 rules::W0306
-                    .at(object.span, format!("the {} has no members", *object.code))
-                    .with_address(address)
+                    .told(object.span, format!("the {} has no members", *object.code))
+                    .about(address)
                     .with_help(format!(
                         "write a section [{index:04X}sub0] and one for every member"
                     )),
@@ -38,7 +38,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         if let Some(number) = object.sub_number.filter(|n| n.value as usize != count) {
             findings.push(
                 rules::W0308
-                    .at(
+                    .told(
                         place(&[number.span, object.span]),
                         format!(
                             "SubNumber is {}, but the object has {count} sub-ind{}",
@@ -46,9 +46,9 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                             if count == 1 { "ex" } else { "ices" }
                         ),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(format!("write `SubNumber={count}`"))
-                    .with_fix(Fix::safe().replace(number.span, format!("{count}"))),
+                    .fix(Fix::safe().replace(number.span, format!("{count}"))),
             );
         }
         if *object.code == ObjectCode::Array {
@@ -57,7 +57,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     }
 }
 
-fn one_type(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn one_type(index: u16, object: &ObjectDescription, findings: &mut Vec<Finding>) {
     let mut typed = object
         .entries
         .range(1..=254)
@@ -68,7 +68,7 @@ fn one_type(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnosti
     if let Some((sub, other)) = typed.find(|(_, other)| *other != first) {
         findings.push(
             rules::W0312
-                .at(
+                .told(
                     place(&[other.span, object.span]),
                     format!(
                         "a member of this ARRAY is {}, another {}",
@@ -76,11 +76,11 @@ fn one_type(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnosti
                         first.name()
                     ),
                 )
-                .with_address(Address::new(index, *sub))
+                .about(Address::new(index, *sub))
                 .with_label(first.span, format!("{} is declared here", first.name()))
                 .with_label(object.code.span, "ARRAY is declared here")
                 .with_help("write `ObjectType=0x9` (RECORD) if the types are right")
-                .with_fix(Fix::guess().replace(object.code.span, "0x9")),
+                .fix(Fix::unsafe_fix().replace(object.code.span, "0x9")),
         );
     }
 }

@@ -11,7 +11,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::{Finding, sort};
+use crate::span::{Span, Spanned};
 use od_model::Address;
 
 mod allow;
@@ -36,13 +37,14 @@ mod sub_index_0;
 pub(crate) mod text;
 mod values;
 
-pub use crate::rules::{Mending, RULES, Rule, rule};
+pub use crate::finding::{Fixability, Rule};
+pub use crate::rules::{RULES, rule};
 pub use allow::{Allows, parse_allow};
 
 /// All that is wrong with a description, in file order.
 ///
 /// What the text was like is not seen here: [`parse`](crate::parse) names that.
-pub fn check(description: &Description) -> Vec<Diagnostic> {
+pub fn check(description: &Description) -> Vec<Finding> {
     let mut findings = Vec::new();
     for check in [
         mandatory::check,
@@ -73,26 +75,18 @@ pub fn check(description: &Description) -> Vec<Diagnostic> {
 }
 
 /// Of members that one section stands for (CompactSubObj), the first is told about.
-fn once(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn once(description: &Description, findings: &mut Vec<Finding>) {
     let mut told = BTreeSet::new();
     findings.retain(|finding| {
-        let (Some(address), Some(span)) = (finding.address, finding.span) else {
+        let (Some(address), Some(span)) = (finding.object, finding.span()) else {
             return true;
         };
         let own = description.entry(address).map(|entry| entry.span);
         let object = description.objects.get(&address.index);
         let copied = own.is_some() && own == object.map(|object| object.span) && address.sub > 0;
-        !copied || told.insert((finding.code, span, address.index))
+        !copied || told.insert((finding.rule.code, span, address.index))
     });
 }
-/// File order; what stands nowhere comes last.
-pub(crate) fn sort(findings: &mut [Diagnostic]) {
-    findings.sort_by_key(|finding| match finding.span {
-        Some(span) => (0, span.line, span.column),
-        None => (1, 0, 0),
-    });
-}
-
 /// The first of these places that is one in a text.
 fn place(spans: &[Span]) -> Span {
     spans

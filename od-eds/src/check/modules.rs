@@ -7,12 +7,12 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::{Description, Section};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     if let Some(modules) = description.section("SupportedModules") {
         let count = modules.get("NrOfEntries").and_then(|count| number(count));
         for module in 1..=count.unwrap_or(0).clamp(0, 255) {
@@ -20,7 +20,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             if description.section(&name).is_none() {
                 findings.push(
                     rules::W0243
-                        .at(
+                        .told(
                             modules.name.span,
                             format!("there is no section [{name}] for module {module}"),
                         )
@@ -51,7 +51,7 @@ fn is_counted_list(name: &str) -> bool {
             .any(|known| word.eq_ignore_ascii_case(known))
 }
 
-fn counted(section: &Section, findings: &mut Vec<Diagnostic>) {
+fn counted(section: &Section, findings: &mut Vec<Finding>) {
     let entries = section.pairs.iter();
     let count = entries.filter(|(key, _)| number(key).is_some()).count();
     let Some(given) = section.get("NrOfEntries") else {
@@ -60,7 +60,7 @@ fn counted(section: &Section, findings: &mut Vec<Diagnostic>) {
     if number(given) != Some(count as i128) {
         findings.push(
             rules::W0244
-                .at(
+                .told(
                     given.span,
                     format!(
                         "NrOfEntries is {}, but the list has {count} entries",
@@ -68,12 +68,12 @@ fn counted(section: &Section, findings: &mut Vec<Diagnostic>) {
                     ),
                 )
                 .with_help(format!("write `NrOfEntries={count}`"))
-                .with_fix(Fix::safe().replace(given.span, format!("{count}"))),
+                .fix(Fix::safe().replace(given.span, format!("{count}"))),
         );
     }
 }
 
-fn segments(channels: &Section, findings: &mut Vec<Diagnostic>) {
+fn segments(channels: &Section, findings: &mut Vec<Finding>) {
     let Some(given) = channels.get("NrOfSeg") else {
         return;
     };
@@ -84,7 +84,7 @@ fn segments(channels: &Section, findings: &mut Vec<Diagnostic>) {
             if channels.get(&key).is_none() {
                 findings.push(
                     rules::W0245
-                        .at(
+                        .told(
                             given.span,
                             format!("there is no {key} for segment {segment}"),
                         )

@@ -8,11 +8,11 @@ use alloc::vec::Vec;
 
 use super::{place, text};
 use crate::description::{Description, Value};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::rules;
 use od_model::Kind;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (address, entry) in description.entries() {
         let Some(data_type) = entry.data_type.filter(|t| t.kind() != Kind::Record) else {
             continue;
@@ -30,20 +30,20 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             let span = place(&[value.span, entry.span]);
             let shown = text::shown(value);
             if !data_type.holds_node_id() {
-                findings.push(text::no_formula(key, &shown, span, data_type).with_address(address));
+                findings.push(text::no_formula(key, &shown, span, data_type).about(address));
             } else if !value.fits(*data_type) {
                 let name = data_type.name();
                 let high = data_type.integer_range().map_or(0, |(_, high)| high);
                 findings.push(
                     rules::E0418
-                        .at(
+                        .told(
                             span,
                             format!(
                                 "{key} `{shown}` is {} for node 127, which is no {name}",
                                 i128::from(offset) + 127
                             ),
                         )
-                        .with_address(address)
+                        .about(address)
                         .with_label(data_type.span, format!("{name} is declared here"))
                         .with_help(format!("write at most `$NODEID+0x{:X}`", high - 127)),
                 );

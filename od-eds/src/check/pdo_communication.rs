@@ -9,12 +9,12 @@ use alloc::vec::Vec;
 
 use super::{place, start_number};
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use od_model::{Address, DataType};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in description.objects.range(0x1400..=0x1BFF) {
         let (other, what) = match index {
             0x1400..=0x15FF | 0x1800..=0x19FF => (index + 0x200, "mapping"),
@@ -23,11 +23,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         if !description.objects.contains_key(&other) {
             findings.push(
                 rules::W0508
-                    .at(
+                    .told(
                         object.span,
                         format!("{index:04X}h has no {what} parameter {other:04X}h"),
                     )
-                    .with_address(Address::new(*index, 0))
+                    .about(Address::new(*index, 0))
                     .with_help(format!("write a section [{other:04X}]")),
             );
         }
@@ -41,7 +41,7 @@ fn communication(
     description: &Description,
     index: u16,
     object: &ObjectDescription,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     for (sub, what, data_type) in [
         (1, "COB-ID", DataType::Unsigned32),
@@ -52,8 +52,8 @@ fn communication(
         let Some(entry) = entry.filter(|_| object.code.has_members()) else {
             findings.push(
                 rules::E0509
-                    .at(object.span, format!("there is no sub-index {sub} ({what})"))
-                    .with_address(Address::new(index, 0))
+                    .told(object.span, format!("there is no sub-index {sub} ({what})"))
+                    .about(Address::new(index, 0))
                     .with_help(format!("write a section [{index:04X}sub{sub}]")),
             );
             continue;
@@ -61,14 +61,15 @@ fn communication(
         if let Some(given) = entry.data_type.filter(|given| **given != data_type) {
             findings.push(
                 rules::E0509
-                    .at(
+                    .told(
                         place(&[given.span, entry.span]),
                         format!("the {what} must be {data_type}, but is {}", *given),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(format!("write `DataType=0x{:04X}`", data_type.code()))
-                    .with_fix(
-                        Fix::guess().replace(given.span, format!("0x{:04X}", data_type.code())),
+                    .fix(
+                        Fix::unsafe_fix()
+                            .replace(given.span, format!("0x{:04X}", data_type.code())),
                     ),
             );
         }
@@ -82,11 +83,11 @@ fn communication(
         if (241..=last).contains(&number.value) {
             findings.push(
                 rules::W0511
-                    .at(
+                    .told(
                         place(&[number.span, object.span]),
                         format!("transmission type {} is reserved", number.value),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(match rpdo {
                         true => "an RPDO has 0–240, 254 or 255",
                         false => "a TPDO has 0–240 or 252–255",

@@ -7,12 +7,12 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(info) = description.section("DeviceInfo") else {
         return;
     };
@@ -25,12 +25,12 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         match number(given) {
             Some(number) if number != count as i128 => findings.push(
                 rules::W0608
-                    .at(
+                    .told(
                         given.span,
                         format!("{key} is {number}, but there are {count} objects {what}"),
                     )
                     .with_help(format!("write `{key}={count}`"))
-                    .with_fix(Fix::safe().replace(given.span, format!("{count}"))),
+                    .fix(Fix::safe().replace(given.span, format!("{count}"))),
             ),
             _ => {}
         }

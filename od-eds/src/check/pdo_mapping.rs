@@ -10,10 +10,11 @@ use alloc::vec::Vec;
 
 use super::{named, place, start_number};
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
+use crate::span::{Span, Spanned};
 use od_model::{Address, DataType};
 
 /// What one mapping entry says, and where.
@@ -26,7 +27,7 @@ struct Mapped {
     rpdo: bool,
 }
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in description.objects.range(0x1600..=0x1BFF) {
         let rpdo = match index {
             0x1600..=0x17FF => true,
@@ -44,7 +45,7 @@ fn mapping(
     index: u16,
     rpdo: bool,
     object: &ObjectDescription,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     // Without a count, nothing is known to be mapped.
     let count = start_number(description, Address::new(index, 0)).map_or(0, |count| count.value);
@@ -56,11 +57,11 @@ fn mapping(
             let span = start_number(description, address).map(|count| count.span);
             findings.push(
                 rules::W0524
-                    .at(
+                    .told(
                         span.unwrap_or(object.span),
                         format!("{count} objects cannot be mapped into 64 bits"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write a number up to 64, or 254 or 255 for a multiplexed PDO"),
             );
             return;
@@ -81,13 +82,13 @@ fn mapping(
         if let Some(given) = entry.data_type.filter(|t| **t != DataType::Unsigned32) {
             findings.push(
                 rules::E0510
-                    .at(
+                    .told(
                         place(&[given.span, entry.span]),
                         format!("a mapping entry must be UNSIGNED32, but is {}", *given),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write `DataType=0x0007`")
-                    .with_fix(Fix::guess().replace(given.span, "0x0007")),
+                    .fix(Fix::unsafe_fix().replace(given.span, "0x0007")),
             );
             continue;
         }
@@ -101,11 +102,11 @@ fn mapping(
             // Nothing, not even a length: there is nothing else to judge.
             findings.push(
                 rules::W0525
-                    .at(
+                    .told(
                         place(&[value.span, entry.span]),
                         format!("{count} objects are mapped, but this entry maps nothing"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write what is mapped, or a lower number into sub-index 0"),
             );
             continue;
@@ -116,11 +117,11 @@ fn mapping(
         {
             Some((_, first)) => findings.push(
                 rules::I0528
-                    .at(
+                    .told(
                         place(&[value.span, entry.span]),
                         "this PDO carries the same object twice",
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_label(*first, "it is mapped here, too")
                     .with_help("map it once, if twice is not meant"),
             ),
@@ -134,37 +135,37 @@ fn mapping(
             bits: Spanned::new(len, span),
             rpdo,
         };
-        let told = |findings: &[Diagnostic]| findings.iter().any(|d| d.code == rules::W0526.code);
+        let told = |findings: &[Finding]| findings.iter().any(|d| d.rule.code == rules::W0526.code);
         if let Some(coarse) = granularity.filter(|coarse| !u32::from(len).is_multiple_of(*coarse))
             && !told(findings)
         {
             findings.push(
                 rules::W0526
-                    .at(
+                    .told(
                         span,
                         format!("{len} bits are mapped, but Granularity is {coarse}"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("map a multiple of the granularity, or mend it in [DeviceInfo]"),
             );
         }
         if let Some(finding) = target(description, &mapped) {
-            findings.push(finding.with_address(address));
+            findings.push(finding.about(address));
         }
         let before = bits;
         bits += u32::from(len);
         if before <= 64 && bits > 64 {
             findings.push(
                 rules::E0505
-                    .at(span, format!("with this object the PDO has {bits} bits"))
-                    .with_address(address)
+                    .told(span, format!("with this object the PDO has {bits} bits"))
+                    .about(address)
                     .with_help("a PDO has at most 64 bits; map less"),
             );
         }
     }
 }
 
-fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
+fn target(description: &Description, mapped: &Mapped) -> Option<Finding> {
     let Mapped { target, bits, .. } = mapped;
     let span = bits.span;
     if (1..=0x1F).contains(&target.index) {
@@ -173,14 +174,14 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
     let Some(object) = description.objects.get(&target.index) else {
         return Some(
             rules::E0501
-                .at(span, format!("{:04X}h does not exist", target.index))
+                .told(span, format!("{:04X}h does not exist", target.index))
                 .with_help("map an object that exists, or add it"),
         );
     };
     let Some(entry) = object.entries.get(&target.sub) else {
         return Some(
             rules::E0512
-                .at(span, format!("{target} does not exist"))
+                .told(span, format!("{target} does not exist"))
                 .with_label(object.span, format!("{:04X}h is here", target.index))
                 .with_help("map a sub-index that exists, or add it"),
         );
@@ -190,7 +191,7 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
     if !*entry.mappable {
         return Some(
             rules::E0502
-                .at(span, format!("{shown} \"{name}\" is not mappable"))
+                .told(span, format!("{shown} \"{name}\" is not mappable"))
                 .with_label(
                     place(&[entry.mappable.span, entry.span]),
                     "the object is here",
@@ -198,7 +199,7 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
                 .with_help(format!(
                     "write `PDOMapping=1` for {shown}, or map another object"
                 ))
-                .with_fix(Fix::guess().replace(entry.mappable.span, "1")),
+                .fix(Fix::unsafe_fix().replace(entry.mappable.span, "1")),
         );
     }
     let direction = match mapped.rpdo {
@@ -212,7 +213,7 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
         };
         return Some(
             rules::E0503
-                .at(
+                .told(
                     span,
                     format!("{shown} \"{name}\" is {} and not for {pdo}", *entry.access),
                 )
@@ -233,14 +234,14 @@ fn target(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
     }
 }
 
-fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Diagnostic {
+fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Finding {
     let Mapped { target, bits, .. } = mapped;
     let rule = match (right, **bits) {
-        (1, 8) => rules::W0513,
-        _ => rules::E0504,
+        (1, 8) => &rules::W0513,
+        _ => &rules::E0504,
     };
     let mended = format!("0x{:04X}{:02X}{right:02X}", target.index, target.sub);
-    rule.at(
+    rule.told(
         bits.span,
         format!(
             "{shown} has {right} bit{}, but is mapped with {}",
@@ -249,17 +250,17 @@ fn wrong_length(mapped: &Mapped, shown: &str, right: u8) -> Diagnostic {
         ),
     )
     .with_help(format!("write `{mended}`"))
-    .with_fix(Fix::guess().replace(bits.span, mended))
+    .fix(Fix::unsafe_fix().replace(bits.span, mended))
 }
 
 /// A data type as a placeholder for bits that the device ignores.
-fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
+fn dummy(description: &Description, mapped: &Mapped) -> Option<Finding> {
     let Mapped { target, bits, .. } = mapped;
     let index = target.index;
     if !mapped.rpdo {
         return Some(
             rules::E0507
-                .at(
+                .told(
                     bits.span,
                     format!("{index:04X}h is a dummy, and this is a TPDO"),
                 )
@@ -279,18 +280,18 @@ fn dummy(description: &Description, mapped: &Mapped) -> Option<Diagnostic> {
         return None;
     }
     let fix = match (given, usage) {
-        (Some(value), _) => Fix::guess().replace(value.span, "1"),
-        (None, Some(usage)) => Fix::guess().below(usage.name.span, format!("{key}=1")),
-        (None, None) => Fix::guess(),
+        (Some(value), _) => Fix::unsafe_fix().replace(value.span, "1"),
+        (None, Some(usage)) => Fix::unsafe_fix().below(usage.name.span, format!("{key}=1")),
+        (None, None) => Fix::unsafe_fix(),
     };
     Some(
         rules::W0506
-            .at(
+            .told(
                 bits.span,
                 format!("[DummyUsage] does not allow the dummy {index:04X}h"),
             )
-            .with_address(mapped.entry)
+            .about(mapped.entry)
             .with_help(format!("write `{key}=1` in [DummyUsage]"))
-            .with_fix(fix),
+            .fix(fix),
     )
 }

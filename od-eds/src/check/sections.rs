@@ -9,12 +9,13 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, Section};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
+use crate::span::{Span, Spanned};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     if description.objects.is_empty() {
         return;
     }
@@ -22,7 +23,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         if description.section(name).is_none() {
             findings.push(
                 rules::I0240
-                    .anywhere(format!("there is no section [{name}]"))
+                    .told(Span::default(), format!("there is no section [{name}]"))
                     .with_help(format!("write a section [{name}]")),
             );
         }
@@ -38,7 +39,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     }
 }
 
-fn device_info(info: &Section, findings: &mut Vec<Diagnostic>) {
+fn device_info(info: &Section, findings: &mut Vec<Finding>) {
     let rates: Vec<&Spanned<String>> = info
         .pairs
         .iter()
@@ -53,7 +54,7 @@ fn device_info(info: &Section, findings: &mut Vec<Diagnostic>) {
     {
         findings.push(
             rules::W0637
-                .at(first.span, "the device supports no bit rate at all")
+                .told(first.span, "the device supports no bit rate at all")
                 .with_help(
                     "write 1 for each bit rate that it supports, for example `BaudRate_125=1`",
                 ),
@@ -61,7 +62,7 @@ fn device_info(info: &Section, findings: &mut Vec<Diagnostic>) {
     }
 }
 
-fn dummies(usage: &Section, findings: &mut Vec<Diagnostic>) {
+fn dummies(usage: &Section, findings: &mut Vec<Finding>) {
     let missing: Vec<String> = (1..=7)
         .map(|index| format!("Dummy{index:04X}"))
         .filter(|key| usage.get(key).is_none())
@@ -70,17 +71,17 @@ fn dummies(usage: &Section, findings: &mut Vec<Diagnostic>) {
         let lines: Vec<String> = missing.iter().map(|key| format!("{key}=0")).collect();
         findings.push(
             rules::I0251
-                .at(
+                .told(
                     usage.name.span,
                     format!("[DummyUsage] does not say {}", missing.join(", ")),
                 )
                 .with_help("write 0, which is taken now, or 1 for each")
-                .with_fix(Fix::safe().below(usage.name.span, lines.join("\n"))),
+                .fix(Fix::safe().below(usage.name.span, lines.join("\n"))),
         );
     }
 }
 
-fn comments(section: &Section, findings: &mut Vec<Diagnostic>) {
+fn comments(section: &Section, findings: &mut Vec<Finding>) {
     let lines = section
         .pairs
         .iter()
@@ -107,12 +108,12 @@ fn comments(section: &Section, findings: &mut Vec<Diagnostic>) {
         };
         findings.push(
             rules::W0241
-                .at(
+                .told(
                     span,
                     format!("[Comments] has {lines} lines, but Lines says otherwise"),
                 )
                 .with_help(format!("write `Lines={lines}`"))
-                .with_fix(fix),
+                .fix(fix),
         );
     }
 }

@@ -8,10 +8,11 @@ use alloc::vec::Vec;
 
 use super::{place, start_number, start_value};
 use crate::description::{Description, Value};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::number::number;
+use crate::span::Span;
 use od_model::Address;
 
 /// An object, the one it is nothing without, and what it is about.
@@ -27,18 +28,18 @@ const PAIRS: [(u16, u16, &str); 9] = [
     (0x1024, 0x1023, "an OS command mode needs OS commands"),
 ];
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, other, why) in PAIRS {
         if let Some(object) = description.objects.get(&index)
             && !description.objects.contains_key(&other)
         {
             findings.push(
                 rules::W0642
-                    .at(
+                    .told(
                         object.span,
                         format!("there is {index:04X}h, but no {other:04X}h: {why}"),
                     )
-                    .with_address(Address::new(index, 0))
+                    .about(Address::new(index, 0))
                     .with_help(format!(
                         "write a section [{other:04X}], or remove [{index:04X}]"
                     )),
@@ -49,7 +50,10 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     if has(0x1000) && !has(0x1017) && !has(0x100C) {
         findings.push(
             rules::W0635
-                .anywhere("there is neither 1017h (heartbeat) nor 100Ch (node guarding)")
+                .told(
+                    Span::default(),
+                    "there is neither 1017h (heartbeat) nor 100Ch (node guarding)",
+                )
                 .with_help("write a section [1017]; every device has one of the two"),
         );
     }
@@ -60,7 +64,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     commissioning(description, findings);
 }
 
-fn error_history(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn error_history(description: &Description, findings: &mut Vec<Finding>) {
     let address = Address::new(0x1003, 0);
     let Some(entry) = description.entry(address) else {
         return;
@@ -70,20 +74,20 @@ fn error_history(description: &Description, findings: &mut Vec<Diagnostic>) {
     {
         findings.push(
             rules::W0639
-                .at(
+                .told(
                     place(&[value.span, entry.span]),
                     "a new device has errors in its history already",
                 )
-                .with_address(address)
+                .about(address)
                 .with_help(
                     "write `DefaultValue=0`: sub-index 0 of 1003h counts the errors there are",
                 )
-                .with_fix(Fix::guess().replace(value.span, "0")),
+                .fix(Fix::unsafe_fix().replace(value.span, "0")),
         );
     }
 }
 
-fn lss(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn lss(description: &Description, findings: &mut Vec<Finding>) {
     let info = description.section("DeviceInfo");
     let Some(given) = info.and_then(|info| info.get("LSS_Supported")) else {
         return;
@@ -101,21 +105,21 @@ fn lss(description: &Description, findings: &mut Vec<Diagnostic>) {
             .collect();
         findings.push(
             rules::W0634
-                .at(
+                .told(
                     given.span,
                     format!(
                         "an LSS address needs {}, which the device lacks",
                         list.join(", ")
                     ),
                 )
-                .with_address(Address::new(0x1018, 0))
+                .about(Address::new(0x1018, 0))
                 .with_label(identity.span, "1018h is here")
                 .with_help("write the missing sections, or `LSS_Supported=0`"),
         );
     }
 }
 
-fn sync(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn sync(description: &Description, findings: &mut Vec<Finding>) {
     if description.objects.contains_key(&0x1005) {
         return;
     }
@@ -130,21 +134,21 @@ fn sync(description: &Description, findings: &mut Vec<Diagnostic>) {
         if matches!(kind.value, 0..=240 | 252 | 253) {
             findings.push(
                 rules::W0529
-                    .at(
+                    .told(
                         place(&[kind.span, object.span]),
                         format!(
                             "transmission type {} waits for SYNC, but there is no 1005h",
                             kind.value
                         ),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write a section [1005], or another transmission type such as 255"),
             );
         }
     }
 }
 
-fn sdo_server(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn sdo_server(description: &Description, findings: &mut Vec<Finding>) {
     for (sub, base) in [(1, 0x600), (2, 0x580)] {
         let address = Address::new(0x1200, sub);
         let Some(entry) = description.entry(address) else {
@@ -164,19 +168,19 @@ fn sdo_server(description: &Description, findings: &mut Vec<Diagnostic>) {
         if !right {
             findings.push(
                 rules::W0530
-                    .at(
+                    .told(
                         place(&[value.span, entry.span]),
                         format!("the first SDO server has {base:X}h plus the node ID here"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(format!("write `$NODEID+0x{base:X}`"))
-                    .with_fix(Fix::guess().replace(value.span, format!("$NODEID+0x{base:X}"))),
+                    .fix(Fix::unsafe_fix().replace(value.span, format!("$NODEID+0x{base:X}"))),
             );
         }
     }
 }
 
-fn commissioning(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn commissioning(description: &Description, findings: &mut Vec<Finding>) {
     let section = description.section("DeviceComissioning");
     let Some(section) = section.or_else(|| description.section("DeviceCommissioning")) else {
         return;
@@ -201,7 +205,7 @@ fn commissioning(description: &Description, findings: &mut Vec<Diagnostic>) {
         if number(given).is_some_and(|n| (0..=high).contains(&n) && !valid.contains(&n)) {
             findings.push(
                 rules::W0638
-                    .at(given.span, format!("{key} is `{}`", given.value))
+                    .told(given.span, format!("{key} is `{}`", given.value))
                     .with_help(help),
             );
         }

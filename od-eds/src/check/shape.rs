@@ -10,15 +10,16 @@ use alloc::vec::Vec;
 
 use super::place;
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
+use crate::span::Span;
 use od_model::{Address, ObjectCode};
 
 /// The longest name of CiA 306.
 const NAME: usize = 241;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     let mut names: BTreeMap<&str, (u16, Span)> = BTreeMap::new();
     for (index, object) in &description.objects {
         area(*index, object, findings);
@@ -34,11 +35,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             None => drop(names.insert(name, (*index, object.name.span))),
             Some((first, span)) => findings.push(
                 rules::I0346
-                    .at(
+                    .told(
                         place(&[object.name.span, object.span]),
                         format!("{index:04X}h and {first:04X}h are both called \"{name}\""),
                     )
-                    .with_address(Address::new(*index, 0))
+                    .about(Address::new(*index, 0))
                     .with_label(*span, "the other one is here")
                     .with_help("give one of them another name"),
             ),
@@ -46,18 +47,18 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
     }
 }
 
-fn area(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn area(index: u16, object: &ObjectDescription, findings: &mut Vec<Finding>) {
     if matches!(index, 0 | 0x0260..=0x0FFF | 0xC000..) {
         findings.push(
             rules::W0343
-                .at(object.span, format!("{index:04X}h is a reserved index"))
-                .with_address(Address::new(index, 0))
+                .told(object.span, format!("{index:04X}h is a reserved index"))
+                .about(Address::new(index, 0))
                 .with_help("objects of your own have 2000h to 5FFFh"),
         );
     }
 }
 
-fn flags(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn flags(index: u16, object: &ObjectDescription, findings: &mut Vec<Finding>) {
     let own = (0, object.flags, object.span);
     let entries = object.entries.iter();
     let entries = entries.map(|(sub, entry)| (*sub, entry.flags, entry.span));
@@ -65,32 +66,32 @@ fn flags(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>)
         if flags & !3 != 0 {
             findings.push(
                 rules::W0342
-                    .at(
+                    .told(
                         span,
                         format!("ObjFlags is 0x{flags:X}, but only bits 0 and 1 have a meaning"),
                     )
-                    .with_address(Address::new(index, sub))
+                    .about(Address::new(index, sub))
                     .with_help("write a number from 0 to 3"),
             );
         }
     }
 }
 
-fn members(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn members(index: u16, object: &ObjectDescription, findings: &mut Vec<Finding>) {
     if !object.code.has_members() {
         if let Some(number) = object.sub_number.filter(|number| number.value > 1) {
             findings.push(
                 rules::W0352
-                    .at(
+                    .told(
                         place(&[number.span, object.span]),
                         format!(
                             "a {} has no sub-indices, but SubNumber is {}",
                             *object.code, number.value
                         ),
                     )
-                    .with_address(Address::new(index, 0))
+                    .about(Address::new(index, 0))
                     .with_help("leave SubNumber out")
-                    .with_fix(Fix::guess().remove_line(number.span)),
+                    .fix(Fix::unsafe_fix().remove_line(number.span)),
             );
         }
         return;
@@ -111,11 +112,11 @@ fn members(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic
         {
             findings.push(
                 rules::I0345
-                    .at(
+                    .told(
                         place(&[entry.name.span, entry.span]),
                         format!("two members are called \"{name}\""),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_label(first, "the other one is here")
                     .with_help("give one of them another name"),
             );
@@ -128,27 +129,27 @@ fn members(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic
     {
         findings.push(
             rules::W0347
-                .at(
+                .told(
                     place(&[count.access.span, count.span]),
                     format!("sub-index 0 counts the members, but is {}", *count.access),
                 )
-                .with_address(Address::new(index, 0))
+                .about(Address::new(index, 0))
                 .with_help("write `AccessType=const`")
-                .with_fix(Fix::guess().replace(count.access.span, "const")),
+                .fix(Fix::unsafe_fix().replace(count.access.span, "const")),
         );
     }
 }
 
-fn gap(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
+fn gap(index: u16, object: &ObjectDescription, findings: &mut Vec<Finding>) {
     for (expected, (sub, entry)) in (1u16..).zip(object.entries.range(1..=254)) {
         if u16::from(*sub) != expected {
             findings.push(
                 rules::W0351
-                    .at(
+                    .told(
                         entry.span,
                         format!("this ARRAY has sub-index {sub}, but no sub-index {expected}"),
                     )
-                    .with_address(Address::new(index, *sub))
+                    .about(Address::new(index, *sub))
                     .with_help("number the members without a gap, or make it a RECORD"),
             );
             return;
@@ -156,16 +157,16 @@ fn gap(index: u16, object: &ObjectDescription, findings: &mut Vec<Diagnostic>) {
     }
 }
 
-fn long(address: Address, name: &str, span: Span, findings: &mut Vec<Diagnostic>) {
+fn long(address: Address, name: &str, span: Span, findings: &mut Vec<Finding>) {
     let length = name.chars().count();
     if length > NAME {
         findings.push(
             rules::W0344
-                .at(
+                .told(
                     span,
                     format!("the name has {length} characters, and {NAME} are the most"),
                 )
-                .with_address(address)
+                .about(address)
                 .with_help("find a shorter name"),
         );
     }

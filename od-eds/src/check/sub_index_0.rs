@@ -11,13 +11,13 @@ use alloc::vec::Vec;
 
 use super::{place, start_number};
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
-use crate::patch::token_of;
 use crate::rules;
+use crate::span::token_of;
 use od_model::{Address, DataType, ObjectCode};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in &description.objects {
         if !object.code.has_members()
             || *object.code == ObjectCode::DefStruct
@@ -29,25 +29,25 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
         let Some(count) = object.entries.get(&0) else {
             findings.push(
                 rules::W0307
-                    .at(object.span, "there is no sub-index 0")
-                    .with_address(address)
+                    .told(object.span, "there is no sub-index 0")
+                    .about(address)
                     .with_help(format!(
                         "write a section [{index:04X}sub0] with `DataType=0x0005` and the highest sub-index as its DefaultValue"
                     ))
-                    .with_fix(missing(*index, object)),
+                    .fix(missing(*index, object)),
             );
             continue;
         };
         if let Some(data_type) = count.data_type.filter(|t| **t != DataType::Unsigned8) {
             findings.push(
                 rules::E0309
-                    .at(
+                    .told(
                         place(&[data_type.span, count.span]),
                         format!("sub-index 0 must be UNSIGNED8, but is {}", data_type.name()),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write `DataType=0x0005`")
-                    .with_fix(Fix::guess().replace(data_type.span, "0x0005")),
+                    .fix(Fix::unsafe_fix().replace(data_type.span, "0x0005")),
             );
             continue;
         }
@@ -69,8 +69,8 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 // A PDO that maps nothing where its count says it maps something cannot be made;
                 // what stands in a macro call is the author's own to mend.
                 match counts_mapped(*index) || token_of(number.span).is_some() {
-                    true => rules::E0310,
-                    false => rules::W0350,
+                    true => &rules::E0310,
+                    false => &rules::W0350,
                 },
                 format!(
                     "sub-index 0 is {}, but the highest member is {highest}",
@@ -79,7 +79,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             )
         } else if number.value < u64::from(highest) && !in_use {
             (
-                rules::W0311,
+                &rules::W0311,
                 format!(
                     "sub-index 0 is {}, but there is a member {highest}",
                     number.value
@@ -89,10 +89,10 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
             continue;
         };
         findings.push(
-            rule.at(place(&[number.span, count.span]), message)
-                .with_address(address)
+            rule.told(place(&[number.span, count.span]), message)
+                .about(address)
                 .with_help(format!("write `DefaultValue={highest}`"))
-                .with_fix(Fix::guess().replace(number.span, format!("{highest}"))),
+                .fix(Fix::unsafe_fix().replace(number.span, format!("{highest}"))),
         );
     }
 }
@@ -100,11 +100,11 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
 /// A sub-index 0, written before the first member.
 fn missing(index: u16, object: &ObjectDescription) -> Fix {
     let Some((_, first)) = object.entries.first_key_value() else {
-        return Fix::guess();
+        return Fix::unsafe_fix();
     };
     let highest = object.entries.range(..255).next_back();
     let highest = highest.map_or(0, |(sub, _)| *sub);
-    Fix::guess().above(
+    Fix::unsafe_fix().above(
         first.span,
         format!(
             "[{index:04X}sub0]\nParameterName=Highest sub-index supported\nObjectType=0x7\n\

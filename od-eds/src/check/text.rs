@@ -4,18 +4,20 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use crate::description::Value;
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fact::Key;
+use crate::finding::Finding;
+use crate::finding::Rule;
 use crate::fix::Fix;
 use crate::rules;
-use crate::rules::Rule;
+use crate::span::{Span, Spanned};
 use od_model::{DataType, Kind};
 
 /// The rule that a value of this key breaks if it is none of its type.
-pub(crate) fn rule_of(key: &str) -> Rule {
+pub(crate) fn rule_of(key: &str) -> &'static Rule {
     match key {
-        "DefaultValue" => rules::E0412,
-        "ParameterValue" => rules::E0413,
-        _ => rules::W0416,
+        "DefaultValue" => &rules::E0412,
+        "ParameterValue" => &rules::E0413,
+        _ => &rules::W0416,
     }
 }
 
@@ -25,14 +27,14 @@ pub(crate) fn no_value(
     given: &str,
     span: Span,
     data_type: Spanned<DataType>,
-) -> Diagnostic {
+) -> Finding {
     let name = data_type.name();
     let formula = given.to_ascii_uppercase().contains("$NODEID");
     if formula && !data_type.holds_node_id() {
         return no_formula(key, given, span, data_type);
     }
     let finding = rule_of(key)
-        .at(span, format!("{key} `{given}` is no {name}"))
+        .told(span, format!("{key} `{given}` is no {name}"))
         .with_label(data_type.span, format!("{name} is declared here"))
         .with_help(match formula {
             true => "write `$NODEID+` and a number".into(),
@@ -41,9 +43,13 @@ pub(crate) fn no_value(
                 false => format!("write {}", form(*data_type)),
             },
         });
+    let finding = Finding {
+        key: Key::of(key),
+        ..finding
+    };
     match key.ends_with("Limit") {
         // It limits nothing, and is left out by those who cannot read it.
-        true => finding.with_fix(Fix::guess().replace(span, "")),
+        true => finding.fix(Fix::unsafe_fix().replace(span, "")),
         false => finding,
     }
 }
@@ -53,16 +59,16 @@ pub(crate) fn no_limit(
     key: &str,
     given: &crate::scan::placed::Text<'_>,
     data_type: Spanned<DataType>,
-) -> Diagnostic {
+) -> Finding {
     let name = data_type.name();
     rules::W0416
-        .at(
+        .told(
             given.span,
             format!("{key} `{}`: a {name} has no limits", given.value),
         )
         .with_label(data_type.span, format!("{name} is declared here"))
         .with_help(format!("write `{key}=`, or leave the line out"))
-        .with_fix(Fix::guess().replace(given.span, ""))
+        .fix(Fix::unsafe_fix().replace(given.span, ""))
 }
 
 /// The finding that a formula stands where the node ID cannot be.
@@ -71,12 +77,16 @@ pub(crate) fn no_formula(
     given: &str,
     span: Span,
     data_type: Spanned<DataType>,
-) -> Diagnostic {
+) -> Finding {
     let name = data_type.name();
-    rules::E0417
-        .at(span, format!("{key} `{given}`: {name} holds no $NODEID"))
+    let finding = rules::E0417
+        .told(span, format!("{key} `{given}`: {name} holds no $NODEID"))
         .with_label(data_type.span, format!("{name} is declared here"))
-        .with_help("write a number, or `DataType=0x0007` (UNSIGNED32)")
+        .with_help("write a number, or `DataType=0x0007` (UNSIGNED32)");
+    Finding {
+        key: Key::of(key),
+        ..finding
+    }
 }
 
 /// What a value of the type looks like.

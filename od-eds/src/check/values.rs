@@ -8,10 +8,10 @@ use alloc::vec::Vec;
 
 use super::{place, text};
 use crate::description::{Description, Value};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use od_model::Kind;
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (address, entry) in description.entries() {
         let Some(data_type) = entry.data_type.filter(|t| t.kind() != Kind::Record) else {
             continue;
@@ -27,9 +27,7 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
                 continue;
             }
             let span = place(&[value.span, entry.span]);
-            findings.push(
-                text::no_value(key, &text::shown(value), span, data_type).with_address(address),
-            );
+            findings.push(text::no_value(key, &text::shown(value), span, data_type).about(address));
         }
     }
 }

@@ -4,7 +4,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, Section, Value};
-use crate::diagnostic::Spanned;
+use crate::span::Spanned;
 use od_model::{DataType, Kind};
 
 const COMMISSIONING: &str = "DeviceComissioning";

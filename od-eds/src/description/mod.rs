@@ -11,7 +11,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Span, Spanned};
+use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
 
 /// A default, a limit or a configured value, owned.

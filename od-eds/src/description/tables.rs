@@ -6,7 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
-use crate::diagnostic::Spanned;
+use crate::span::Spanned;
 use od_model::owned::store_len;
 use od_model::owned::{EMPTY, fill};
 use od_model::{

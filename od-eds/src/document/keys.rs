@@ -5,11 +5,11 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Document, Edit, EditError, one_line};
-use crate::diagnostic::Span;
 use crate::scan::lines;
 use crate::scan::lines::{RawPair, RawSection};
 use crate::scan::number;
 use crate::scan::number::Note;
+use crate::span::Span;
 
 impl Document {
     /// The value of a key in the sections of a name, both in any case; of keys that stand

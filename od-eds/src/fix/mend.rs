@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 
 use super::{Applicability, plan};
-use crate::diagnostic::Diagnostic;
 use crate::document::{Document, Edit};
+use crate::finding::Finding;
 
 /// So many rounds at most: a fix may make room for the next one, but not for ever.
 const ROUNDS: usize = 16;
@@ -17,7 +17,7 @@ pub struct Mended {
     /// How many places were edited.
     pub edits: usize,
     /// What is left to say about it.
-    pub findings: Vec<Diagnostic>,
+    pub findings: Vec<Finding>,
 }
 
 /// Mends a document as far as fixes up to `level` go; `find` says what is wrong with it.
@@ -27,7 +27,7 @@ pub struct Mended {
 pub fn mend(
     document: &Document,
     level: Applicability,
-    find: impl Fn(&Document) -> Vec<Diagnostic>,
+    find: impl Fn(&Document) -> Vec<Finding>,
 ) -> Mended {
     let mut mended = Mended {
         document: document.clone(),
@@ -59,6 +59,6 @@ pub fn mend(
     mended
 }
 
-fn errors(findings: &[Diagnostic]) -> usize {
+fn errors(findings: &[Finding]) -> usize {
     findings.iter().filter(|finding| finding.is_error()).count()
 }

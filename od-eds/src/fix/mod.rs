@@ -17,8 +17,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::patch::token_of;
+use crate::span::{Span, token_of};
 
 mod mend;
 mod plan;
@@ -86,8 +85,8 @@ impl Fix {
         Self::new(Applicability::Safe)
     }
 
-    /// A fix that is a guess; edits are added to it.
-    pub const fn guess() -> Self {
+    /// A fix to be reviewed; edits are added to it.
+    pub const fn unsafe_fix() -> Self {
         Self::new(Applicability::Unsafe)
     }
 
@@ -134,22 +133,4 @@ impl Fix {
         let placed = !self.edits.is_empty() && !self.edits.iter().any(nowhere);
         placed.then_some(self)
     }
-
-    /// The plain replacements in `text`, which is the one that the finding is about.
-    ///
-    /// `None` if it is another.
-    pub fn text_edits(&self, text: &str) -> Option<Vec<TextEdit>> {
-        self.edits
-            .iter()
-            .map(|edit| plan::place(edit, text))
-            .collect()
-    }
-}
-
-/// Is the finding one that a run of this level mends?
-fn applies(finding: &Diagnostic, level: Applicability) -> Option<&Fix> {
-    finding
-        .fix
-        .as_ref()
-        .filter(|fix| fix.applicability <= level)
 }

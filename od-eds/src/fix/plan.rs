@@ -3,8 +3,8 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Action, Applicability, Edit, applies};
-use crate::diagnostic::Diagnostic;
+use super::{Action, Applicability, Edit, Fix};
+use crate::finding::Finding;
 
 /// A stretch of the text, and what takes its place.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -34,7 +34,7 @@ impl TextEdit {
 /// The replacements that mend what can be mended at once, in the order of the text.
 ///
 /// Of two fixes that meet, the first is taken; the other is for the next round.
-pub fn plan(text: &str, findings: &[Diagnostic], level: Applicability) -> Vec<TextEdit> {
+pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextEdit> {
     let mut planned: Vec<TextEdit> = Vec::new();
     for fix in findings.iter().filter_map(|d| applies(d, level)) {
         let Some(edits) = fix.text_edits(text) else {
@@ -63,6 +63,23 @@ pub fn plan(text: &str, findings: &[Diagnostic], level: Applicability) -> Vec<Te
     planned
 }
 
+impl Fix {
+    /// The plain replacements in `text`, which is the one that the finding is about.
+    ///
+    /// `None` if it is another.
+    pub fn text_edits(&self, text: &str) -> Option<Vec<TextEdit>> {
+        self.edits.iter().map(|edit| place(edit, text)).collect()
+    }
+}
+
+/// Is the finding one that a run of this level mends?
+fn applies(finding: &Finding, level: Applicability) -> Option<&Fix> {
+    finding
+        .fix
+        .as_ref()
+        .filter(|fix| fix.applicability <= level)
+}
+
 /// The text with these edits, which are sorted and do not meet, as [`plan`] gives them.
 pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     let mut out = String::with_capacity(text.len());
@@ -77,7 +94,7 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
 }
 
 /// Where an edit is in the text.
-pub(super) fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
+fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
     let (start, end) = (edit.span.start as usize, edit.span.end as usize);
     let (before, _, behind) = (text.get(..start)?, text.get(start..end)?, text.get(end..)?);
     let is_end = |c: char| matches!(c, '\n' | '\r');
@@ -123,8 +140,8 @@ mod tests {
     use alloc::vec;
 
     use super::*;
-    use crate::diagnostic::Span;
     use crate::fix::Fix;
+    use crate::span::Span;
 
     fn span(text: &str, part: &str) -> Span {
         let start = text.find(part).unwrap() as u32;
@@ -136,8 +153,8 @@ mod tests {
         }
     }
 
-    fn finding(fix: Fix) -> Diagnostic {
-        Diagnostic::warning("I0408", "x").with_fix(fix)
+    fn finding(fix: Fix) -> Finding {
+        crate::rules::I0408.finding().fix(fix)
     }
 
     #[track_caller]
@@ -219,11 +236,11 @@ mod tests {
         assert_eq!(finding(Fix::safe()).fix, None);
         let nowhere = Fix::safe().replace(Span::default(), "x");
         assert_eq!(finding(nowhere).fix, None);
-        let token = Fix::safe().replace(crate::patch::token(3), "x");
+        let token = Fix::safe().replace(crate::span::token(3), "x");
         assert_eq!(finding(token).fix, None);
         let far = span("a long text", "text");
         check("short", vec![Fix::safe().replace(far, "x")], "short");
-        let unsafe_one = [finding(Fix::guess().replace(span("a", "a"), "b"))];
+        let unsafe_one = [finding(Fix::unsafe_fix().replace(span("a", "a"), "b"))];
         assert_eq!(plan("a", &unsafe_one, Applicability::Safe), []);
     }
 }

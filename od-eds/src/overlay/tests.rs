@@ -110,12 +110,12 @@ fn findings_are_told_where_they_come_from() {
         .into_iter()
         .map(|finding| made.place(finding))
         .collect();
-    let of = |code: &str| placed.iter().find(|(_, finding)| finding.code == code);
+    let of = |code: &str| placed.iter().find(|(_, finding)| finding.code() == code);
     let (origin, missing) = of("E0401").expect("2002h has no DataType");
     assert_eq!(*origin, Origin::Overlay);
-    assert_eq!(missing.span.map(|span| span.line), Some(5));
+    assert_eq!(missing.span().map(|span| span.line), Some(5));
     let (origin, limit) = of("W0452").expect("3 is above 1");
-    let span = limit.span.expect("it has a place");
+    let span = limit.span().expect("it has a place");
     let file = if *origin == Origin::Base { BASE } else { text };
     let line = file.lines().nth(span.line as usize - 1).unwrap_or("");
     assert!(line.contains('='), "{line}");

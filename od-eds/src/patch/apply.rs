@@ -7,7 +7,10 @@ use alloc::vec::Vec;
 use super::count::{count_members, count_sections, counted, counts_sections};
 use super::{Action, Change, Edit, Raw, Target, finding, missing};
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fact::Key;
+use crate::finding::Finding;
+use crate::rules;
+use crate::span::{Span, Spanned};
 use od_model::DataType;
 
 /// Applies the edits in their order and returns what was wrong with them.
@@ -20,7 +23,7 @@ use od_model::DataType;
 /// added or removed members, it does so afterwards. An edit of sub-index 0 itself
 /// has the last word.
 #[must_use]
-pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Diagnostic> {
+pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let counted = counted(description, edits);
     for edit in edits {
@@ -39,7 +42,7 @@ pub fn apply(description: &mut Description, edits: &[Edit]) -> Vec<Diagnostic> {
     findings
 }
 
-fn remove(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnostic>) {
+fn remove(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if let Some(fault) = missing(description, &edit.target) {
         findings.push(fault);
@@ -59,7 +62,7 @@ fn remove(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnos
     }
 }
 
-fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnostic>) {
+fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if let Some(fault) = missing(description, &edit.target) {
         findings.push(fault);
@@ -87,7 +90,7 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnos
     }
 }
 
-fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnostic>) {
+fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if description.objects.contains_key(&target.index) {
         findings.push(already(edit));
@@ -120,13 +123,13 @@ fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Dia
     description.objects.insert(target.index, object);
 }
 
-fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Diagnostic>) {
+fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     let sub = target.address().sub;
     let Some(object) = description.objects.get_mut(&target.index) else {
         findings.push(
             finding(
-                "E0703",
+                &rules::E0703,
                 edit.target.span,
                 target,
                 format!(
@@ -144,7 +147,7 @@ fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Dia
     if !object.code.has_members() {
         findings.push(
             finding(
-                "E0704",
+                &rules::E0704,
                 edit.target.span,
                 target,
                 format!("{:04X}h is a {}: it has no members", target.index, *object.code),
@@ -170,7 +173,7 @@ fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Dia
     }
 }
 
-fn name_of(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Spanned<String> {
+fn name_of(edit: &Edit, findings: &mut Vec<Finding>) -> Spanned<String> {
     for change in &edit.changes {
         if let Change::Name(name) = &change.value {
             return Spanned::new(name.clone(), change.span);
@@ -179,7 +182,7 @@ fn name_of(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Spanned<String> {
     let target = *edit.target;
     findings.push(
         finding(
-            "E0705",
+            &rules::E0705,
             edit.target.span,
             target,
             format!("`add {target}` gives no name"),
@@ -190,7 +193,7 @@ fn name_of(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Spanned<String> {
 }
 
 /// The entry that an `add` describes, without its name; `None` if it has no type.
-fn make(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Option<EntryDescription> {
+fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
     let target = *edit.target;
     let Some(data_type) = edit.changes.iter().find_map(|change| match change.value {
         Change::Type(data_type) => Some(data_type),
@@ -198,7 +201,7 @@ fn make(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Option<EntryDescription>
     }) else {
         findings.push(
             finding(
-                "E0706",
+                &rules::E0706,
                 edit.target.span,
                 target,
                 format!("`add {target}` gives no type"),
@@ -215,9 +218,9 @@ fn make(edit: &Edit, findings: &mut Vec<Diagnostic>) -> Option<EntryDescription>
 }
 
 /// Writes the fields of an edit into an entry; the values after the type that they are of.
-fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Diagnostic>) {
+fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
-    let gives = |key: &str| edit.changes.iter().any(|change| change.key() == key);
+    let gives = |key: Key| edit.changes.iter().any(|change| change.key() == key);
     for change in &edit.changes {
         let span = change.span;
         match &change.value {
@@ -227,13 +230,13 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Diagnostic
             Change::Save(group) => entry.group = Some(Spanned::new(*group, span)),
             Change::Type(data_type) => {
                 entry.data_type = Some(Spanned::new(*data_type, span));
-                for (key, value) in [
-                    ("default", &mut entry.default),
-                    ("low", &mut entry.low),
-                    ("high", &mut entry.high),
+                for (key, field, value) in [
+                    (Key::DefaultValue, "default", &mut entry.default),
+                    (Key::LowLimit, "low", &mut entry.low),
+                    (Key::HighLimit, "high", &mut entry.high),
                 ] {
                     if !gives(key) {
-                        findings.extend(retype(key, value, *data_type, span, target));
+                        findings.extend(retype(field, value, *data_type, span, target));
                     }
                 }
             }
@@ -255,17 +258,17 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Diagnostic
             Some(Ok(value)) => *field = Some(Spanned::new(value, change.span)),
             Some(Err(fault)) => findings.push(
                 finding(
-                    "E0707",
+                    &rules::E0707,
                     change.span,
                     target,
-                    format!("`{}`: {}", change.key(), fault.message),
+                    format!("`{}`: {}", change.field(), fault.message),
                 )
                 .with_help(fault.help),
             ),
         }
     }
     // A DCF's value would hide the default that the edit gives.
-    if gives("default") {
+    if gives(Key::DefaultValue) {
         entry.parameter = None;
     }
 }
@@ -277,7 +280,7 @@ fn retype(
     data_type: DataType,
     at: Span,
     target: Target,
-) -> Option<Diagnostic> {
+) -> Option<Finding> {
     let old = field.take()?;
     match Raw::from(&old.value).value_for(data_type) {
         Ok(value) => {
@@ -286,7 +289,7 @@ fn retype(
         }
         Err(fault) => Some(
             finding(
-                "E0708",
+                &rules::E0708,
                 at,
                 target,
                 format!(
@@ -299,14 +302,14 @@ fn retype(
     }
 }
 
-fn already(edit: &Edit) -> Diagnostic {
+fn already(edit: &Edit) -> Finding {
     let target = *edit.target;
     let what = match target.sub {
         None => format!("{:04X}h", target.index),
         Some(_) => target.address().to_string(),
     };
     finding(
-        "E0702",
+        &rules::E0702,
         edit.target.span,
         target,
         format!("{what} is there already"),
@@ -314,9 +317,9 @@ fn already(edit: &Edit) -> Diagnostic {
     .with_help(format!("to change it, write `modify {target} {{ … }}`"))
 }
 
-fn code_of_member(change: &Spanned<Change>, target: Target) -> Diagnostic {
+fn code_of_member(change: &Spanned<Change>, target: Target) -> Finding {
     finding(
-        "E0709",
+        &rules::E0709,
         change.span,
         target,
         format!("{target} is a member: it has no object code"),
@@ -327,15 +330,15 @@ fn code_of_member(change: &Spanned<Change>, target: Target) -> Diagnostic {
     ))
 }
 
-fn value_of_container(at: Span, target: Target, change: &Change) -> Diagnostic {
+fn value_of_container(at: Span, target: Target, change: &Change) -> Finding {
     finding(
-        "E0710",
+        &rules::E0710,
         at,
         target,
         format!(
             "{:04X}h has members: `{}` belongs to one of them",
             target.index,
-            change.key()
+            change.field()
         ),
     )
     .with_help(format!(

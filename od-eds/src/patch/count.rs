@@ -4,7 +4,7 @@ use alloc::collections::BTreeMap;
 
 use super::{Action, Edit};
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
-use crate::diagnostic::{Span, Spanned};
+use crate::span::{Span, Spanned};
 use od_model::{Access, DataType};
 
 /// The objects that get or lose members and whose sub-index 0 follows, with the place

@@ -6,15 +6,17 @@ use alloc::vec::Vec;
 
 use super::{Target, finding};
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
+use crate::rules;
+use crate::span::Spanned;
 
 /// The finding that `target` is not in `description`; `None` if it is.
-pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Diagnostic> {
+pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
     let Target { index, sub } = target.value;
     let Some(object) = description.objects.get(&index) else {
         return Some(
             finding(
-                "E0701",
+                &rules::E0701,
                 target.span,
                 target.value,
                 format!("there is no object {index:04X}h"),
@@ -26,7 +28,7 @@ pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Di
     if !object.code.has_members() {
         return Some(
             finding(
-                "E0704",
+                &rules::E0704,
                 target.span,
                 target.value,
                 format!("{index:04X}h is a {}: it has no members", *object.code),
@@ -39,7 +41,7 @@ pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Di
     }
     Some(
         finding(
-            "E0701",
+            &rules::E0701,
             target.span,
             target.value,
             format!("there is no {}", target.address()),

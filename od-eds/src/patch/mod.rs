@@ -2,9 +2,9 @@
 //!
 //! A patch is strict. Editing or removing what the base lacks is an error, and so
 //! is adding what is there already; a patch that says nothing false is the only
-//! one that applies without a word. Every finding is a [`Diagnostic`] whose span
+//! one that applies without a word. Every finding is a [`Finding`] whose span
 //! is the one that the edit carries, so the caller can point at its own token:
-//! see [`token`].
+//! see [`token`](crate::token).
 //!
 //! ```
 //! use od_eds::patch::{self, Edit, Raw, Target};
@@ -19,14 +19,17 @@
 //! assert!(patch::apply(&mut device, &[gear.clone()]).is_empty());
 //!
 //! let findings = patch::apply(&mut device, &[gear]);
-//! assert_eq!(findings[0].message, "2110h is there already");
+//! let told = od_eds::say(&findings[0], &od_eds::Eds);
+//! assert_eq!(told.message, "2110h is there already");
 //! ```
 
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fact::Key;
+use crate::finding::{Finding, Rule};
+use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
 
 mod apply;
@@ -37,28 +40,6 @@ mod raw;
 pub use apply::apply;
 pub use find::missing;
 pub use raw::Raw;
-
-/// A span that stands for the caller's token number `id`, not for a stretch of text.
-///
-/// The macro numbers its tokens, puts these spans into its edits and finds the
-/// token of a diagnostic again with [`token_of`].
-pub const fn token(id: u32) -> Span {
-    Span {
-        start: id,
-        end: id,
-        line: u32::MAX,
-        column: 0,
-    }
-}
-
-/// The number that [`token`] put into this span, if it is one of its.
-pub const fn token_of(span: Span) -> Option<u32> {
-    if span.line == u32::MAX {
-        Some(span.start)
-    } else {
-        None
-    }
-}
 
 /// What an edit is about: a whole object, or one of its members.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -135,8 +116,23 @@ pub enum Change {
 }
 
 impl Change {
+    /// The key that it is in an EDS.
+    pub const fn key(&self) -> Key {
+        match self {
+            Self::Code(_) => Key::ObjectType,
+            Self::Name(_) => Key::ParameterName,
+            Self::Type(_) => Key::DataType,
+            Self::Access(_) => Key::AccessType,
+            Self::Mappable(_) => Key::PdoMapping,
+            Self::Save(_) => Key::StorageLocation,
+            Self::Default(_) => Key::DefaultValue,
+            Self::Low(_) => Key::LowLimit,
+            Self::High(_) => Key::HighLimit,
+        }
+    }
+
     /// The field's name in a macro call.
-    pub const fn key(&self) -> &'static str {
+    pub const fn field(&self) -> &'static str {
         match self {
             Self::Code(_) => "code",
             Self::Name(_) => "name",
@@ -220,10 +216,8 @@ impl Edit {
     }
 }
 
-fn finding(code: &'static str, at: Span, target: Target, message: String) -> Diagnostic {
-    Diagnostic::error(code, message)
-        .with_span(at)
-        .with_address(target.address())
+fn finding(rule: &'static Rule, at: Span, target: Target, message: String) -> Finding {
+    rule.told(at, message).about(target.address())
 }
 
 /// Is this one of the types that only a record can have?

@@ -1,7 +1,9 @@
 use alloc::vec;
 
 use super::*;
+use crate::catalogue::{Eds, say};
 use crate::description::{Description, Value};
+use crate::span::{token, token_of};
 
 fn base() -> Description {
     let mut description = Description::default();
@@ -30,7 +32,8 @@ fn base() -> Description {
 #[track_caller]
 fn check(edit: Edit, expected: &[(&str, &str, &str)]) {
     let findings = apply(&mut base(), &[edit]);
-    let findings: Vec<_> = findings
+    let told: Vec<_> = findings.iter().map(|f| say(f, &Eds)).collect();
+    let findings: Vec<_> = told
         .iter()
         .map(|f| (f.code, f.message.as_str(), f.help.as_str()))
         .collect();
@@ -221,7 +224,7 @@ fn a_finding_leads_back_to_the_token() {
     let mut edit = Edit::remove(Target::object(0x2110));
     edit.target.span = token(7);
     let findings = apply(&mut base(), &[edit]);
-    assert_eq!(findings[0].span.and_then(token_of), Some(7));
+    assert_eq!(findings[0].span().and_then(token_of), Some(7));
     assert_eq!(
         token_of(Span {
             line: 3,

@@ -6,7 +6,7 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, Value};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
@@ -15,6 +15,7 @@ use crate::scan::names::Compact;
 use crate::scan::number;
 use crate::scan::placed;
 use crate::scan::placed::{Placed, Text};
+use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
@@ -41,7 +42,7 @@ pub(crate) fn count(
     };
     reader.report(
         rules::W0313
-            .at(
+            .told(
                 given.span,
                 format!(
                     "CompactSubObj is a number from 1 to 254, not `{}`",
@@ -62,7 +63,7 @@ pub(crate) fn expand(
     template: (EntryDescription, Unread),
     count: &Spanned<u8>,
     sections: CompactSections<'_>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) -> BTreeMap<u8, EntryDescription> {
     let (template, unread) = template;
     let mut entries = BTreeMap::from([(0, highest(address.index, count))]);
@@ -96,11 +97,11 @@ pub(crate) fn expand(
                 }
                 None => log.push(
                     rules::W0314
-                        .at(
+                        .told(
                             key.span,
                             format!("there is no member `{}` to give this to", key.value),
                         )
-                        .with_address(address)
+                        .about(address)
                         .with_label(count.span, "members are counted here")
                         .with_help(format!("the members are 1 to {}", count.value)),
                 ),
@@ -111,7 +112,7 @@ pub(crate) fn expand(
 }
 
 /// Names an NrOfEntries that does not count the entries of its section.
-fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Diagnostic>) {
+fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Finding>) {
     let entries = section
         .pairs
         .iter()
@@ -138,10 +139,10 @@ fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Diagnostic>
     };
     log.push(
         rules::W0321
-            .at(span, message)
-            .with_address(address)
+            .told(span, message)
+            .about(address)
             .with_help(format!("write `NrOfEntries={entries}`"))
-            .with_fix(fix),
+            .fix(fix),
     );
 }
 
@@ -183,13 +184,13 @@ fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
 }
 
 /// Names a compact section of an object that has no CompactSubObj.
-pub(crate) fn unclaimed(name: &str, header: Span, index: u16) -> Diagnostic {
+pub(crate) fn unclaimed(name: &str, header: Span, index: u16) -> Finding {
     rules::W0209
-        .at(
+        .told(
             header,
             format!("[{name}] belongs to an object with CompactSubObj"),
         )
-        .with_address(Address::new(index, 0))
+        .about(Address::new(index, 0))
         .with_help(format!(
             "write `CompactSubObj=` and the number of members in [{index:04X}], or remove the section"
         ))

@@ -9,9 +9,10 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::rules;
 use crate::scan::number::number;
+use crate::span::{Span, Spanned};
 use od_model::{Access, DataType, ObjectCode};
 
 /// PDOs of one direction that CiA 301 has room for.
@@ -51,7 +52,7 @@ const DIRECTIONS: [Direction; 2] = [
 /// The objects that CompactPDO stands for.
 pub(crate) fn objects(
     description: &Description,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) -> BTreeMap<u16, ObjectDescription> {
     let mut made = BTreeMap::new();
     let Some(info) = description.section("DeviceInfo") else {
@@ -88,7 +89,7 @@ pub(crate) fn objects(
             let (word, count) = (direction.word, made.len() - before);
             log.push(
                 rules::I0515
-                    .at(
+                    .told(
                         span,
                         format!("CompactPDO stands for {count} objects of {word}s"),
                     )
@@ -228,7 +229,7 @@ mod tests {
         assert_eq!(objects[&0x1A00].entries.len(), 65);
         // The one that has a section is as the section says.
         assert!(objects[&0x1401].entries.is_empty());
-        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code).collect();
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
         assert_eq!(codes.iter().filter(|code| **code == "I0515").count(), 2);
         let again = crate::parse(&crate::write(&parsed.description)).description;
         assert!(again.objects == parsed.description.objects);

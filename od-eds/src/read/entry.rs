@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 
 use crate::check::text;
 use crate::description::{EntryDescription, Value};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::fact::Key;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::fields::Fields;
 use crate::read::values;
@@ -16,12 +17,13 @@ use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
 use crate::scan::placed::Text;
+use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Kind};
 
 /// Where the diagnostics of one section go, and what it is about.
 pub(crate) struct Reader<'a> {
     pub(crate) address: Address,
-    pub(crate) log: &'a mut Vec<Diagnostic>,
+    pub(crate) log: &'a mut Vec<Finding>,
 }
 
 /// Values that could not be read, kept as text.
@@ -36,8 +38,8 @@ pub(crate) fn extra(mut rest: Vec<(String, String)>, mut unread: Unread) -> Vec<
 }
 
 impl Reader<'_> {
-    pub(crate) fn report(&mut self, finding: Diagnostic) {
-        self.log.push(finding.with_address(self.address));
+    pub(crate) fn report(&mut self, finding: Finding) {
+        self.log.push(finding.about(self.address));
     }
 
     /// ParameterName; empty where it is missing.
@@ -46,7 +48,7 @@ impl Reader<'_> {
         name.unwrap_or_else(|| {
             self.report(
                 rules::W0315
-                    .at(fields.header, "there is no ParameterName")
+                    .told(fields.header, "there is no ParameterName")
                     .with_help("write `ParameterName=` and a name"),
             );
             Spanned::from(String::new())
@@ -113,7 +115,8 @@ impl Reader<'_> {
         if known.is_none() {
             self.report(
                 rules::E0402
-                    .at(given.span, format!("`{}` is no data type", given.value))
+                    .told(given.span, format!("`{}` is no data type", given.value))
+                    .key(Key::DataType)
                     .with_help("write the code of a type, for example `0x0007` for UNSIGNED32"),
             );
             unread.push(("DataType".into(), given.value.into_owned()));
@@ -125,9 +128,9 @@ impl Reader<'_> {
         let Some(given) = fields.take("AccessType") else {
             self.report(
                 rules::W0404
-                    .at(fields.header, "there is no AccessType")
+                    .told(fields.header, "there is no AccessType")
                     .with_help("write `AccessType=ro`, which is taken now, or what it is")
-                    .with_fix(Fix::guess().below(fields.header, "AccessType=ro")),
+                    .fix(Fix::unsafe_fix().below(fields.header, "AccessType=ro")),
             );
             return Spanned::from(Access::Ro);
         };
@@ -152,7 +155,8 @@ impl Reader<'_> {
             None => {
                 self.report(
                     rules::E0405
-                        .at(given.span, format!("`{}` is no AccessType", given.value))
+                        .told(given.span, format!("`{}` is no AccessType", given.value))
+                        .key(Key::AccessType)
                         .with_help("write ro, wo, rw, rwr, rww or const; `ro` is taken now"),
                 );
                 let span = given.span;
@@ -172,12 +176,12 @@ impl Reader<'_> {
             _ => words::mappable(self, &given).unwrap_or_else(|| {
                 self.report(
                     rules::W0406
-                        .at(
+                        .told(
                             given.span,
                             format!("PDOMapping is 0 or 1, not `{}`", given.value),
                         )
                         .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`")
-                        .with_fix(Fix::guess().replace(given.span, "0")),
+                        .fix(Fix::unsafe_fix().replace(given.span, "0")),
                 );
                 unread.push(("PDOMapping".into(), given.to_string()));
                 false
@@ -197,9 +201,9 @@ impl Reader<'_> {
             .unwrap_or_else(|| {
                 self.report(
                     rules::W0407
-                        .at(given.span, format!("`{}` are no ObjFlags", given.value))
+                        .told(given.span, format!("`{}` are no ObjFlags", given.value))
                         .with_help("write `ObjFlags=0`, or leave the line out")
-                        .with_fix(Fix::guess().replace(given.span, "0")),
+                        .fix(Fix::unsafe_fix().replace(given.span, "0")),
                 );
                 unread.push(("ObjFlags".into(), given.value.into_owned()));
                 0
@@ -288,38 +292,38 @@ impl Reader<'_> {
                 _ => Fix::safe().replace(given.span, mended.clone()),
             };
             let help = format!("write `{key}={mended}`");
-            self.report(finding.with_help(help).with_fix(fix));
+            self.report(finding.with_help(help).fix(fix));
         }
     }
 }
 
-fn note_finding(note: Note, given: &str, span: Span) -> Diagnostic {
+fn note_finding(note: Note, given: &str, span: Span) -> Finding {
     let (rule, message) = match note {
         Note::Comment => (
-            rules::W0109,
+            &rules::W0109,
             format!("a comment stands behind the value: `{given}`"),
         ),
-        Note::Octal => (rules::I0408, format!("`{given}` is read as octal")),
-        Note::NotOctal => (rules::W0409, format!("`{given}` is read as decimal")),
+        Note::Octal => (&rules::I0408, format!("`{given}` is read as octal")),
+        Note::NotOctal => (&rules::W0409, format!("`{given}` is read as decimal")),
         Note::TwosComplement => (
-            rules::I0410,
+            &rules::I0410,
             format!("`{given}` is read as a negative number"),
         ),
         Note::NodeId => (
-            rules::I0411,
+            &rules::I0411,
             format!("`{given}` is read as `$NODEID` plus a number"),
         ),
         Note::Characters => (
-            rules::W0419,
+            &rules::W0419,
             format!("`{given}` is no string of hexadecimal bytes"),
         ),
-        Note::Suffix => (rules::W0420, format!("`{given}` is read as an integer")),
-        Note::BareHex => (rules::W0422, format!("`{given}` is read as hexadecimal")),
+        Note::Suffix => (&rules::W0420, format!("`{given}` is read as an integer")),
+        Note::BareHex => (&rules::W0422, format!("`{given}` is read as hexadecimal")),
         Note::Comma => (
-            rules::W0423,
+            &rules::W0423,
             format!("`{given}` is read with a decimal point"),
         ),
-        Note::Word => (rules::W0421, format!("`{given}` is read as a number")),
+        Note::Word => (&rules::W0421, format!("`{given}` is read as a number")),
     };
-    rule.at(span, message)
+    rule.told(span, message)
 }

@@ -6,12 +6,13 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::other::unknown_object_keys;
 use crate::rules;
 use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
+use crate::span::{Span, Spanned};
 use od_model::{Address, Group};
 
 /// Keys that say nothing when they are empty; an empty value or limit is none.
@@ -36,7 +37,7 @@ pub(crate) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// The fields of a section; of keys that stand twice, the first counts.
-    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Diagnostic>) -> Self {
+    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Finding>) -> Self {
         let mut pairs = placed.pairs;
         let mut twice = duplicates(&pairs, log).into_iter().peekable();
         let mut at = 0;
@@ -50,13 +51,13 @@ impl<'a> Fields<'a> {
             if numeric && before_comment(value).is_empty() {
                 log.push(
                     rules::I0320
-                        .at(key.span, format!("`{}` is empty", key.value))
-                        .with_address(address)
+                        .told(key.span, format!("`{}` is empty", key.value))
+                        .about(address)
                         .with_help(format!(
                             "give `{}` a value, or leave the line out",
                             key.value
                         ))
-                        .with_fix(Fix::safe().remove_line(key.span)),
+                        .fix(Fix::safe().remove_line(key.span)),
                 );
                 value.value = Cow::Borrowed("");
             }
@@ -89,7 +90,7 @@ impl<'a> Fields<'a> {
     }
 
     /// What nobody has taken, in file order; what nobody knows is named.
-    pub(crate) fn rest(self, address: Address, log: &mut Vec<Diagnostic>) -> Vec<(String, String)> {
+    pub(crate) fn rest(self, address: Address, log: &mut Vec<Finding>) -> Vec<(String, String)> {
         unknown_object_keys(&self.pairs, address, log);
         self.pairs
             .into_iter()
@@ -123,19 +124,19 @@ pub(crate) const fn location(group: Group) -> &'static str {
 }
 
 /// Names the keys that stand twice, and returns the positions of the later ones.
-pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Diagnostic>) -> Vec<usize> {
+pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Finding>) -> Vec<usize> {
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
         log.push(
             rules::W0107
-                .at(key.span, format!("`{}` stands twice", key.value))
+                .told(key.span, format!("`{}` stands twice", key.value))
                 .with_label(first.span, "this one counts")
                 .with_help(format!("remove `{}={}`", key.value, value.value))
-                .with_fix(match value == same {
+                .fix(match value == same {
                     true => Fix::safe().remove_line(key.span),
                     // Whoever takes the last one reads something else then.
-                    false => Fix::guess().remove_line(key.span),
+                    false => Fix::unsafe_fix().remove_line(key.span),
                 }),
         );
         found.push(at);

@@ -6,12 +6,13 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::{Description, ObjectDescription};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::names::List;
 use crate::scan::number::number;
 use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
 use od_model::Address;
 
 /// Compares the lists of a file with the objects it has, and those that CompactPDO made.
@@ -19,7 +20,7 @@ pub(crate) fn check(
     lists: &BTreeMap<List, Vec<Placed<'_>>>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) {
     let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
     for (list, sections) in lists {
@@ -31,7 +32,7 @@ pub(crate) fn check(
         return;
     }
     if listed.is_empty() {
-        log.push(rules::W0203.anywhere("no object is listed").with_help(
+        log.push(rules::W0203.told(Span::default(), "no object is listed").with_help(
             "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]",
         ));
         return;
@@ -41,8 +42,8 @@ pub(crate) fn check(
             let list = List::of(*index).name();
             log.push(
                 rules::W0202
-                    .at(object.span, format!("{index:04X}h is in no list"))
-                    .with_address(Address::new(*index, 0))
+                    .told(object.span, format!("{index:04X}h is in no list"))
+                    .about(Address::new(*index, 0))
                     .with_help(format!("add `0x{index:04X}` to [{list}]")),
             );
         }
@@ -55,7 +56,7 @@ fn entries(
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) {
     let mut count: Option<&Spanned<_>> = None;
     let mut found = 0;
@@ -73,7 +74,7 @@ fn entries(
         let Some(index) = index(key, value, description) else {
             log.push(
                 rules::W0205
-                    .at(
+                    .told(
                         key.span,
                         format!("`{}={}` lists no object", key.value, value.value),
                     )
@@ -86,10 +87,10 @@ fn entries(
             ordered = false;
             log.push(
                 rules::W0214
-                    .at(key.span, format!("the number {} stands twice", key.value))
+                    .told(key.span, format!("the number {} stands twice", key.value))
                     .with_label(*first, "it stands here")
                     .with_help("number the entries from 1 without gaps")
-                    .with_fix(renumbered(placed)),
+                    .fix(renumbered(placed)),
             );
         } else {
             numbers.insert(number(key), key.span);
@@ -98,7 +99,7 @@ fn entries(
             ordered = false;
             log.push(
                 rules::W0242
-                    .at(
+                    .told(
                         key.span,
                         format!(
                             "this is entry {found} of the list, and has number {}",
@@ -106,18 +107,18 @@ fn entries(
                         ),
                     )
                     .with_help("number the entries 1, 2, 3 and so on")
-                    .with_fix(renumbered(placed)),
+                    .fix(renumbered(placed)),
             );
         }
         let address = Address::new(index, 0);
         if let Some(first) = listed.get(&index) {
             log.push(
                 rules::W0207
-                    .at(value.span, format!("{index:04X}h is listed twice"))
-                    .with_address(address)
+                    .told(value.span, format!("{index:04X}h is listed twice"))
+                    .about(address)
                     .with_label(*first, "it is listed here")
                     .with_help("remove one of the entries")
-                    .with_fix(Fix::safe().remove_line(value.span)),
+                    .fix(Fix::safe().remove_line(value.span)),
             );
             continue;
         }
@@ -125,13 +126,13 @@ fn entries(
         if !description.objects.contains_key(&index) && !made.contains_key(&index) {
             log.push(
                 rules::W0201
-                    .at(
+                    .told(
                         value.span,
                         format!("{index:04X}h is listed, but there is no section [{index:04X}]"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help("write the section, or remove the entry")
-                    .with_fix(Fix::guess().remove_line(value.span)),
+                    .fix(Fix::unsafe_fix().remove_line(value.span)),
             );
         }
         let right = List::of(index);
@@ -139,11 +140,11 @@ fn entries(
             let (right, wrong) = (right.name(), list.name());
             log.push(
                 rules::W0206
-                    .at(
+                    .told(
                         value.span,
                         format!("{index:04X}h belongs to [{right}], not to [{wrong}]"),
                     )
-                    .with_address(address)
+                    .about(address)
                     .with_help(format!("move the entry to [{right}]")),
             );
         }
@@ -153,7 +154,7 @@ fn entries(
         let span = count.map_or(placed.header, |count| count.span);
         log.push(
             rules::W0204
-                .at(
+                .told(
                     span,
                     match count {
                         Some(count) => format!(
@@ -164,7 +165,7 @@ fn entries(
                     },
                 )
                 .with_help(format!("write `SupportedObjects={found}`"))
-                .with_fix(match count {
+                .fix(match count {
                     Some(count) => Fix::safe().replace(count.span, found.to_string()),
                     None => Fix::safe().below(placed.header, format!("SupportedObjects={found}")),
                 }),

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 
 mod compact;
 mod compact_pdo;
@@ -24,5 +24,5 @@ pub struct Parsed {
     /// Everything that was understood.
     pub description: Description,
     /// Everything else, in file order.
-    pub diagnostics: Vec<Diagnostic>,
+    pub diagnostics: Vec<Finding>,
 }

@@ -11,7 +11,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::read::sorted::sorted;
 use crate::rules;
 use crate::scan::known;
@@ -20,6 +20,7 @@ use crate::scan::names::Place;
 use crate::scan::number;
 use crate::scan::number::integer;
 use crate::scan::placed::{Placed, Text};
+use crate::span::{Span, Spanned};
 
 /// One kind of module.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -142,7 +143,7 @@ fn extend(object: &mut ObjectDescription, extension: &Extension, left: &mut u8) 
 }
 
 /// Names what is wrong with the modules of a file.
-pub(crate) fn check(sections: &[Section], log: &mut Vec<Diagnostic>) {
+pub(crate) fn check(sections: &[Section], log: &mut Vec<Finding>) {
     if sections
         .iter()
         .any(|section| known::module_part(&section.name).is_some())
@@ -151,7 +152,7 @@ pub(crate) fn check(sections: &[Section], log: &mut Vec<Diagnostic>) {
     }
 }
 
-fn read(sections: &[Section], log: &mut Vec<Diagnostic>) -> Vec<Module> {
+fn read(sections: &[Section], log: &mut Vec<Finding>) -> Vec<Module> {
     let mut modules: BTreeMap<u16, Module> = BTreeMap::new();
     let list = sections
         .iter()
@@ -225,7 +226,7 @@ fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a
     }
 }
 
-fn extension(section: &Section, place: Place, log: &mut Vec<Diagnostic>) -> Option<Extension> {
+fn extension(section: &Section, place: Place, log: &mut Vec<Finding>) -> Option<Extension> {
     let own = placed(section, place, &["Count", "ObjExtend"]);
     let parsed = sorted(alloc::vec![own], Vec::new()).parsed();
     log.extend(parsed.diagnostics);
@@ -241,7 +242,7 @@ fn extension(section: &Section, place: Place, log: &mut Vec<Diagnostic>) -> Opti
         };
         log.push(
             rules::W0323
-                .at(span, message)
+                .told(span, message)
                 .with_help("write how many sub-indices a module adds, or `0;` and its bits"),
         );
     }
@@ -277,7 +278,7 @@ fn listed(
     module: u16,
     word: &str,
     found: &[(Place, &Section)],
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) {
     let name = format!("M{module}{word}");
     let list = sections
@@ -302,7 +303,7 @@ fn listed(
         if !has(*index) {
             log.push(
                 rules::W0215
-                    .at(
+                    .told(
                         *span,
                         format!("{index:04X}h is listed, but has no section in module {module}"),
                     )
@@ -317,7 +318,7 @@ fn listed(
         if !listed.iter().any(|(listed, _)| listed == index) {
             log.push(
                 rules::W0215
-                    .at(
+                    .told(
                         section.name.span,
                         format!("{index:04X}h is not in [{name}]"),
                     )
@@ -347,7 +348,7 @@ mod tests {
     #[test]
     fn modules_and_what_is_wrong_with_them() {
         let parsed = crate::parse(TEXT);
-        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code).collect();
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
         // The value of the fixed object is looked at by the checks; the second list is missing.
         assert_eq!(codes, ["W0215"]);
         let found = modules(&parsed.description);
@@ -368,7 +369,7 @@ mod tests {
             let codes: Vec<_> = crate::parse(&wrong)
                 .diagnostics
                 .iter()
-                .map(|d| d.code)
+                .map(|d| d.code())
                 .collect();
             assert!(codes.contains(&code), "{code}: {codes:?}");
         }

@@ -6,7 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, ObjectDescription};
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::compact;
 use crate::read::compact::CompactSections;
@@ -15,6 +15,7 @@ use crate::read::fields::Fields;
 use crate::read::words;
 use crate::rules;
 use crate::scan::placed::Placed;
+use crate::span::Spanned;
 use od_model::{Address, DataType, ObjectCode};
 
 /// The sections of one object.
@@ -29,7 +30,7 @@ pub(crate) struct Sections<'a> {
 pub(crate) fn object(
     index: u16,
     sections: Sections<'_>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) -> Option<ObjectDescription> {
     let Some(own) = sections.own else {
         return orphan(index, sections.members, log);
@@ -89,9 +90,9 @@ pub(crate) fn object(
             let span = fields.header;
             reader.report(
                 rules::W0317
-                    .at(span, "there is no SubNumber")
+                    .told(span, "there is no SubNumber")
                     .with_help(format!("write `SubNumber={counted}`"))
-                    .with_fix(Fix::safe().below(span, format!("SubNumber={counted}"))),
+                    .fix(Fix::safe().below(span, format!("SubNumber={counted}"))),
             );
             Spanned::from(counted)
         }
@@ -112,16 +113,16 @@ pub(crate) fn object(
 fn orphan(
     index: u16,
     members: BTreeMap<u8, Placed<'_>>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
     log.push(
         rules::E0208
-            .at(
+            .told(
                 span,
                 format!("there is no section [{index:04X}] for this member"),
             )
-            .with_address(Address::new(index, 0))
+            .about(Address::new(index, 0))
             .with_help(format!(
                 "write a section [{index:04X}] with `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"
             )),
@@ -141,7 +142,7 @@ fn orphan(
     })
 }
 
-fn member(address: Address, section: Placed<'_>, log: &mut Vec<Diagnostic>) -> EntryDescription {
+fn member(address: Address, section: Placed<'_>, log: &mut Vec<Finding>) -> EntryDescription {
     let mut fields = Fields::new(section, address, log);
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
@@ -156,12 +157,12 @@ fn member(address: Address, section: Placed<'_>, log: &mut Vec<Diagnostic>) -> E
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
             reader.report(
                 rules::W0322
-                    .at(
+                    .told(
                         given.span,
                         format!("a sub-index is a VAR, not `{}`", given.value),
                     )
                     .with_help("write `ObjectType=0x7`")
-                    .with_fix(Fix::guess().replace(given.span, "0x7")),
+                    .fix(Fix::unsafe_fix().replace(given.span, "0x7")),
             );
         }
         // A member is a VAR; what else is said is kept.
@@ -214,12 +215,12 @@ fn object_code(
         if has_members {
             reader.report(
                 rules::W0302
-                    .at(
+                    .told(
                         fields.header,
                         "there is no ObjectType, but there are members",
                     )
                     .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
-                    .with_fix(Fix::guess().below(fields.header, "ObjectType=0x9")),
+                    .fix(Fix::unsafe_fix().below(fields.header, "ObjectType=0x9")),
             );
         }
         return Spanned::from(guess);
@@ -234,7 +235,7 @@ fn object_code(
         None => {
             reader.report(
                 rules::E0301
-                    .at(given.span, format!("`{}` is no object code", given.value))
+                    .told(given.span, format!("`{}` is no object code", given.value))
                     .with_help("write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD"),
             );
             let span = given.span;
@@ -259,22 +260,18 @@ fn contradiction(
         (None, None) => fields.header,
     };
     let finding = rules::E0305
-        .at(span, format!("a {} has no sub-indices", *code))
+        .told(span, format!("a {} has no sub-indices", *code))
         .with_label(code.span, "the object code is declared here");
     if count.is_some() {
-        let fix = Fix::guess().replace(code.span, "0x8");
-        reader.report(
-            finding
-                .with_help("write `ObjectType=0x8` (ARRAY)")
-                .with_fix(fix),
-        );
+        let fix = Fix::unsafe_fix().replace(code.span, "0x8");
+        reader.report(finding.with_help("write `ObjectType=0x8` (ARRAY)").fix(fix));
         return Spanned::new(ObjectCode::Array, code.span);
     }
-    let fix = Fix::guess().replace(code.span, "0x9");
+    let fix = Fix::unsafe_fix().replace(code.span, "0x9");
     reader.report(
         finding
             .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
-            .with_fix(fix),
+            .fix(fix),
     );
     Spanned::new(ObjectCode::Record, code.span)
 }
@@ -307,7 +304,7 @@ fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unr
         None => {
             reader.report(
                 rules::W0316
-                    .at(given.span, format!("`{}` is no number", given.value))
+                    .told(given.span, format!("`{}` is no number", given.value))
                     .with_help("write how many sub-index sections there are"),
             );
             unread.push(("SubNumber".into(), given.value.into_owned()));

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use crate::scan::known;
@@ -15,7 +15,7 @@ use crate::scan::placed::{Placed, Text};
 use od_model::Address;
 
 /// Names what is unknown in a section, and values that are not what they should be.
-pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
+pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Finding>) {
     let name = &placed.name;
     if name.is_empty() || known::is_of_objects(name) {
         return;
@@ -27,12 +27,12 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
     if known.name == "DeviceCommissioning" {
         log.push(
             rules::I0611
-                .at(
+                .told(
                     placed.header,
                     "`DeviceCommissioning` is not how CiA 306 spells it",
                 )
                 .with_help("write `[DeviceComissioning]`, with one m, as the standard does")
-                .with_fix(Fix::safe().replace(placed.header, "[DeviceComissioning]")),
+                .fix(Fix::safe().replace(placed.header, "[DeviceComissioning]")),
         );
     }
     for (key, value) in &placed.pairs {
@@ -43,7 +43,7 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
     }
 }
 
-fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
+fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Finding>) {
     let name = &placed.name;
     let names = known::SECTIONS
         .iter()
@@ -51,14 +51,14 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Diagnostic>) {
         .chain(List::ALL.map(List::name));
     log.push(match known::near(name, names) {
         Some(meant) => rules::W0213
-            .at(
+            .told(
                 placed.header,
                 format!("there is no section [{}] in CiA 306", name.value),
             )
             .with_help(format!("write `[{meant}]`, if that is meant"))
-            .with_fix(Fix::guess().replace(placed.header, format!("[{meant}]"))),
+            .fix(Fix::unsafe_fix().replace(placed.header, format!("[{meant}]"))),
         None => rules::I0211
-            .at(
+            .told(
                 placed.header,
                 format!("[{}] is no section of CiA 306", name.value),
             )
@@ -71,18 +71,18 @@ pub(crate) fn unknown_key<'a>(
     key: &Text<'_>,
     value: &str,
     keys: impl Iterator<Item = &'a str>,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) {
     log.push(match known::near(key, keys) {
         Some(meant) => {
             let meant = meant.replace('#', "1");
             rules::W0318
-                .at(key.span, format!("there is no key `{}` here", key.value))
+                .told(key.span, format!("there is no key `{}` here", key.value))
                 .with_help(format!("write `{meant}={value}`, if that is meant"))
-                .with_fix(Fix::guess().replace(key.span, meant))
+                .fix(Fix::unsafe_fix().replace(key.span, meant))
         }
         None => rules::I0319
-            .at(
+            .told(
                 key.span,
                 format!("`{}` is no key of CiA 306 here", key.value),
             )
@@ -94,7 +94,7 @@ pub(crate) fn unknown_key<'a>(
 pub(crate) fn unknown_object_keys(
     rest: &[(Text<'_>, Text<'_>)],
     address: Address,
-    log: &mut Vec<Diagnostic>,
+    log: &mut Vec<Finding>,
 ) {
     for (key, value) in rest {
         if !OBJECT_KEYS
@@ -103,16 +103,12 @@ pub(crate) fn unknown_object_keys(
         {
             let mut found = Vec::new();
             unknown_key(key, value, OBJECT_KEYS.into_iter(), &mut found);
-            log.extend(
-                found
-                    .into_iter()
-                    .map(|finding| finding.with_address(address)),
-            );
+            log.extend(found.into_iter().map(|finding| finding.about(address)));
         }
     }
 }
 
-fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Vec<Diagnostic>) {
+fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Vec<Finding>) {
     if value.is_empty() || matches!(form, Form::Text) {
         return;
     }
@@ -142,7 +138,7 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
                 };
                 log.push(
                     rules::I0610
-                        .at(value.span, format!("{key} is written as `{}`", value.value))
+                        .told(value.span, format!("{key} is written as `{}`", value.value))
                         .with_help(format!("write {form}")),
                 );
             }
@@ -152,7 +148,7 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
     if !fits {
         log.push(
             rules::W0609
-                .at(
+                .told(
                     value.span,
                     format!("[{section}]: `{}` is no value of {key}", value.value),
                 )

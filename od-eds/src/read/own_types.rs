@@ -8,11 +8,12 @@ use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
 use crate::read::object::Sections;
 use crate::rules;
 use crate::scan::number::{self, number};
 use crate::scan::placed::{Placed, Text};
+use crate::span::Spanned;
 use od_model::{Address, DataType};
 
 /// Types of manufacturers and profiles (CiA 301, object dictionary structure).
@@ -26,7 +27,7 @@ struct OwnType<'a> {
 }
 
 /// Puts the types in the place of the references to them.
-pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut Vec<Diagnostic>) {
+pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut Vec<Finding>) {
     let own: BTreeMap<u16, OwnType<'a>> = objects
         .range(OWN)
         .filter_map(|(index, sections)| Some((*index, own_type(sections)?)))
@@ -54,8 +55,8 @@ pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut V
             let message = format!("`{}` is a type that the file defines", given.value);
             log.push(
                 rules::I0425
-                    .at(given.span, message)
-                    .with_address(Address::new(*index, sub))
+                    .told(given.span, message)
+                    .about(Address::new(*index, sub))
                     .with_label(found.data_type.span, "it stands for this type")
                     .with_help(format!("write `DataType={}`", found.data_type.value)),
             );
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(entry.data_type.map(|t| t.value), Some(DataType::Integer8));
         assert_eq!(entry.low.as_deref(), Some(&Value::Signed(-10)));
         assert_eq!(entry.high.as_deref(), Some(&Value::Signed(5)));
-        let codes: std::vec::Vec<_> = parsed.diagnostics.iter().map(|d| d.code).collect();
+        let codes: std::vec::Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
         assert!(codes.contains(&"I0425") && codes.contains(&"E0402"));
     }
 }

@@ -6,8 +6,8 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Span};
 use crate::document::Document;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::fields::duplicates;
 use crate::read::object;
@@ -19,6 +19,7 @@ use crate::scan::names::{List, Place, intended, place};
 use crate::scan::placed;
 use crate::scan::placed::Placed;
 use crate::scan::{lines, number::number};
+use crate::span::Span;
 use od_model::Address;
 
 /// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
@@ -40,11 +41,11 @@ pub fn parse(text: &str) -> Parsed {
 
 /// A description from the sections that an XDD has, in which no lists are.
 #[cfg(feature = "xdd")]
-pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Diagnostic>) -> Parsed {
+pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Finding>) -> Parsed {
     sorted(sections, log).parsed()
 }
 
-pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sorted<'a> {
+pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Finding>) -> Sorted<'a> {
     let mut sorted = Sorted {
         log,
         ..Sorted::default()
@@ -59,12 +60,12 @@ pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Diagnostic>) -> Sor
 pub(crate) fn document(document: &Document) -> Parsed {
     let mut parsed = parse(document.text());
     parsed.diagnostics.extend(encoded(document));
-    crate::check::sort(&mut parsed.diagnostics);
+    crate::finding::sort(&mut parsed.diagnostics);
     parsed
 }
 
 /// What other readers may not expect of the characters.
-fn encoded(document: &Document) -> Vec<Diagnostic> {
+fn encoded(document: &Document) -> Vec<Finding> {
     let (text, encoding) = (document.text(), document.encoding());
     let mut found = Vec::new();
     let first = text.find(|c: char| !c.is_ascii());
@@ -77,7 +78,7 @@ fn encoded(document: &Document) -> Vec<Diagnostic> {
     if encoding != Encoding::Ascii && !is_xml {
         found.push(
             rules::I0111
-                .at(
+                .told(
                     lines::span(text, first.unwrap_or(0)),
                     format!("the file is {encoding}{marked}"),
                 )
@@ -87,7 +88,7 @@ fn encoded(document: &Document) -> Vec<Diagnostic> {
     if let Some(at) = document.first_wrong() {
         found.push(
             rules::W0112
-                .at(
+                .told(
                     lines::span(text, at),
                     format!("here is a byte that is no character of {encoding}"),
                 )
@@ -105,7 +106,7 @@ pub(crate) struct Sorted<'a> {
     others: Vec<Placed<'a>>,
     names: BTreeMap<String, Span>,
     has_lists: bool,
-    log: Vec<Diagnostic>,
+    log: Vec<Finding>,
 }
 
 impl<'a> Sorted<'a> {
@@ -168,12 +169,12 @@ impl<'a> Sorted<'a> {
         };
         self.log.push(
             rules::I0212
-                .at(
+                .told(
                     section.header,
                     format!("[{}] is read as [{right}]", name.value),
                 )
                 .with_help(format!("write `[{right}]`"))
-                .with_fix(Fix::safe().replace(section.header, format!("[{right}]"))),
+                .fix(Fix::safe().replace(section.header, format!("[{right}]"))),
         );
         meant
     }
@@ -188,7 +189,7 @@ impl<'a> Sorted<'a> {
             }
             Entry::Occupied(first) => self.log.push(
                 rules::W0106
-                    .at(section.header, format!("[{}] stands twice", name.value))
+                    .told(section.header, format!("[{}] stands twice", name.value))
                     .with_label(*first.get(), "this one counts")
                     .with_help("put the keys of both into one section"),
             ),
@@ -222,7 +223,7 @@ impl<'a> Sorted<'a> {
         }
         parsed.description.objects.append(&mut made);
         parsed.diagnostics = self.log;
-        crate::check::sort(&mut parsed.diagnostics);
+        crate::finding::sort(&mut parsed.diagnostics);
         parsed
     }
 }
@@ -242,7 +243,7 @@ fn counts_members(own: &Placed<'_>) -> bool {
 }
 
 /// Names a second section; what the first lacks is taken from it.
-fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Diagnostic {
+fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Finding {
     let name = second.name.value.clone();
     let contradict = second.pairs.iter().any(|(key, value)| {
         let same = first.get(key);
@@ -250,14 +251,14 @@ fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Di
     });
     let (rule, message) = match contradict {
         true => (
-            rules::E0303,
+            &rules::E0303,
             format!("[{name}] stands twice, and the two differ"),
         ),
-        false => (rules::W0304, format!("[{name}] stands twice")),
+        false => (&rules::W0304, format!("[{name}] stands twice")),
     };
     let finding = rule
-        .at(second.header, message)
-        .with_address(address)
+        .told(second.header, message)
+        .about(address)
         .with_label(first.header, "this one counts")
         .with_help("remove one of the sections");
     for (key, value) in second.pairs {
@@ -275,7 +276,7 @@ mod tests {
     use od_model::{DataType, Group, ObjectCode};
 
     fn codes(parsed: &Parsed) -> Vec<&'static str> {
-        parsed.diagnostics.iter().map(|d| d.code).collect()
+        parsed.diagnostics.iter().map(|d| d.code()).collect()
     }
 
     #[test]

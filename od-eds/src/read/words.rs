@@ -83,11 +83,11 @@ fn same(a: &str, b: &str) -> bool {
 fn report(reader: &mut Reader<'_>, key: &str, given: &Text<'_>, right: &str) {
     reader.report(
         rules::W0424
-            .at(
+            .told(
                 given.span,
                 format!("`{}` is read as `{right}`", given.value),
             )
             .with_help(format!("write `{key}={right}`"))
-            .with_fix(Fix::safe().replace(given.span, right)),
+            .fix(Fix::safe().replace(given.span, right)),
     );
 }

@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::path::Path;
+use std::string::String;
 use std::vec::Vec;
 
 use super::*;
+use crate::finding::Severity;
 
 #[test]
 fn codes_are_unique_ascending_and_tell_their_severity() {

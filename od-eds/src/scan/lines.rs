@@ -7,9 +7,10 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
+use crate::span::{Span, Spanned};
 
 /// A section as it stands in the text.
 #[derive(Clone, PartialEq, Debug)]
@@ -36,7 +37,7 @@ pub(crate) struct Scan<'a> {
     /// Sections in file order, duplicates and all.
     pub(crate) sections: Vec<RawSection<'a>>,
     /// What was left out, or amended.
-    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) diagnostics: Vec<Finding>,
 }
 
 /// One line, and where it is.
@@ -160,12 +161,12 @@ impl<'a> Scan<'a> {
                 let name = inside.split([';', '#']).next().unwrap_or(inside).trim();
                 self.diagnostics.push(
                     rules::W0103
-                        .at(
+                        .told(
                             line.span(trimmed),
                             format!("the section `{name}` has no closing bracket"),
                         )
                         .with_help(format!("write `[{name}]`"))
-                        .with_fix(Fix::safe().replace(line.span(name), format!("{name}]"))),
+                        .fix(Fix::safe().replace(line.span(name), format!("{name}]"))),
                 );
                 (name, "")
             }
@@ -173,12 +174,12 @@ impl<'a> Scan<'a> {
         if !behind.is_empty() {
             self.diagnostics.push(
                 rules::W0104
-                    .at(
+                    .told(
                         line.span(behind),
                         format!("`{behind}` stands behind the section `[{name}]`"),
                     )
                     .with_help("give a comment a line of its own that begins with `;`")
-                    .with_fix(Fix::safe().replace(
+                    .fix(Fix::safe().replace(
                         line.span(behind),
                         format!("\n;{}", behind.trim_start_matches([';', '#'])),
                     )),
@@ -187,7 +188,7 @@ impl<'a> Scan<'a> {
         if name.is_empty() {
             self.diagnostics.push(
                 rules::W0110
-                    .at(line.span(trimmed), "the section has no name")
+                    .told(line.span(trimmed), "the section has no name")
                     .with_help("write the name between the brackets"),
             );
         }
@@ -204,12 +205,12 @@ impl<'a> Scan<'a> {
         let Some(at) = trimmed.find(['=', ':']) else {
             self.diagnostics.push(
                 rules::W0101
-                    .at(
+                    .told(
                         line.span(trimmed),
                         format!("`{trimmed}` is no section, no `key=value` and no comment"),
                     )
                     .with_help("the line is ignored; begin it with `;` to make it a comment")
-                    .with_fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
+                    .fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
             );
             return;
         };
@@ -217,24 +218,24 @@ impl<'a> Scan<'a> {
         if key.is_empty() {
             self.diagnostics.push(
                 rules::W0102
-                    .at(
+                    .told(
                         line.span(trimmed),
                         format!("`{trimmed}` has no key before the `=`"),
                     )
                     .with_help("the line is ignored; remove it, or name the key")
-                    .with_fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
+                    .fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
             );
             return;
         }
         if trimmed[at..].starts_with(':') {
             self.diagnostics.push(
                 rules::W0108
-                    .at(
+                    .told(
                         line.span(&trimmed[at..=at]),
                         format!("`{key}` is separated from its value by `:`"),
                     )
                     .with_help(format!("write `{key}={value}`"))
-                    .with_fix(Fix::safe().replace(line.span(&trimmed[at..=at]), "=")),
+                    .fix(Fix::safe().replace(line.span(&trimmed[at..=at]), "=")),
             );
         }
         let pair = RawPair {
@@ -246,7 +247,7 @@ impl<'a> Scan<'a> {
             None => {
                 self.diagnostics.push(
                     rules::W0105
-                        .at(
+                        .told(
                             line.span(trimmed),
                             format!("`{key}` stands before the first section"),
                         )
@@ -289,7 +290,7 @@ mod tests {
                 assert_eq!(&text[start as usize..end as usize], **part);
             }
         }
-        scan.diagnostics.iter().map(|d| d.code).collect()
+        scan.diagnostics.iter().map(|d| d.code()).collect()
     }
 
     #[test]

@@ -13,9 +13,10 @@ use alloc::vec::Vec;
 use ::ini::{Ini, ParseOption};
 
 use crate::description::Section;
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::Finding;
 use crate::scan::lines;
 use crate::scan::names::object_of;
+use crate::span::{Span, Spanned};
 
 /// A piece of the text; owned where it had to be made, as for an XDD.
 pub(crate) type Text<'a> = Spanned<Cow<'a, str>>;
@@ -56,7 +57,7 @@ pub(crate) fn owned(text: Text<'_>) -> Spanned<alloc::string::String> {
 }
 
 /// The sections of a text in file order, duplicates and all.
-pub(crate) fn read<'a>(text: &'a str, diagnostics: &mut Vec<Diagnostic>) -> Vec<Placed<'a>> {
+pub(crate) fn read<'a>(text: &'a str, diagnostics: &mut Vec<Finding>) -> Vec<Placed<'a>> {
     let scan = lines::scan(text);
     diagnostics.extend(scan.diagnostics);
     let borrowed = |piece: Spanned<&'a str>| Spanned::new(Cow::Borrowed(piece.value), piece.span);

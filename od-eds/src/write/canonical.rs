@@ -10,10 +10,10 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::description::{Description, Section};
-use crate::diagnostic::Spanned;
 use crate::scan::known;
 use crate::scan::known::{Form, Known};
 use crate::scan::number;
+use crate::span::Spanned;
 
 /// The text of a description as other readers take it: [`write`](crate::write()) of what
 /// [`complete`] makes of it.

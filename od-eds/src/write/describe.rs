@@ -6,7 +6,7 @@ use alloc::{format, vec};
 
 use crate::description::Description;
 use crate::description::{EntryDescription, ObjectDescription, Section, Value};
-use crate::diagnostic::Spanned;
+use crate::span::Spanned;
 use od_model::Object;
 use od_model::{Dictionary, Entry, Group, Literal};
 

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
-use crate::diagnostic::Spanned;
 use crate::read::{fields, values};
 use crate::scan::names::List;
+use crate::span::Spanned;
 
 /// The text of a description: what it says, no more and no less.
 ///

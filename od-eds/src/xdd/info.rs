@@ -7,9 +7,9 @@ use alloc::vec::Vec;
 use roxmltree::Node;
 
 use super::{Made, Reader, below, children};
-use crate::diagnostic::{Span, Spanned};
 use crate::scan::known;
 use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
 
 /// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
 pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {

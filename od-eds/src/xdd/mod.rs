@@ -17,11 +17,12 @@ use alloc::vec::Vec;
 
 use roxmltree::{Document, Node};
 
-use crate::diagnostic::{Diagnostic, Span, Spanned};
+use crate::finding::{Finding, Place};
 use crate::read::Parsed;
 use crate::read::sorted::from_sections;
 use crate::rules;
 use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
 
 mod info;
 mod objects;
@@ -53,7 +54,7 @@ pub fn parse(text: &str) -> Parsed {
                 ..Span::default()
             };
             let finding = rules::E0113
-                .at(span, format!("the XML breaks here: {error}"))
+                .told(span, format!("the XML breaks here: {error}"))
                 .with_help("mend the XML; nothing is read of a file that is none");
             return Parsed {
                 diagnostics: alloc::vec![located(finding, text)],
@@ -77,8 +78,8 @@ pub fn parse(text: &str) -> Parsed {
 }
 
 /// A finding at a line and column, with its bytes.
-fn located(mut finding: Diagnostic, text: &str) -> Diagnostic {
-    if let Some(span) = &mut finding.span {
+fn located(mut finding: Finding, text: &str) -> Finding {
+    if let Place::Text(span) = &mut finding.place {
         let places = Places::new(text);
         let line = places
             .lines
@@ -98,7 +99,7 @@ fn located(mut finding: Diagnostic, text: &str) -> Diagnostic {
 /// What the parts of this module share: places and findings.
 struct Reader<'a> {
     places: Places<'a>,
-    log: Vec<Diagnostic>,
+    log: Vec<Finding>,
 }
 
 /// Lines and columns of bytes.

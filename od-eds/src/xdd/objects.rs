@@ -9,9 +9,9 @@ use roxmltree::Node;
 use super::parameters::Parameter;
 use super::types::{self, Found};
 use super::{Ids, Made, Reader, below, children};
-use crate::diagnostic::{Span, Spanned};
 use crate::rules;
 use crate::scan::placed::Placed;
+use crate::span::{Span, Spanned};
 use od_model::{DataType, ObjectCode};
 
 /// The sections of all objects.
@@ -87,7 +87,7 @@ fn hex(
     let span = given.map_or(header, |given| given.span);
     reader
         .log
-        .push(rules::E0114.at(span, message).with_help(format!(
+        .push(rules::E0114.told(span, message).with_help(format!(
             "write {digits} hexadecimal digits; the element is left out"
         )));
     None
@@ -110,7 +110,7 @@ fn parameter<'a, 'i>(
             let span = reader.attribute(node, "uniqueIDRef")?.span;
             reader.log.push(
                 rules::E0115
-                    .at(
+                    .told(
                         span,
                         format!("there is no parameter with the uniqueID `{id}`"),
                     )

@@ -5,7 +5,7 @@ use alloc::string::String;
 use roxmltree::Node;
 
 use super::{Ids, Reader, children, types};
-use crate::diagnostic::Spanned;
+use crate::span::Spanned;
 
 /// A parameter with its template.
 #[derive(Clone, Copy)]

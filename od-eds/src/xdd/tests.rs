@@ -19,7 +19,7 @@ fn file(device: &str, network: &str) -> String {
 }
 
 fn codes(parsed: &Parsed) -> Vec<&'static str> {
-    parsed.diagnostics.iter().map(|d| d.code).collect()
+    parsed.diagnostics.iter().map(|d| d.code()).collect()
 }
 
 #[test]
@@ -174,15 +174,15 @@ fn what_is_wrong_has_a_place() {
     );
     let loaded = crate::load(&text);
     for code in ["E0114", "E0115", "E0401", "E0405", "E0412"] {
-        let found = loaded.diagnostics.iter().find(|d| d.code == code);
+        let found = loaded.diagnostics.iter().find(|d| d.code() == code);
         assert!(
-            found.is_some_and(|d| d.span.is_some() && d.fix.is_none()),
+            found.is_some_and(|d| d.span().is_some() && d.fix.is_none()),
             "{code}"
         );
     }
     let broken = parse("<a>\n <b é></b>\n</a>");
     assert_eq!(codes(&broken), ["E0113"]);
-    let span = broken.diagnostics[0].span.expect("it has a place");
+    let span = broken.diagnostics[0].span().expect("it has a place");
     assert_eq!(span.line, 2);
     for text in [
         "<",

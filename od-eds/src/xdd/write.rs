@@ -9,8 +9,8 @@ use alloc::vec::Vec;
 use xml::{Attributes, Xml, escape, vec_of};
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
-use crate::diagnostic::Spanned;
 use crate::read::values::text as value_text;
+use crate::span::Spanned;
 use od_model::{Access, Address, DataType};
 
 /// What stands around the objects.

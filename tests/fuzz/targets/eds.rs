@@ -90,7 +90,7 @@ fn run(input: &[u8]) {
         assert_eq!(dictionary.find(entry.address), Ok(entry));
     }
     for diagnostic in &parsed.diagnostics {
-        assert!(!diagnostic.message.is_empty() && !diagnostic.code.is_empty());
+        assert!(!od_eds::say(diagnostic, &od_eds::Eds).message.is_empty());
     }
     let options = EdsOptions {
         lenient: true,

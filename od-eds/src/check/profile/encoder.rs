@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use super::{DeviceType, encoder_values, need};
 use crate::check::{place, start_number};
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use od_model::Address;
@@ -18,7 +18,7 @@ use od_model::Address;
 /// Where an encoder has its position.
 const POSITIONS: [u16; 4] = [0x6004, 0x6008, 0x6020, 0x6050];
 
-pub(super) fn check(description: &Description, device: DeviceType, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, device: DeviceType, findings: &mut Vec<Finding>) {
     mandatory(description, device, findings);
     mappable(description, findings);
     mapped(description, findings);
@@ -26,9 +26,9 @@ pub(super) fn check(description: &Description, device: DeviceType, findings: &mu
     encoder_values::check(description, device, findings);
 }
 
-fn mandatory(description: &Description, device: DeviceType, findings: &mut Vec<Diagnostic>) {
+fn mandatory(description: &Description, device: DeviceType, findings: &mut Vec<Finding>) {
     let mut object = |any_of: &[u16], why: &str| {
-        need(description, rules::W0904, any_of, why, findings);
+        need(description, &rules::W0904, any_of, why, findings);
     };
     object(&[0x6000], "which says how the encoder counts");
     object(&POSITIONS, "where the position stands");
@@ -52,7 +52,7 @@ fn mandatory(description: &Description, device: DeviceType, findings: &mut Vec<D
         for index in scaling {
             need(
                 description,
-                rules::W0904,
+                &rules::W0904,
                 &[index],
                 "without which an encoder cannot be scaled",
                 findings,
@@ -71,7 +71,7 @@ pub(super) fn revolutions(device: DeviceType) -> Option<bool> {
 }
 
 /// The position, alarms and warnings are what PDOs are for.
-fn mappable(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn mappable(description: &Description, findings: &mut Vec<Finding>) {
     for index in [0x6004, 0x6008] {
         let address = Address::new(index, 0);
         let Some(entry) = description.entry(address).filter(|entry| !*entry.mappable) else {
@@ -79,22 +79,22 @@ fn mappable(description: &Description, findings: &mut Vec<Diagnostic>) {
         };
         findings.push(
             rules::W0953
-                .at(
+                .told(
                     place(&[entry.mappable.span, entry.span]),
                     format!("{index:04X}h is the position, and no PDO may carry it"),
                 )
-                .with_address(address)
+                .about(address)
                 .with_help("write `PDOMapping=1`")
-                .with_fix(match entry.mappable.span.line {
-                    0 => Fix::guess().below(entry.span, "PDOMapping=1"),
-                    _ => Fix::guess().replace(entry.mappable.span, "1"),
+                .fix(match entry.mappable.span.line {
+                    0 => Fix::unsafe_fix().below(entry.span, "PDOMapping=1"),
+                    _ => Fix::unsafe_fix().replace(entry.mappable.span, "1"),
                 }),
         );
     }
 }
 
 /// One of the TPDOs carries the position as the device is shipped.
-fn mapped(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn mapped(description: &Description, findings: &mut Vec<Finding>) {
     let mut mappings = description.objects.range(0x1A00..=0x1BFF).peekable();
     let Some((first, object)) = mappings.peek().copied() else {
         return;
@@ -109,15 +109,15 @@ fn mapped(description: &Description, findings: &mut Vec<Diagnostic>) {
     if !carries {
         findings.push(
             rules::W0963
-                .at(object.span, "no TPDO carries the position")
-                .with_address(Address::new(*first, 0))
+                .told(object.span, "no TPDO carries the position")
+                .about(Address::new(*first, 0))
                 .with_help("map 6004h: write `DefaultValue=0x60040020` in [1A00sub1]"),
         );
     }
 }
 
 /// A cam channel has its state, its switch, its polarity, two limits and a hysteresis.
-fn cams(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn cams(description: &Description, findings: &mut Vec<Finding>) {
     let Some((first, object)) = description.objects.range(0x6300..=0x63FF).next() else {
         return;
     };
@@ -132,11 +132,11 @@ fn cams(description: &Description, findings: &mut Vec<Diagnostic>) {
         if !description.objects.contains_key(&index) {
             findings.push(
                 rules::W0960
-                    .at(
+                    .told(
                         object.span,
                         format!("there are cams ({first:04X}h), but no {index:04X}h (CAM {what})"),
                     )
-                    .with_address(Address::new(index, 0))
+                    .about(Address::new(index, 0))
                     .with_help(format!("write a section [{index:04X}]")),
             );
         }

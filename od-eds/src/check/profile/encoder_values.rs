@@ -11,12 +11,13 @@ use super::DeviceType;
 use super::encoder::revolutions;
 use crate::check::start_number;
 use crate::description::Description;
-use crate::diagnostic::{Diagnostic, Spanned};
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
+use crate::span::Spanned;
 use od_model::Address;
 
-pub(super) fn check(description: &Description, device: DeviceType, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, device: DeviceType, findings: &mut Vec<Finding>) {
     let value = |index, sub| start_number(description, Address::new(index, sub));
     let units = value(0x6001, 0);
     let range = value(0x6002, 0);
@@ -31,14 +32,14 @@ pub(super) fn check(description: &Description, device: DeviceType, findings: &mu
     {
         findings.push(
             rules::W0956
-                .at(
+                .told(
                     units.span,
                     format!(
                         "{} units a revolution are more than the {} that there are",
                         units.value, physical.value
                     ),
                 )
-                .with_address(Address::new(0x6001, 0))
+                .about(Address::new(0x6001, 0))
                 .with_label(physical.span, "6501h says the resolution here")
                 .with_help(format!("write at most {}", physical.value)),
         );
@@ -49,7 +50,7 @@ pub(super) fn check(description: &Description, device: DeviceType, findings: &mu
     {
         findings.push(
             rules::W0955
-                .at(
+                .told(
                     preset.span,
                     format!(
                         "preset {} is no position: the range is 0 to {}",
@@ -57,7 +58,7 @@ pub(super) fn check(description: &Description, device: DeviceType, findings: &mu
                         range.value - 1
                     ),
                 )
-                .with_address(Address::new(0x6003, 0))
+                .about(Address::new(0x6003, 0))
                 .with_label(range.span, "6002h says the range here")
                 .with_help("write a position within the range, for example `DefaultValue=0`"),
         );
@@ -84,7 +85,7 @@ fn product(
     units: Spanned<u64>,
     range: Spanned<u64>,
     turns: Option<Spanned<u64>>,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     let all = u128::from(units.value) * u128::from(turns.map_or(1, |turns| turns.value.max(1)));
     let own = u128::from(range.value);
@@ -98,26 +99,26 @@ fn product(
     let turns = turns.map_or(1, |turns| turns.value.max(1));
     findings.push(
         rules::W0952
-            .at(
+            .told(
                 range.span,
                 format!(
                     "6002h is {own}, but {} units times {turns} revolutions are {all}",
                     units.value
                 ),
             )
-            .with_address(Address::new(0x6002, 0))
+            .about(Address::new(0x6002, 0))
             .with_label(units.span, "6001h says the units of one revolution here")
             .with_help(format!(
                 "write `DefaultValue={all}`, or a range that divides it"
             ))
-            .with_fix(match u32::try_from(all) {
-                Ok(all) => Fix::guess().replace(range.span, format!("{all}")),
-                Err(_) => Fix::guess(),
+            .fix(match u32::try_from(all) {
+                Ok(all) => Fix::unsafe_fix().replace(range.span, format!("{all}")),
+                Err(_) => Fix::unsafe_fix(),
             }),
     );
 }
 
-fn kind(device: DeviceType, turns: Option<Spanned<u64>>, findings: &mut Vec<Diagnostic>) {
+fn kind(device: DeviceType, turns: Option<Spanned<u64>>, findings: &mut Vec<Finding>) {
     let (Some(turns), Some(many)) = (turns, revolutions(device)) else {
         return;
     };
@@ -128,14 +129,14 @@ fn kind(device: DeviceType, turns: Option<Spanned<u64>>, findings: &mut Vec<Diag
     if wrong {
         findings.push(
             rules::W0957
-                .at(
+                .told(
                     turns.span,
                     format!(
                         "1000h says {says}, but 6502h says {} revolutions",
                         turns.value
                     ),
                 )
-                .with_address(Address::new(0x6502, 0))
+                .about(Address::new(0x6502, 0))
                 .with_help(
                     "mend 6502h, or the upper half of 1000h: 1 is singleturn, 2 is multiturn",
                 ),
@@ -147,7 +148,7 @@ fn kind(device: DeviceType, turns: Option<Spanned<u64>>, findings: &mut Vec<Diag
 fn status(
     parameters: Option<Spanned<u64>>,
     status: Option<Spanned<u64>>,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     let (Some(parameters), Some(status)) = (parameters, status) else {
         return;
@@ -155,17 +156,17 @@ fn status(
     if (parameters.value ^ status.value) & 0b111 != 0 {
         findings.push(
             rules::W0954
-                .at(
+                .told(
                     status.span,
                     format!(
                         "6500h is 0x{:X}, but 6000h is 0x{:X}",
                         status.value, parameters.value
                     ),
                 )
-                .with_address(Address::new(0x6500, 0))
+                .about(Address::new(0x6500, 0))
                 .with_label(parameters.span, "6000h is set here")
                 .with_help("give bits 0 to 2 of both the same values")
-                .with_fix(Fix::guess().replace(
+                .fix(Fix::unsafe_fix().replace(
                     status.span,
                     format!("0x{:X}", status.value & !0b111 | parameters.value & 0b111),
                 )),
@@ -178,7 +179,7 @@ fn signals(
     index: u16,
     active: Option<Spanned<u64>>,
     supported: Option<Spanned<u64>>,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     let (Some(active), Some(supported)) = (active, supported) else {
         return;
@@ -187,14 +188,14 @@ fn signals(
     if more != 0 {
         findings.push(
             rules::W0959
-                .at(
+                .told(
                     active.span,
                     format!(
                         "{index:04X}h has bits (0x{more:X}) that {:04X}h does not support",
                         index + 1
                     ),
                 )
-                .with_address(Address::new(index, 0))
+                .about(Address::new(index, 0))
                 .with_label(supported.span, "what is supported stands here")
                 .with_help("write `DefaultValue=0`: a new device has nothing to tell"),
         );
@@ -202,28 +203,24 @@ fn signals(
 }
 
 /// 6200h and the event timer of the first TPDO are one timer.
-fn timers(
-    cycle: Option<Spanned<u64>>,
-    event: Option<Spanned<u64>>,
-    findings: &mut Vec<Diagnostic>,
-) {
+fn timers(cycle: Option<Spanned<u64>>, event: Option<Spanned<u64>>, findings: &mut Vec<Finding>) {
     let (Some(cycle), Some(event)) = (cycle, event) else {
         return;
     };
     if cycle.value != event.value {
         findings.push(
             rules::W0958
-                .at(
+                .told(
                     cycle.span,
                     format!(
                         "6200h is {} ms, but 1800h:05 is {} ms",
                         cycle.value, event.value
                     ),
                 )
-                .with_address(Address::new(0x6200, 0))
+                .about(Address::new(0x6200, 0))
                 .with_label(event.span, "1800h:05 is set here")
                 .with_help("give both the same value")
-                .with_fix(Fix::guess().replace(cycle.span, format!("{}", event.value))),
+                .fix(Fix::unsafe_fix().replace(cycle.span, format!("{}", event.value))),
         );
     }
 }

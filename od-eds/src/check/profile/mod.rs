@@ -8,10 +8,10 @@ use alloc::vec::Vec;
 
 use super::{named, place, start_number};
 use crate::description::Description;
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
+use crate::finding::Rule;
 use crate::fix::Fix;
 use crate::rules;
-use crate::rules::Rule;
 use od_model::Address;
 
 pub(super) mod encoder;
@@ -37,7 +37,7 @@ fn device_type(description: &Description) -> Option<DeviceType> {
     })
 }
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(device) = device_type(description) else {
         return;
     };
@@ -54,10 +54,10 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
 /// Names a mandatory object that is not there: one of these would do.
 fn need(
     description: &Description,
-    rule: Rule,
+    rule: &'static Rule,
     any_of: &[u16],
     why: &str,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     if any_of
         .iter()
@@ -69,11 +69,11 @@ fn need(
     let list: Vec<_> = any_of.iter().map(|index| format!("{index:04X}h")).collect();
     let span = start_number(description, Address::new(0x1000, 0)).map(|number| number.span);
     findings.push(
-        rule.at(
+        rule.told(
             span.unwrap_or_default(),
             format!("there is no {}, {why}", list.join(" or ")),
         )
-        .with_address(Address::new(*first, 0))
+        .about(Address::new(*first, 0))
         .with_help(format!(
             "write a section [{first:04X}], or mend the device type in 1000h"
         )),
@@ -81,7 +81,7 @@ fn need(
 }
 
 /// CiA 401: each of the four kinds of channels that 1000h announces.
-fn io_module(description: &Description, device: DeviceType, findings: &mut Vec<Diagnostic>) {
+fn io_module(description: &Description, device: DeviceType, findings: &mut Vec<Finding>) {
     for (bit, any_of, what) in [
         (
             0,
@@ -105,24 +105,24 @@ fn io_module(description: &Description, device: DeviceType, findings: &mut Vec<D
         ),
     ] {
         if device.additional & 1 << bit != 0 {
-            need(description, rules::W0901, any_of, what, findings);
+            need(description, &rules::W0901, any_of, what, findings);
         }
     }
 }
 
 /// CiA 402: what every drive is controlled by. A device of several axes has them 800h apart.
-fn drive(description: &Description, findings: &mut Vec<Diagnostic>) {
+fn drive(description: &Description, findings: &mut Vec<Finding>) {
     for (index, what) in [
         (0x6040, "the controlword of every drive"),
         (0x6041, "the statusword of every drive"),
         (0x6502, "which says the modes that a drive has"),
     ] {
-        need(description, rules::W0902, &[index], what, findings);
+        need(description, &rules::W0902, &[index], what, findings);
     }
 }
 
 /// CiA 404: the process values of the blocks that 1000h announces.
-fn measuring(description: &Description, device: DeviceType, findings: &mut Vec<Diagnostic>) {
+fn measuring(description: &Description, device: DeviceType, findings: &mut Vec<Finding>) {
     for (bit, any_of, what) in [
         (
             1,
@@ -136,16 +136,16 @@ fn measuring(description: &Description, device: DeviceType, findings: &mut Vec<D
         ),
     ] {
         if device.additional & 1 << bit != 0 {
-            need(description, rules::W0903, any_of, what, findings);
+            need(description, &rules::W0903, any_of, what, findings);
         }
     }
 }
 
 /// The objects that there are have the code, types and access of the profile.
-fn types(description: &Description, profile: u16, findings: &mut Vec<Diagnostic>) {
+fn types(description: &Description, profile: u16, findings: &mut Vec<Finding>) {
     let (of_type, of_access) = match profile {
-        406 => (rules::W0950, rules::W0951),
-        _ => (rules::W0905, rules::W0906),
+        406 => (&rules::W0950, &rules::W0951),
+        _ => (&rules::W0905, &rules::W0906),
     };
     for (index, object) in description.objects.range(0x6000..=0x9FFF) {
         let Some(standard) = of(profile, *index) else {
@@ -160,14 +160,14 @@ fn types(description: &Description, profile: u16, findings: &mut Vec<Diagnostic>
         if object.code.has_members() != code.has_members() {
             findings.push(
                 of_type
-                    .at(
+                    .told(
                         place(&[object.code.span, object.span]),
                         format!(
                             "{index:04X}h is a {code} in CiA {profile}, and a {} here",
                             *object.code
                         ),
                     )
-                    .with_address(Address::new(*index, 0))
+                    .about(Address::new(*index, 0))
                     .with_help(format!("write `ObjectType=0x{:X}`", code.code())),
             );
             continue;
@@ -182,14 +182,15 @@ fn types(description: &Description, profile: u16, findings: &mut Vec<Diagnostic>
             {
                 findings.push(
                     of_type
-                        .at(
+                        .told(
                             place(&[given.span, entry.span]),
                             format!("{shown} is {right} in CiA {profile}, and {} here", *given),
                         )
-                        .with_address(address)
+                        .about(address)
                         .with_help(format!("write `DataType=0x{:04X}`", right.code()))
-                        .with_fix(
-                            Fix::guess().replace(given.span, format!("0x{:04X}", right.code())),
+                        .fix(
+                            Fix::unsafe_fix()
+                                .replace(given.span, format!("0x{:04X}", right.code())),
                         ),
                 );
             }
@@ -202,16 +203,16 @@ fn types(description: &Description, profile: u16, findings: &mut Vec<Diagnostic>
                 };
                 findings.push(
                     of_access
-                        .at(
+                        .told(
                             place(&[entry.access.span, entry.span]),
                             format!(
                                 "{shown} {right} in CiA {profile}, and is {} here",
                                 *entry.access
                             ),
                         )
-                        .with_address(address)
+                        .about(address)
                         .with_help(format!("write `AccessType={word}`"))
-                        .with_fix(Fix::guess().replace(entry.access.span, word)),
+                        .fix(Fix::unsafe_fix().replace(entry.access.span, word)),
                 );
             }
         }

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use super::{named, place};
 use crate::description::{Description, EntryDescription, ObjectDescription};
-use crate::diagnostic::Diagnostic;
+use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
 use od_model::{Access, Address, ObjectCode};
@@ -19,7 +19,7 @@ mod table;
 
 use table::{Members, Standard, Value, of};
 
-pub(super) fn check(description: &Description, findings: &mut Vec<Diagnostic>) {
+pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     for (index, object) in description.objects.range(0x1000..=0x1FFF) {
         let Some(standard) = of(*index) else { continue };
         if code(*index, object, standard, findings) {
@@ -33,7 +33,7 @@ fn code(
     index: u16,
     object: &ObjectDescription,
     standard: &Standard,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) -> bool {
     let right = standard.code();
     let own = *object.code;
@@ -48,7 +48,7 @@ fn code(
     if !matches!(index, 0x1000 | 0x1001 | 0x1018) {
         findings.push(
             rules::W0630
-                .at(
+                .told(
                     place(&[object.code.span, object.span]),
                     format!(
                         "{index:04X}h ({}) is a {right} in {}, and a {own} here",
@@ -56,7 +56,7 @@ fn code(
                         standard.source()
                     ),
                 )
-                .with_address(Address::new(index, 0))
+                .about(Address::new(index, 0))
                 .with_help(format!("write `ObjectType=0x{:X}`", right.code())),
         );
     }
@@ -68,7 +68,7 @@ fn values(
     index: u16,
     object: &ObjectDescription,
     standard: &Standard,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     match &standard.members {
         Members::Var(value) => {
@@ -122,7 +122,7 @@ fn missing(
     object: &ObjectDescription,
     sub: u8,
     standard: &Standard,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     // Without any member at all, that was said; 1018h and the PDOs have rules of their own.
     let own_rule = matches!(index, 0x1018 | 0x1400..=0x1BFF);
@@ -131,11 +131,11 @@ fn missing(
     }
     findings.push(
         rules::W0633
-            .at(
+            .told(
                 object.span,
                 format!("{index:04X}h ({}) has no sub-index {sub}", standard.name),
             )
-            .with_address(Address::new(index, sub))
+            .about(Address::new(index, sub))
             .with_help(format!("write a section [{index:04X}sub{sub:X}]")),
     );
 }
@@ -146,7 +146,7 @@ fn one(
     entry: &EntryDescription,
     value: &Value,
     standard: &Standard,
-    findings: &mut Vec<Diagnostic>,
+    findings: &mut Vec<Finding>,
 ) {
     let own_rule = matches!(address.index, 0x1000 | 0x1001 | 0x1018)
         || matches!(address.index, 0x1400..=0x15FF | 0x1800..=0x19FF if address.sub <= 2)
@@ -158,7 +158,7 @@ fn one(
         let right = value.data_type;
         findings.push(
             rules::W0631
-                .at(
+                .told(
                     place(&[given.span, entry.span]),
                     format!(
                         "{shown} ({}) is {right} in {}, and {} here",
@@ -167,9 +167,9 @@ fn one(
                         *given
                     ),
                 )
-                .with_address(address)
+                .about(address)
                 .with_help(format!("write `DataType=0x{:04X}`", right.code()))
-                .with_fix(Fix::guess().replace(given.span, format!("0x{:04X}", right.code()))),
+                .fix(Fix::unsafe_fix().replace(given.span, format!("0x{:04X}", right.code()))),
         );
     }
     let own = *entry.access;
@@ -184,7 +184,7 @@ fn one(
     if wrong {
         findings.push(
             rules::W0632
-                .at(
+                .told(
                     place(&[entry.access.span, entry.span]),
                     format!(
                         "{shown} ({}) is {} in {}, and {own} here",
@@ -193,9 +193,9 @@ fn one(
                         standard.source()
                     ),
                 )
-                .with_address(address)
+                .about(address)
                 .with_help(format!("write `AccessType={help}`"))
-                .with_fix(Fix::guess().replace(entry.access.span, help)),
+                .fix(Fix::unsafe_fix().replace(entry.access.span, help)),
         );
     }
 }

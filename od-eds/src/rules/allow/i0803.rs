@@ -1,15 +1,15 @@
 //! I0803: odkit-allow allows nothing.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0803",
     severity: Info,
     title: "odkit-allow allows nothing",
     why: "The finding that was allowed here is not found any more.",
     source: "odkit",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5.0\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0801: odkit-allow names no rule.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0801",
     severity: Warning,
     title: "odkit-allow names no rule",
     why: "`;odkit-allow=` takes the codes of findings of a file, with commas between them. What it says is not followed.",
     source: "odkit",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         ;odkit-allow=W0420 an old tool writes it so\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0802: odkit-allow gives no reason.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0802",
     severity: Warning,
     title: "odkit-allow gives no reason",
     why: "Who reads the file next has to know why a finding is no fault. Nothing is allowed without a reason.",
     source: "odkit",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         ;odkit-allow=W0420 an old tool writes it so\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0701: edit of what does not exist.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0701",
     severity: Error,
     title: "edit of what does not exist",
     why: "A variant is strict: it changes and removes what its base has.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "modify 0x2000 { default = 7 }      // the EDS has no 2000h",
     after: "modify 0x2001 { default = 7 }",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0702: what is added exists already.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0702",
     severity: Error,
     title: "what is added exists already",
     why: "A variant is strict: it adds what its base lacks.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // it is there already",
     after: "modify 0x1017 { default = 1000 }",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0704: object has no members.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0704",
     severity: Error,
     title: "object has no members",
     why: "Only a RECORD or an ARRAY has sub-indices.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "add 0x1017sub1 { name = \"Second\"; type = u16 }   // 1017h is a VAR",
     after: "add 0x2000 { name = \"Second\"; type = u16 }",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0705: added object has no name.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0705",
     severity: Error,
     title: "added object has no name",
     why: "The handle is called after the name.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "add 0x2000 { type = u16 }",
     after: "add 0x2000 { name = \"Gain\"; type = u16 }",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0707: value of an edit is none of its type.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0707",
     severity: Error,
     title: "value of an edit is none of its type",
     why: "A default or a limit is a value of the entry's type.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
     after: "add 0x2000 { name = \"Gain\"; type = u8; default = 200 }",
+    ..Rule::NEW
 };

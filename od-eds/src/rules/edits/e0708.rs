@@ -1,15 +1,15 @@
 //! E0708: value of the base is none of the new type.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0708",
     severity: Error,
     title: "value of the base is none of the new type",
     why: "An edit that changes the type says the values anew where they do not fit.",
     source: "odkit, object_dictionary!",
-    mending: Mending::None,
     before: "modify 0x1000 { type = u8 }          // its default does not fit",
     after: "modify 0x1000 { type = u8; default = 0 }",
+    ..Rule::NEW
 };

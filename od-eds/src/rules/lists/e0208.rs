@@ -1,15 +1,14 @@
 //! E0208: sub-index without its object.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0208",
     severity: Error,
     title: "sub-index without its object",
     why: "The section of the object itself says its code and name. The members are kept in an object without a name.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [1018sub3]\n\
         DataType=0x0007",
@@ -18,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Filter\n\
         ObjectType=0x9\n\
         SubNumber=3",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0210: text has no objects.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0210",
     severity: Error,
     title: "text has no objects",
     why: "This is no EDS and no DCF, or an empty one.",
     source: "CiA 306-1",
-    mending: Mending::None,
     before: "\
         [FileInfo]\n\
         FileName=case.eds\n\
@@ -30,4 +29,5 @@ pub(crate) const RULE: Rule = Rule {
         ProductName=Case\n\
         ProductNumber=0x10\n\
         RevisionNumber=0x10001",
+    ..Rule::NEW
 };

@@ -1,17 +1,17 @@
 //! I0211: section is none of CiA 306.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0211",
     severity: Info,
     title: "section is none of CiA 306",
     why: "It is kept, and nothing reads it. Tools put their own notes into sections; a slip in the name of an object hides the object.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
     before: "\
         [Sub1018]\n\
         ParameterName=Vendor-ID",
     after: "; [Sub1018] is no section of CiA 306",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! I0212: section name is not written as `1018` or `1018sub2`.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0212",
     severity: Info,
     title: "section name is not written as `1018` or `1018sub2`",
     why: "Four hexadecimal digits, and behind `sub` as many as it takes. Other ways are read the same; many readers do not see the object.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [0x2000]\n\
         ParameterName=Gain\n\
@@ -18,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ParameterName=Gain\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! I0240: [FileInfo] or [DeviceInfo] is missing.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0240",
     severity: Info,
     title: "[FileInfo] or [DeviceInfo] is missing",
     why: "Tools read there what the file is, and which device it is for.",
     source: "CiA 306-1, FileInfo and DeviceInfo",
-    mending: Mending::None,
     before: "",
     after: "\
         [FileInfo]\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         Description=A case\n\
         CreationTime=09:30AM\n\
         CreationDate=11-21-2026",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! I0251: [DummyUsage] does not speak of every dummy.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0251",
     severity: Info,
     title: "[DummyUsage] does not speak of every dummy",
     why: "There are seven dummies, 0001h to 0007h; some readers want to see each of them. 0 is taken for what is missing.",
     source: "CiA 306-1, DummyUsage",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [DummyUsage]\n\
         Dummy0002=0",
@@ -17,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [DummyUsage]\n\
         Dummy0001=0\n\
         Dummy0002=0",
+    ..Rule::NEW
 };

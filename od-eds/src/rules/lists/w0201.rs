@@ -1,15 +1,15 @@
 //! W0201: listed object has no section.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0201",
     severity: Warning,
     title: "listed object has no section",
     why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
     source: "CiA 306-1, object lists",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [ManufacturerObjects]\n\
         SupportedObjects=2\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         SupportedObjects=1\n\
         1=0x2000",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0202: object is in no list.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0202",
     severity: Warning,
     title: "object is in no list",
     why: "A reader that follows the lists does not see the object. It is taken to exist.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
     before: "\
         [ManufacturerObjects]\n\
         SupportedObjects=0",
@@ -17,4 +16,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         SupportedObjects=1\n\
         1=0x2000",
+    ..Rule::NEW
 };

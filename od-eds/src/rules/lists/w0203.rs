@@ -1,15 +1,14 @@
 //! W0203: file has no object lists.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0203",
     severity: Warning,
     title: "file has no object lists",
     why: "A reader that follows the lists sees no objects. Every section is taken for an object.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
     before: "\
         [DummyUsage]\n\
         Dummy0007=0",
@@ -29,4 +28,5 @@ pub(crate) const RULE: Rule = Rule {
         \n\
         [ManufacturerObjects]\n\
         SupportedObjects=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0204: SupportedObjects does not count its list.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0204",
     severity: Warning,
     title: "SupportedObjects does not count its list",
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, object lists",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [ManufacturerObjects]\n\
         SupportedObjects=3\n\
@@ -18,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         SupportedObjects=1\n\
         1=0x2000",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0205: list entry is no index.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0205",
     severity: Warning,
     title: "list entry is no index",
     why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
     before: "\
         [ManufacturerObjects]\n\
         1=0x2000\n\
@@ -17,4 +16,5 @@ pub(crate) const RULE: Rule = Rule {
     after: "\
         [ManufacturerObjects]\n\
         1=0x2000",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0206: object is in the wrong list.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0206",
     severity: Warning,
     title: "object is in the wrong list",
     why: "2000h–5FFFh belong to [ManufacturerObjects], the mandatory three to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=2\n\
@@ -26,4 +25,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         SupportedObjects=1\n\
         1=0x2000",
+    ..Rule::NEW
 };

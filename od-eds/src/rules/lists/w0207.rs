@@ -1,15 +1,15 @@
 //! W0207: object is listed twice.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0207",
     severity: Warning,
     title: "object is listed twice",
     why: "One entry is enough; some editors make two objects of two.",
     source: "CiA 306-1, object lists",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [ManufacturerObjects]\n\
         SupportedObjects=2\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         SupportedObjects=1\n\
         1=0x2000",
+    ..Rule::NEW
 };

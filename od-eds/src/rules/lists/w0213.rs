@@ -1,19 +1,20 @@
 //! W0213: section name is nearly one of CiA 306.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0213",
     severity: Warning,
     title: "section name is nearly one of CiA 306",
     why: "It looks like a slip. The section is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [DummyUsages]\n\
         Dummy0001=0",
     after: "\
         [DummyUsage]\n\
         Dummy0001=0",
+    ..Rule::NEW
 };

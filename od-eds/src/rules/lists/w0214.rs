@@ -1,15 +1,15 @@
 //! W0214: number of a list stands twice.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0214",
     severity: Warning,
     title: "number of a list stands twice",
     why: "Readers that ask for each number miss one of the two. Both entries are read.",
     source: "CiA 306-1, object lists",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [ManufacturerObjects]\n\
         1=0x2000\n\
@@ -18,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [ManufacturerObjects]\n\
         1=0x2000\n\
         2=0x2001",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0241: Lines does not count [Comments].
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0241",
     severity: Warning,
     title: "Lines does not count [Comments]",
     why: "A tool that trusts Lines shows too few comments, or stops at a missing one.",
     source: "CiA 306-1, Comments",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [Comments]\n\
         Lines=5\n\
@@ -18,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [Comments]\n\
         Lines=2\n\
         Line1=A case",
+    ..Rule::NEW
 };

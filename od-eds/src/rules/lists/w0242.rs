@@ -1,15 +1,15 @@
 //! W0242: list entries are not numbered 1, 2, 3.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0242",
     severity: Warning,
     title: "list entries are not numbered 1, 2, 3",
     why: "Many readers ask for entry 1, 2, 3 up to SupportedObjects, and miss an entry of another number. All entries are read.",
     source: "CiA 306-1, object lists",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [ManufacturerObjects]\n\
         SupportedObjects=2\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         SupportedObjects=2\n\
         1=0x2000\n\
         2=0x2001",
+    ..Rule::NEW
 };

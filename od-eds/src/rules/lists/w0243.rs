@@ -1,15 +1,14 @@
 //! W0243: module has no section.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0243",
     severity: Warning,
     title: "module has no section",
     why: "[SupportedModules] counts the modules of a modular device; [MxModuleInfo] describes module x.",
     source: "CiA 306-1, SupportedModules",
-    mending: Mending::None,
     before: "\
         [SupportedModules]\n\
         NrOfEntries=2\n\
@@ -19,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [SupportedModules]\n\
         NrOfEntries=1\n\
         1=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0501: PDO maps an object that does not exist.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0501",
     severity: Error,
     title: "PDO maps an object that does not exist",
     why: "The PDO cannot be made.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
     before: "\
         [1A00sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20000020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

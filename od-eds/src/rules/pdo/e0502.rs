@@ -1,15 +1,15 @@
 //! E0502: PDO maps an object that is not mappable.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0502",
     severity: Error,
     title: "PDO maps an object that is not mappable",
     why: "PDOMapping=0 forbids it.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0007\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0007\n\
         DefaultValue=0\n\
         PDOMapping=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0504: PDO maps an object with a wrong length.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0504",
     severity: Error,
     title: "PDO maps an object with a wrong length",
     why: "The last byte of a mapping entry is the object's length in bits.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1A00sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20000020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0505: PDO is longer than 64 bits.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0505",
     severity: Error,
     title: "PDO is longer than 64 bits",
     why: "A CAN frame carries eight bytes.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
     before: "\
         [1A00sub0]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=2\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

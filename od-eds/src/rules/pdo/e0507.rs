@@ -1,15 +1,14 @@
 //! E0507: TPDO maps a dummy.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0507",
     severity: Error,
     title: "TPDO maps a dummy",
     why: "Dummies fill gaps in what is received; there is nothing to send.",
     source: "CiA 301, dummy mapping",
-    mending: Mending::None,
     before: "\
         [1A00sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20000020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

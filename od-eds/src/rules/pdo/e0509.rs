@@ -1,15 +1,15 @@
 //! E0509: PDO communication parameter lacks COB-ID or transmission type.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0509",
     severity: Error,
     title: "PDO communication parameter lacks COB-ID or transmission type",
     why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1800sub2]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0510: mapping entry is no UNSIGNED32.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0510",
     severity: Error,
     title: "mapping entry is no UNSIGNED32",
     why: "A mapping entry is index, sub-index and length in one UNSIGNED32.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1A00sub1]\n\
         ObjectType=0x7\n\
@@ -24,4 +24,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20000020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

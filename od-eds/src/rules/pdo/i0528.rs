@@ -1,15 +1,14 @@
 //! I0528: PDO carries an object twice.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0528",
     severity: Info,
     title: "PDO carries an object twice",
     why: "That is allowed, and hardly ever meant.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
     before: "\
         [1A00sub2]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20020020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

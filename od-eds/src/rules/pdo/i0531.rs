@@ -1,15 +1,14 @@
 //! I0531: COB-ID does not follow the node ID.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0531",
     severity: Info,
     title: "COB-ID does not follow the node ID",
     why: "Two such devices in one network send on one identifier. The first four PDOs usually have $NODEID in their COB-IDs.",
     source: "CiA 301, predefined connection set",
-    mending: Mending::None,
     before: "\
         [1800sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=$NODEID+0x180\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

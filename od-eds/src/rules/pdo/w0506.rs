@@ -1,15 +1,15 @@
 //! W0506: RPDO maps a dummy that [DummyUsage] does not allow.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0506",
     severity: Warning,
     title: "RPDO maps a dummy that [DummyUsage] does not allow",
     why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
     source: "CiA 306-1, DummyUsage",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [DummyUsage]\n\
         Dummy0004=0\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         Dummy0004=0\n\
         Dummy0005=1\n\
         Dummy0006=1",
+    ..Rule::NEW
 };

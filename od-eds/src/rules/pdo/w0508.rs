@@ -1,15 +1,14 @@
 //! W0508: PDO has only one of its two objects.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0508",
     severity: Warning,
     title: "PDO has only one of its two objects",
     why: "A PDO has a communication and a mapping parameter, 200h apart.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=2\n\
@@ -35,4 +34,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

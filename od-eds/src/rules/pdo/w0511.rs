@@ -1,15 +1,14 @@
 //! W0511: transmission type is reserved.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0511",
     severity: Warning,
     title: "transmission type is reserved",
     why: "0–240 and 252–255 have a meaning, for an RPDO 0–240, 254 and 255.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::None,
     before: "\
         [1800sub2]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=255\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0513: PDO maps a BOOLEAN with 8 bits.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0513",
     severity: Warning,
     title: "PDO maps a BOOLEAN with 8 bits",
     why: "A BOOLEAN has one bit in a PDO. Some stacks send a byte, and a master that goes by the type reads the rest of the PDO wrong.",
     source: "CiA 301, data types and PDO mapping parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1A00sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x20000001\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

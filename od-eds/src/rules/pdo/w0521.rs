@@ -1,15 +1,14 @@
 //! W0521: two PDOs have one COB-ID.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0521",
     severity: Warning,
     title: "two PDOs have one COB-ID",
     why: "Two PDOs of one device on one identifier cannot be told apart.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::None,
     before: "\
         [1801sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=$NODEID+0x280\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

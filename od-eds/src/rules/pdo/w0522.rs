@@ -1,15 +1,14 @@
 //! W0522: identifier has more bits than it says.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0522",
     severity: Warning,
     title: "identifier has more bits than it says",
     why: "Bit 29 of a COB-ID says that the identifier has 29 bits; without it bits 11 to 28 are 0.",
     source: "CiA 301, COB-ID",
-    mending: Mending::None,
     before: "\
         [1800sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=$NODEID+0x180\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0525: mapping entry in use maps nothing.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0525",
     severity: Warning,
     title: "mapping entry in use maps nothing",
     why: "Sub-index 0 says how many objects are mapped, and each of these entries names one.",
     source: "CiA 301, PDO mapping parameter",
-    mending: Mending::None,
     before: "\
         [1A00sub0]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=1\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

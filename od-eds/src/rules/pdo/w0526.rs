@@ -1,15 +1,14 @@
 //! W0526: mapping is finer than the granularity.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0526",
     severity: Warning,
     title: "mapping is finer than the granularity",
     why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::None,
     before: "\
         [DeviceInfo]\n\
         SimpleBootUpSlave=0\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         SimpleBootUpSlave=0\n\
         Granularity=8\n\
         NrOfRxPDO=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0529: PDO waits for SYNC, but there is no 1005h.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0529",
     severity: Warning,
     title: "PDO waits for SYNC, but there is no 1005h",
     why: "Transmission types 0 to 240, 252 and 253 follow SYNC, whose identifier stands in 1005h.",
     source: "CiA 301, PDO communication parameter",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=3\n\
@@ -34,4 +33,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x80\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

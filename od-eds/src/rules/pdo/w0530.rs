@@ -1,15 +1,15 @@
 //! W0530: first SDO server is not at its place.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0530",
     severity: Warning,
     title: "first SDO server is not at its place",
     why: "Every master asks the first SDO server with 600h plus the node ID, and waits for 580h plus the node ID.",
     source: "CiA 301, predefined connection set",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1200sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=$NODEID+0x600\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0901: I/O module lacks what it says it has.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0901",
     severity: Warning,
     title: "I/O module lacks what it says it has",
     why: "1000h of a CiA 401 device says which kinds of channels it has; each has its objects.",
     source: "CiA 401, object 1000h",
-    mending: Mending::None,
     before: "\
         [1000]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0x00010191\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0902: drive lacks a mandatory object.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0902",
     severity: Warning,
     title: "drive lacks a mandatory object",
     why: "A master controls every CiA 402 drive by these objects.",
     source: "CiA 402, object overview",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=3\n\
@@ -34,4 +33,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0903: measuring device lacks what it says it has.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0903",
     severity: Warning,
     title: "measuring device lacks what it says it has",
     why: "1000h of a CiA 404 device says which function blocks it has; each has its process values.",
     source: "CiA 404, object 1000h",
-    mending: Mending::None,
     before: "\
         [1000]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0x00020194\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0904: encoder lacks a mandatory object.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0904",
     severity: Warning,
     title: "encoder lacks a mandatory object",
     why: "A master reads position, resolution and status of every CiA 406 encoder in the same objects.",
     source: "CiA 406, object overview",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=15\n\
@@ -41,4 +40,5 @@ pub(crate) const RULE: Rule = Rule {
         \n\
         [6501]\n\
         ParameterName=Physical resolution",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0906: profile object has another access.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0906",
     severity: Warning,
     title: "profile object has another access",
     why: "What a profile has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 401 and CiA 402, object overview",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6041]\n\
         DataType=0x0006\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0006\n\
         AccessType=ro\n\
         DefaultValue=0",
+    ..Rule::NEW
 };

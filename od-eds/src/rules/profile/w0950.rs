@@ -1,15 +1,15 @@
 //! W0950: encoder object has another code or type.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0950",
     severity: Warning,
     title: "encoder object has another code or type",
     why: "A master that knows the object from CiA 406 reads and writes it with another length.",
     source: "CiA 406, object overview",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6004]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0007\n\
         AccessType=ro",
+    ..Rule::NEW
 };

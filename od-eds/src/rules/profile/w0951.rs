@@ -1,15 +1,15 @@
 //! W0951: encoder object has another access.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0951",
     severity: Warning,
     title: "encoder object has another access",
     why: "What CiA 406 has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 406, object overview",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6004]\n\
         DataType=0x0007\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0007\n\
         AccessType=ro\n\
         DefaultValue=0",
+    ..Rule::NEW
 };

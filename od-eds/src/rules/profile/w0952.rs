@@ -1,15 +1,15 @@
 //! W0952: range is not the units of all revolutions.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0952",
     severity: Warning,
     title: "range is not the units of all revolutions",
     why: "6002h is 6001h times the revolutions, or divides that; else the position jumps where the encoder starts again.",
     source: "CiA 406, objects 6001h and 6002h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6002]\n\
         DataType=0x0007\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=33554432\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0954: operating status differs from the operating parameters.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0954",
     severity: Warning,
     title: "operating status differs from the operating parameters",
     why: "6500h shows what is set in 6000h: code sequence, commissioning diagnosis, scaling.",
     source: "CiA 406, objects 6000h and 6500h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6500]\n\
         DataType=0x0006\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=4\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0955: preset is outside the range.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0955",
     severity: Warning,
     title: "preset is outside the range",
     why: "6003h is a position, and positions go from 0 to one below 6002h.",
     source: "CiA 406, object 6003h",
-    mending: Mending::None,
     before: "\
         [6003]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0956: more units a revolution than there are.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0956",
     severity: Warning,
     title: "more units a revolution than there are",
     why: "6001h cannot be finer than the resolution that 6501h says.",
     source: "CiA 406, objects 6001h and 6501h",
-    mending: Mending::None,
     before: "\
         [6001]\n\
         DataType=0x0007\n\
@@ -34,4 +33,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=33554432\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

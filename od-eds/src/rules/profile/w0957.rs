@@ -1,15 +1,14 @@
 //! W0957: device type and revolutions disagree.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0957",
     severity: Warning,
     title: "device type and revolutions disagree",
     why: "1000h says whether the encoder counts revolutions, 6502h how many.",
     source: "CiA 406, objects 1000h and 6502h",
-    mending: Mending::None,
     before: "\
         [1000]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0x00020196\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

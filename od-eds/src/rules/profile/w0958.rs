@@ -1,15 +1,15 @@
 //! W0958: cyclic timer differs from the event timer.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0958",
     severity: Warning,
     title: "cyclic timer differs from the event timer",
     why: "6200h and 1800h:05 are one timer.",
     source: "CiA 406, object 6200h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [6200]\n\
         DataType=0x0006\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=10\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

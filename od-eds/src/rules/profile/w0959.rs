@@ -1,15 +1,14 @@
 //! W0959: alarm or warning that is not supported.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0959",
     severity: Warning,
     title: "alarm or warning that is not supported",
     why: "6503h and 6505h show only what 6504h and 6506h say that there is.",
     source: "CiA 406, objects 6503h to 6506h",
-    mending: Mending::None,
     before: "\
         [6503]\n\
         DataType=0x0006\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0\n\
         PDOMapping=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0960: cams are incomplete.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0960",
     severity: Warning,
     title: "cams are incomplete",
     why: "A cam channel has its state, enable, polarity, two limits and a hysteresis.",
     source: "CiA 406, objects 6300h to 6330h",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=21\n\
@@ -41,4 +40,5 @@ pub(crate) const RULE: Rule = Rule {
         20=0x6506\n\
         21=0x6507\n\
         22=0x6509",
+    ..Rule::NEW
 };

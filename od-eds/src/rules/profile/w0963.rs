@@ -1,15 +1,14 @@
 //! W0963: no PDO carries the position.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0963",
     severity: Warning,
     title: "no PDO carries the position",
     why: "As it is shipped, an encoder sends its position in the first TPDO.",
     source: "CiA 406, PDO mapping",
-    mending: Mending::None,
     before: "\
         [1A00sub1]\n\
         DataType=0x0007\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x60040020\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0601: object 1000h is missing.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0601",
     severity: Error,
     title: "object 1000h is missing",
     why: "Every CANopen device has it; a master reads it first.",
     source: "CiA 301, object 1000h",
-    mending: Mending::None,
     before: "\
         [MandatoryObjects]\n\
         SupportedObjects=2\n\
@@ -35,4 +34,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=0x00000000\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0602: object 1001h is missing.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0602",
     severity: Error,
     title: "object 1001h is missing",
     why: "Every CANopen device has it; emergency messages carry it.",
     source: "CiA 301, object 1001h",
-    mending: Mending::None,
     before: "\
         [MandatoryObjects]\n\
         SupportedObjects=2\n\
@@ -37,4 +36,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=ro",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0603: object 1018h is missing.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0603",
     severity: Error,
     title: "object 1018h is missing",
     why: "Every CANopen device has it; a master identifies the device by it.",
     source: "CiA 301, object 1018h",
-    mending: Mending::None,
     before: "\
         [MandatoryObjects]\n\
         SupportedObjects=2\n\
@@ -35,4 +34,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=const",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0604: object 1000h is not as CiA 301 says.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0604",
     severity: Error,
     title: "object 1000h is not as CiA 301 says",
     why: "A VAR, UNSIGNED32, read only.",
     source: "CiA 301, object 1000h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1000]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0007\n\
         AccessType=ro",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0606: object 1018h is not as CiA 301 says.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0606",
     severity: Error,
     title: "object 1018h is not as CiA 301 says",
     why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
     source: "CiA 301, object 1018h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1018sub2]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0007\n\
         AccessType=ro",
+    ..Rule::NEW
 };

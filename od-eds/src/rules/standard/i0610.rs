@@ -1,15 +1,14 @@
 //! I0610: date or time is not written as CiA 306 writes it.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0610",
     severity: Info,
     title: "date or time is not written as CiA 306 writes it",
     why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
     source: "CiA 306-1, FileInfo",
-    mending: Mending::None,
     before: "\
         [FileInfo]\n\
         CreationTime=09:30AM\n\
@@ -18,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [FileInfo]\n\
         CreationTime=09:30AM\n\
         CreationDate=11-21-2026",
+    ..Rule::NEW
 };

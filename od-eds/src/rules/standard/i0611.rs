@@ -1,19 +1,20 @@
 //! I0611: DeviceCommissioning with two m.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0611",
     severity: Info,
     title: "DeviceCommissioning with two m",
     why: "The standard writes `DeviceComissioning`. Both are read; many readers know only one.",
     source: "CiA 306-1, DCF",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [DeviceCommissioning]\n\
         NodeID=5",
     after: "\
         [DeviceComissioning]\n\
         NodeID=5",
+    ..Rule::NEW
 };

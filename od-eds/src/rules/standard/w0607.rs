@@ -1,15 +1,15 @@
 //! W0607: identity differs from [DeviceInfo].
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0607",
     severity: Warning,
     title: "identity differs from [DeviceInfo]",
     why: "VendorNumber, ProductNumber and RevisionNumber are the defaults of 1018h; a master picks the EDS by them.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [DeviceInfo]\n\
         ProductName=Case\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ProductName=Case\n\
         ProductNumber=0x10\n\
         RevisionNumber=0x10001",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0608: number of PDOs differs from [DeviceInfo].
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0608",
     severity: Warning,
     title: "number of PDOs differs from [DeviceInfo]",
     why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [DeviceInfo]\n\
         NrOfRxPDO=0\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         NrOfRxPDO=0\n\
         NrOfTxPDO=1\n\
         LSS_Supported=0",
+    ..Rule::NEW
 };

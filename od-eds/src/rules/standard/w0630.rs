@@ -1,15 +1,14 @@
 //! W0630: standard object has another object code.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0630",
     severity: Warning,
     title: "standard object has another object code",
     why: "A master that knows the object from the standard reads sub-indices that do not exist, or misses those that do.",
     source: "CiA 301, chapter 7.5; CiA 302",
-    mending: Mending::None,
     before: "\
         [1016]\n\
         ParameterName=Consumer heartbeat time\n\
@@ -32,4 +31,5 @@ pub(crate) const RULE: Rule = Rule {
         [1016sub1]\n\
         ParameterName=Consumer 1\n\
         ObjectType=0x7",
+    ..Rule::NEW
 };

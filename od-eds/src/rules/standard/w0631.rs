@@ -1,15 +1,15 @@
 //! W0631: standard object has another type.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0631",
     severity: Warning,
     title: "standard object has another type",
     why: "A master that knows the object from the standard reads and writes it with another length.",
     source: "CiA 301, chapter 7.5; CiA 302",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1017]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0006\n\
         AccessType=rw",
+    ..Rule::NEW
 };

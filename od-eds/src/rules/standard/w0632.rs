@@ -1,15 +1,15 @@
 //! W0632: standard object has another access.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0632",
     severity: Warning,
     title: "standard object has another access",
     why: "What the standard has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 301, chapter 7.5; CiA 302",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1018sub1]\n\
         DataType=0x0007\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0007\n\
         AccessType=ro\n\
         DefaultValue=0x5F",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0633: standard object lacks a member.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0633",
     severity: Warning,
     title: "standard object lacks a member",
     why: "A master that knows the object from the standard reads the member and gets an abort.",
     source: "CiA 301, chapter 7.5; CiA 302",
-    mending: Mending::None,
     before: "\
         [1200]\n\
         ObjectType=0x9\n\
@@ -36,4 +35,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=ro\n\
         DefaultValue=$NODEID+0x600\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0634: LSS without an LSS address.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0634",
     severity: Warning,
     title: "LSS without an LSS address",
     why: "A device is selected by vendor, product, revision and serial number: 1018h needs all four.",
     source: "CiA 305, LSS address",
-    mending: Mending::None,
     before: "\
         [DeviceInfo]\n\
         NrOfTxPDO=0\n\
@@ -18,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [DeviceInfo]\n\
         NrOfTxPDO=0\n\
         LSS_Supported=0",
+    ..Rule::NEW
 };

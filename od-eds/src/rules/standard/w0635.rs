@@ -1,15 +1,14 @@
 //! W0635: device has no error control.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0635",
     severity: Warning,
     title: "device has no error control",
     why: "Every device has a heartbeat or node guarding; without one, nobody notices that it is gone.",
     source: "CiA 301, error control",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=0\n\
@@ -35,4 +34,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0006\n\
         AccessType=rw\n\
         DefaultValue=0",
+    ..Rule::NEW
 };

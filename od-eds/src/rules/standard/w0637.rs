@@ -1,15 +1,14 @@
 //! W0637: device supports no bit rate.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0637",
     severity: Warning,
     title: "device supports no bit rate",
     why: "[DeviceInfo] says the bit rates of a device; a tool that offers what all devices have offers nothing.",
     source: "CiA 306-1, DeviceInfo",
-    mending: Mending::None,
     before: "\
         [DeviceInfo]\n\
         BaudRate_50=0\n\
@@ -28,4 +27,5 @@ pub(crate) const RULE: Rule = Rule {
         BaudRate_800=0\n\
         BaudRate_1000=1\n\
         SimpleBootUpMaster=0",
+    ..Rule::NEW
 };

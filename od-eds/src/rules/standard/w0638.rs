@@ -1,15 +1,14 @@
 //! W0638: node ID or bit rate of a DCF is none.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0638",
     severity: Warning,
     title: "node ID or bit rate of a DCF is none",
     why: "A node ID is 1 to 127, a bit rate one of CiA 301. A tool that loads the DCF cannot set it.",
     source: "CiA 306-1, DeviceComissioning",
-    mending: Mending::None,
     before: "\
         [DeviceComissioning]\n\
         NodeID=200\n\
@@ -18,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [DeviceComissioning]\n\
         NodeID=5\n\
         NodeName=Case",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0639: error history of a new device is not empty.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0639",
     severity: Warning,
     title: "error history of a new device is not empty",
     why: "Sub-index 0 of 1003h counts the errors that there are, not the room for them.",
     source: "CiA 301, object 1003h",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1003sub0]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0642: object without the one it belongs to.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0642",
     severity: Warning,
     title: "object without the one it belongs to",
     why: "Half of a service does nothing: each of the two is there for the other.",
     source: "CiA 301, objects 1005h to 1029h",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=2\n\
@@ -32,4 +31,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x80\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0301: ObjectType is no object code.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0301",
     severity: Error,
     title: "ObjectType is no object code",
     why: "The object code says what kind of object it is. It is guessed from what the object has.",
     source: "CiA 301, object codes",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Gain\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0303: object or sub-index stands twice with different content.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0303",
     severity: Error,
     title: "object or sub-index stands twice with different content",
     why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts, with what only the other says.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain\n\
@@ -21,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
     after: "\
         [2000]\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

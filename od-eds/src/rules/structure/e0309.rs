@@ -1,15 +1,15 @@
 //! E0309: sub-index 0 is no UNSIGNED8.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0309",
     severity: Error,
     title: "sub-index 0 is no UNSIGNED8",
     why: "Sub-index 0 is the highest sub-index, an UNSIGNED8, in every ARRAY and RECORD.",
     source: "CiA 301, object structure",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000sub0]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=const",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! I0320: field is empty.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0320",
     severity: Info,
     title: "field is empty",
     why: "A number, a type or an access says nothing when it is empty. It is read as if the line were not there; many readers stop at it.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! I0345: two members have one name.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0345",
     severity: Info,
     title: "two members have one name",
     why: "Masters that find values by their names find only one of them.",
     source: "odkit; python-canopen and others look up by name",
-    mending: Mending::None,
     before: "\
         [2000sub1]\n\
         ParameterName=Cut-off\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Order\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

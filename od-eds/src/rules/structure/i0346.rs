@@ -1,15 +1,14 @@
 //! I0346: two objects have one name.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0346",
     severity: Info,
     title: "two objects have one name",
     why: "Masters that find objects by their names find only one of them.",
     source: "odkit; python-canopen and others look up by name",
-    mending: Mending::None,
     before: "\
         [2001]\n\
         ParameterName=Gain\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Offset\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0302: object with members has no ObjectType.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0302",
     severity: Warning,
     title: "object with members has no ObjectType",
     why: "Without ObjectType an object is a VAR, and this one has members. It is taken for a RECORD.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         ParameterName=Filter\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Filter\n\
         ObjectType=0x9\n\
         SubNumber=3",
+    ..Rule::NEW
 };

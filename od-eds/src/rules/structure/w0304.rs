@@ -1,15 +1,14 @@
 //! W0304: object or sub-index stands twice.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0304",
     severity: Warning,
     title: "object or sub-index stands twice",
     why: "The sections do not contradict each other; one is enough. What only one of them says counts.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain\n\
@@ -21,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
     after: "\
         [2000]\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

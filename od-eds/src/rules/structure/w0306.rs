@@ -1,15 +1,14 @@
 //! W0306: ARRAY or RECORD has no members.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0306",
     severity: Warning,
     title: "ARRAY or RECORD has no members",
     why: "There is nothing to read or write. The object is taken not to exist.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "[2000]",
     after: "\
         [2000sub0]\n\
@@ -27,4 +26,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=2\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

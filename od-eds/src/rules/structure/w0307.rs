@@ -1,15 +1,15 @@
 //! W0307: ARRAY or RECORD has no sub-index 0.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0307",
     severity: Warning,
     title: "ARRAY or RECORD has no sub-index 0",
     why: "A master reads sub-index 0 to learn how many members there are.",
     source: "CiA 301, object structure",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         ObjectType=0x9\n\
@@ -26,4 +26,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=const\n\
         DefaultValue=2\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0308: SubNumber does not count the sub-indices.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0308",
     severity: Warning,
     title: "SubNumber does not count the sub-indices",
     why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         ObjectType=0x9\n\
@@ -18,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ObjectType=0x9\n\
         SubNumber=3",
+    ..Rule::NEW
 };

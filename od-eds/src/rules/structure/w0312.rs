@@ -1,15 +1,15 @@
 //! W0312: members of an ARRAY differ in type.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0312",
     severity: Warning,
     title: "members of an ARRAY differ in type",
     why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
     source: "CiA 301, object codes",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000sub2]\n\
         ObjectType=0x7\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0315: ParameterName is missing.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0315",
     severity: Warning,
     title: "ParameterName is missing",
     why: "Every object and every member has a name.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -19,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Gain\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0316: SubNumber is no number.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0316",
     severity: Warning,
     title: "SubNumber is no number",
     why: "SubNumber is the number of sub-index sections. They are counted instead.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ObjectType=0x9\n\
@@ -18,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ObjectType=0x9\n\
         SubNumber=3",
+    ..Rule::NEW
 };

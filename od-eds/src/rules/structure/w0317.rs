@@ -1,15 +1,15 @@
 //! W0317: SubNumber is missing.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0317",
     severity: Warning,
     title: "SubNumber is missing",
     why: "An object with members says how many. They are counted instead.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         ObjectType=0x9",
@@ -17,4 +17,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ObjectType=0x9\n\
         SubNumber=3",
+    ..Rule::NEW
 };

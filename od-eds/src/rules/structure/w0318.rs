@@ -1,15 +1,15 @@
 //! W0318: key is nearly one of CiA 306.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0318",
     severity: Warning,
     title: "key is nearly one of CiA 306",
     why: "It looks like a slip. The key is kept, and nothing reads it.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

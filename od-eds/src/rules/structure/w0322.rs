@@ -1,15 +1,15 @@
 //! W0322: sub-index is no VAR.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0322",
     severity: Warning,
     title: "sub-index is no VAR",
     why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000sub1]\n\
         ParameterName=Order\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Order\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

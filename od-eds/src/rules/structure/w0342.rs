@@ -1,15 +1,14 @@
 //! W0342: ObjFlags has reserved bits.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0342",
     severity: Warning,
     title: "ObjFlags has reserved bits",
     why: "Bit 0 says that a download tool leaves the object out, bit 1 the same for uploads; the others are reserved.",
     source: "CiA 306-1, ObjFlags",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         PDOMapping=0\n\
         ObjFlags=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0343: index is reserved.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0343",
     severity: Warning,
     title: "index is reserved",
     why: "Objects of the device stand in 1000h to 9FFFh, types below 0260h, network and system variables from A000h to BFFFh.",
     source: "CiA 301, object dictionary structure",
-    mending: Mending::None,
     before: "\
         [OptionalObjects]\n\
         SupportedObjects=2\n\
@@ -34,4 +33,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ParameterName=Own\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0344: name is longer than 241 characters.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0344",
     severity: Warning,
     title: "name is longer than 241 characters",
     why: "CiA 306 lets names have 241 characters; some readers cut what is longer.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ParameterName=Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent;\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ParameterName=Gain\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0347: sub-index 0 of a standard object can be written.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0347",
     severity: Warning,
     title: "sub-index 0 of a standard object can be written",
     why: "Sub-index 0 counts the members, which no master changes; 1003h and the mappings are the exception.",
     source: "CiA 301, object structure",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [1016sub0]\n\
         DataType=0x0005\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         AccessType=const\n\
         DefaultValue=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0350: sub-index 0 is higher than the highest member.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0350",
     severity: Warning,
     title: "sub-index 0 is higher than the highest member",
     why: "A master that reads up to sub-index 0 gets an abort for what does not exist.",
     source: "CiA 301, object structure",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000sub0]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=const\n\
         DefaultValue=2\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

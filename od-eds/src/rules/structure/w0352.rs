@@ -1,15 +1,15 @@
 //! W0352: SubNumber of an object without members.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0352",
     severity: Warning,
     title: "SubNumber of an object without members",
     why: "Only an ARRAY or a RECORD has sub-indices to count.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         [2000]\n\
         ObjectType=0x7\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0114: object of an XDD has no index.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0114",
     severity: Error,
     title: "object of an XDD has no index",
     why: "An index is four, a sub-index two hexadecimal digits without `0x`. The element is left out.",
     source: "CiA 311, CANopenObject",
-    mending: Mending::None,
     before: "<CANopenObject index=\"10G0\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
     after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0115: object of an XDD refers to no parameter.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0115",
     severity: Error,
     title: "object of an XDD refers to no parameter",
     why: "Type, access and default of the object are said of the parameter. What the object says itself is read.",
     source: "CiA 311, CANopenObject",
-    mending: Mending::None,
     before: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" uniqueIDRef=\"UID_PARAM_gone\"/>",
     after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! I0111: file is not ASCII.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0111",
     severity: Info,
     title: "file is not ASCII",
     why: "CiA 306 asks for ASCII. UTF-8, UTF-16 and Windows-1252 are read, with or without a byte order mark; many readers know only one of them.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
     before: "\
         [FileInfo]\n\
         EDSVersion=4.0\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         EDSVersion=4.0\n\
         Description=A case for 5 um\n\
         CreationTime=09:30AM",
+    ..Rule::NEW
 };

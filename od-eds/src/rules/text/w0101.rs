@@ -1,15 +1,15 @@
 //! W0101: line is no section, no key and no comment.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0101",
     severity: Warning,
     title: "line is no section, no key and no comment",
     why: "Most readers stop at such a line. It is ignored here.",
     source: "CiA 306-1, file format",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         ; see the manual\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0102: line has no key before the `=`.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0102",
     severity: Warning,
     title: "line has no key before the `=`",
     why: "Nothing can ask for a value without a key. The line is ignored.",
     source: "CiA 306-1, file format",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         DefaultValue=5\n\
         ;=7\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

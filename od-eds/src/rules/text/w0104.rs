@@ -1,15 +1,15 @@
 //! W0104: text behind a section header.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0104",
     severity: Warning,
     title: "text behind a section header",
     why: "Most readers stop at such a line. The text is ignored.",
     source: "CiA 306-1, file format",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000] ; the gain\n\
         ParameterName=Gain\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ; the gain\n\
         ParameterName=Gain\n\
         DataType=0x0005",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0106: section stands twice.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0106",
     severity: Warning,
     title: "section stands twice",
     why: "Readers differ in which one they take. The first counts; both are kept.",
     source: "CiA 306-1, file format",
-    mending: Mending::None,
     before: "\
         [Comments]\n\
         Line1=A case\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         [Comments]\n\
         Line1=A case\n\
         Line2=of comments",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0107: key stands twice in its section.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0107",
     severity: Warning,
     title: "key stands twice in its section",
     why: "Readers differ in which one they take. The first counts.",
     source: "CiA 306-1, file format",
-    mending: Mending::Either,
+    fixability: Fixability::Either,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -21,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

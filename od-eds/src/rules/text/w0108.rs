@@ -1,15 +1,15 @@
 //! W0108: `:` instead of `=`.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0108",
     severity: Warning,
     title: "`:` instead of `=`",
     why: "Only some readers know it. It is read as `=`.",
     source: "CiA 306-1, file format",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

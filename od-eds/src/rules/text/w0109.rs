@@ -1,15 +1,15 @@
 //! W0109: comment behind a value.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0109",
     severity: Warning,
     title: "comment behind a value",
     why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
     source: "CiA 306-1, file format",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -23,4 +23,5 @@ pub(crate) const RULE: Rule = Rule {
         DefaultValue=5\n\
         ; per cent\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

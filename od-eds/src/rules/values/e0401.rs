@@ -1,15 +1,14 @@
 //! E0401: DataType is missing.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0401",
     severity: Error,
     title: "DataType is missing",
     why: "Nothing is known of a value without a type. It is left out of the dictionary.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -19,4 +18,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0402: DataType is no data type.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0402",
     severity: Error,
     title: "DataType is no data type",
     why: "DataType is the index of one of CiA 301's types. The value is left out of the dictionary.",
     source: "CiA 301, data types",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0405: AccessType is none.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0405",
     severity: Error,
     title: "AccessType is none",
     why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
     source: "CiA 306-1, object sections",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         AccessType=rw\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

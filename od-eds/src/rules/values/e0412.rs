@@ -1,15 +1,14 @@
 //! E0412: DefaultValue is no value of its type.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0412",
     severity: Error,
     title: "DefaultValue is no value of its type",
     why: "The value cannot be what the description says it is. The dictionary has no default there.",
     source: "CiA 306-1, object sections; CiA 301, data types",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

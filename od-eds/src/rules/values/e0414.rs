@@ -1,15 +1,14 @@
 //! E0414: value is outside its limits.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0414",
     severity: Error,
     title: "value is outside its limits",
     why: "A device refuses to be set to what its own default is.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         DefaultValue=5\n\
         ParameterValue=7\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! E0415: LowLimit is greater than HighLimit.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0415",
     severity: Error,
     title: "LowLimit is greater than HighLimit",
     why: "No value lies between them.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -24,4 +24,5 @@ pub(crate) const RULE: Rule = Rule {
         LowLimit=0\n\
         HighLimit=10\n\
         DefaultValue=",
+    ..Rule::NEW
 };

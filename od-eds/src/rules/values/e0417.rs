@@ -1,15 +1,14 @@
 //! E0417: $NODEID where it cannot be.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0417",
     severity: Error,
     title: "$NODEID where it cannot be",
     why: "Only an UNSIGNED8, UNSIGNED16, UNSIGNED24 or UNSIGNED32 can depend on the node ID.",
     source: "CiA 306-1, $NODEID",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0008\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=1.5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! E0418: $NODEID formula does not fit its type for every node ID.
 
-use crate::diagnostic::Severity::Error;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Error;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "E0418",
     severity: Error,
     title: "$NODEID formula does not fit its type for every node ID",
     why: "The sum with the highest node ID, 127, must fit.",
     source: "CiA 306-1, $NODEID",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=$NODEID+0x80\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

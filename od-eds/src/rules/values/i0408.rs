@@ -1,15 +1,15 @@
 //! I0408: number with a leading 0 is octal.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0408",
     severity: Info,
     title: "number with a leading 0 is octal",
     why: "`010` is 8. It is read so, as C reads it; not every reader does.",
     source: "CiA 306-1, numbers",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=8\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

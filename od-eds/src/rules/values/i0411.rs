@@ -1,15 +1,15 @@
 //! I0411: $NODEID is not written as `$NODEID+n`.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0411",
     severity: Info,
     title: "$NODEID is not written as `$NODEID+n`",
     why: "Another order, other case or blanks are read the same; not every reader does.",
     source: "CiA 306-1, $NODEID",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [1014]\n\
         DataType=0x0007\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=$NODEID+0x80\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! I0425: type that the file defines.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0425",
     severity: Info,
     title: "type that the file defines",
     why: "The object of that index says in sub-index 1 which basic type it stands for. That type is taken, with its limits; most readers know no such types.",
     source: "CanFestival, object dictionary editor",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         ObjectType=0x7\n\
         DataType=0x0005\n\
         AccessType=rw",
+    ..Rule::NEW
 };

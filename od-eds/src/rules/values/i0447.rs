@@ -1,15 +1,14 @@
 //! I0447: mappable, but into which PDO.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0447",
     severity: Info,
     title: "mappable, but into which PDO",
     why: "An object that is rw and mappable may stand in TPDOs and RPDOs alike; rwr or rww says which, if it is only one.",
     source: "CiA 306-1, AccessType",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         AccessType=rww\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

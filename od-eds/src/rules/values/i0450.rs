@@ -1,15 +1,14 @@
 //! I0450: limits leave one value.
 
-use crate::diagnostic::Severity::Info;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Info;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "I0450",
     severity: Info,
     title: "limits leave one value",
     why: "A value that can be written, but only to what it is: such limits are usually left over from an editor.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -24,4 +23,5 @@ pub(crate) const RULE: Rule = Rule {
         LowLimit=0\n\
         HighLimit=10\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

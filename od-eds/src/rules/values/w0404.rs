@@ -1,15 +1,15 @@
 //! W0404: AccessType is missing.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0404",
     severity: Warning,
     title: "AccessType is missing",
     why: "Every value says who may write it. `ro` is taken.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -19,4 +19,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         AccessType=rw\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

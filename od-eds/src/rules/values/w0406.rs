@@ -1,15 +1,15 @@
 //! W0406: PDOMapping is neither 0 nor 1.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0406",
     severity: Warning,
     title: "PDOMapping is neither 0 nor 1",
     why: "0 is taken.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

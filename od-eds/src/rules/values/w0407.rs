@@ -1,15 +1,15 @@
 //! W0407: ObjFlags is no number.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0407",
     severity: Warning,
     title: "ObjFlags is no number",
     why: "0 is taken.",
     source: "CiA 306-1, ObjFlags",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         DefaultValue=5\n\
         ObjFlags=0\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

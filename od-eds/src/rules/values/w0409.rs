@@ -1,15 +1,15 @@
 //! W0409: number with a leading 0 is not octal.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0409",
     severity: Warning,
     title: "number with a leading 0 is not octal",
     why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
     source: "CiA 306-1, numbers",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=8\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

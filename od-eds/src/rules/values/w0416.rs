@@ -1,15 +1,15 @@
 //! W0416: limit is no value of its type.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0416",
     severity: Warning,
     title: "limit is no value of its type",
     why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         LowLimit=0\n\
         HighLimit=\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0419: byte string is not hexadecimal.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0419",
     severity: Warning,
     title: "byte string is not hexadecimal",
     why: "An OCTET_STRING or a DOMAIN is written as hexadecimal bytes. The characters are taken for the bytes.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x000A\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=4F 50 45 4E\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0420: number has a suffix or a decimal point.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0420",
     severity: Warning,
     title: "number has a suffix or a decimal point",
     why: "`0x10L` and `5.0` are how other languages write integers. The integer is taken; many readers refuse it.",
     source: "CiA 306-1, numbers",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0421: BOOLEAN is neither 0 nor 1.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0421",
     severity: Warning,
     title: "BOOLEAN is neither 0 nor 1",
     why: "`true` and `false` are words of other formats. They are read as 1 and 0.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0001\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=1\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

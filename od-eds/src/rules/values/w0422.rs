@@ -1,15 +1,15 @@
 //! W0422: hexadecimal number without `0x`.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0422",
     severity: Warning,
     title: "hexadecimal number without `0x`",
     why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. They are read so; many readers refuse them.",
     source: "CiA 306-1, numbers",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=0x1F\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

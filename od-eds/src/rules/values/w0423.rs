@@ -1,15 +1,15 @@
 //! W0423: decimal comma.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0423",
     severity: Warning,
     title: "decimal comma",
     why: "It is read as a decimal point; many readers refuse it.",
     source: "CiA 306-1, numbers",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         DataType=0x0008\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=1.5\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0424: word where CiA 306 has another.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0424",
     severity: Warning,
     title: "word where CiA 306 has another",
     why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType has six words. What is meant is read; many readers refuse it.",
     source: "CiA 306-1, object sections",
-    mending: Mending::Safe,
+    fixability: Fixability::Safe,
     before: "\
         [2000]\n\
         ObjectType=0x7\n\
@@ -22,4 +22,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         AccessType=rw\n\
         DefaultValue=5",
+    ..Rule::NEW
 };

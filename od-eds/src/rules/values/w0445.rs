@@ -1,15 +1,15 @@
 //! W0445: rwr or rww, but not mappable.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0445",
     severity: Warning,
     title: "rwr or rww, but not mappable",
     why: "rwr and rww say into which PDO an object may be mapped; of an object that is not mappable they say nothing.",
     source: "CiA 306-1, AccessType",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0005\n\
         DefaultValue=5\n\
         PDOMapping=1",
+    ..Rule::NEW
 };

@@ -1,15 +1,14 @@
 //! W0446: text is not ASCII.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0446",
     severity: Warning,
     title: "text is not ASCII",
     why: "A VISIBLE_STRING has the characters of ISO 646; on the bus others become whatever the reader takes them for.",
     source: "CiA 301, data types",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0009\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=rw\n\
         DefaultValue=5 um\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

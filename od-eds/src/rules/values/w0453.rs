@@ -1,15 +1,14 @@
 //! W0453: constant has no value.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::Rule;
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0453",
     severity: Warning,
     title: "constant has no value",
     why: "What is const never changes; without a DefaultValue nobody knows what it is. 0 is taken.",
     source: "CiA 306-1, AccessType",
-    mending: Mending::None,
     before: "\
         [2000]\n\
         DataType=0x0005\n\
@@ -22,4 +21,5 @@ pub(crate) const RULE: Rule = Rule {
         AccessType=const\n\
         DefaultValue=4\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

@@ -1,15 +1,15 @@
 //! W0454: mappable, but of no fixed length.
 
-use crate::diagnostic::Severity::Warning;
-use crate::rules::{Mending, Rule};
+use crate::finding::Severity::Warning;
+use crate::finding::{Fixability, Rule};
 
-pub(crate) const RULE: Rule = Rule {
+pub(crate) static RULE: Rule = Rule {
     code: "W0454",
     severity: Warning,
     title: "mappable, but of no fixed length",
     why: "A string or a DOMAIN has no place in a PDO.",
     source: "CiA 301, data types and PDO mapping parameter",
-    mending: Mending::Unsafe,
+    fixability: Fixability::Unsafe,
     before: "\
         [2000]\n\
         DataType=0x0009\n\
@@ -20,4 +20,5 @@ pub(crate) const RULE: Rule = Rule {
         DataType=0x0009\n\
         DefaultValue=hello\n\
         PDOMapping=0",
+    ..Rule::NEW
 };

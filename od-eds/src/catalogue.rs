@@ -1,0 +1,264 @@
+//! From a finding to a sentence: the only place where blanks are filled.
+//!
+//! A sentence of a rule has blanks between braces:
+//!
+//! | blank | what it becomes |
+//! |---|---|
+//! | `{low}` | the fact of this name |
+//! | `{id:03X}` | a number, hexadecimal with at least three digits |
+//! | `{count:entry\|entries}` | a count and its noun: "1 entry", "2 entries" |
+//! | `{key}` | the key that the finding is about |
+//! | `{LowLimit}` | this key |
+//! | `{DataType={right}}` | this key set to a value, which may have blanks too |
+//! | `{{`, `}}` | a brace |
+
+use alloc::borrow::Cow;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use od_model::{Address, DataType, Kind};
+
+use crate::description::Value;
+use crate::fact::{Fact, Key};
+use crate::finding::{Finding, Severity};
+use crate::fix::Fix;
+use crate::span::Span;
+
+/// The words of those who read a finding: of an EDS file, of a macro call, of a language.
+pub trait Vocabulary {
+    /// A key in a sentence.
+    fn key(&self, key: Key) -> &'static str {
+        key.name()
+    }
+
+    /// A key set to a value, as it is to be written.
+    fn set(&self, key: Key, value: &str) -> String {
+        format!("{}={value}", key.name())
+    }
+
+    /// An object, or one of its sub-indices, that is to be written.
+    fn section(&self, index: u16, sub: Option<u8>) -> String {
+        match sub {
+            Some(sub) => format!("a section [{index:04X}sub{sub:X}]"),
+            None => format!("a section [{index:04X}]"),
+        }
+    }
+
+    /// What a value of this type looks like.
+    fn form_of(&self, data_type: DataType) -> String {
+        match (data_type.kind(), data_type.integer_range()) {
+            (Kind::Boolean, _) => "`0` or `1`".into(),
+            (Kind::Real, _) => "a number such as `1.5`".into(),
+            (Kind::Text, _) => "a text".into(),
+            (Kind::Bytes, _) => "hexadecimal bytes such as `12AB`".into(),
+            (_, Some((low, high))) => format!("a number from {low} to {high}"),
+            _ => "the value at a member".into(),
+        }
+    }
+
+    /// A type, a code or an access as the value of a key.
+    fn written(&self, fact: &Fact) -> Option<String> {
+        match fact {
+            Fact::Type(data_type) => Some(format!("0x{:04X}", data_type.code())),
+            Fact::Code(code) => Some(format!("0x{:X}", code.code())),
+            _ => None,
+        }
+    }
+
+    /// A sentence with its blanks, from the one in English; a language replaces it.
+    fn sentence(&self, english: &'static str) -> &'static str {
+        english
+    }
+}
+
+/// The words of an EDS file: `LowLimit=5`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Eds;
+
+impl Vocabulary for Eds {}
+
+/// A second place, in words.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Label {
+    /// Place that the label marks.
+    pub span: Span,
+    /// What is there, in a few words.
+    pub text: String,
+}
+
+/// A finding in words, for whoever shows it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Sentence {
+    /// Stable code, for example `E0412`.
+    pub code: &'static str,
+    /// Severity of the finding.
+    pub severity: Severity,
+    /// What is wrong, one clause without a full stop.
+    pub message: String,
+    /// Where it is; `None` if something is missing altogether.
+    pub span: Option<Span>,
+    /// The object it is about, if it is about one.
+    pub address: Option<Address>,
+    /// Second places.
+    pub labels: Vec<Label>,
+    /// What is allowed, or what to write instead; empty if the message says it.
+    pub help: String,
+    /// Automatic fix, if there is one.
+    pub fix: Option<Fix>,
+}
+
+/// The finding in these words.
+pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
+    let filled = |english| Blanks { finding, words }.fill(words.sentence(english), false);
+    let labels = finding.related.iter().map(|related| Label {
+        span: related.span,
+        text: match related.says {
+            Cow::Borrowed(english) => filled(english),
+            Cow::Owned(ref told) => told.clone(),
+        },
+    });
+    Sentence {
+        code: finding.rule.code,
+        severity: finding.rule.severity,
+        message: filled(finding.form.says),
+        span: finding.span(),
+        address: finding.object,
+        labels: labels.collect(),
+        help: filled(finding.form.help),
+        fix: finding.fix.clone(),
+    }
+}
+
+/// What fills the blanks of one finding.
+struct Blanks<'a> {
+    finding: &'a Finding,
+    words: &'a dyn Vocabulary,
+}
+
+impl Blanks<'_> {
+    /// The text with its blanks filled; `written` if it is the value of a key.
+    fn fill(&self, text: &str, written: bool) -> String {
+        let mut out = String::with_capacity(text.len() + 32);
+        for piece in pieces(text) {
+            match piece {
+                Piece::Text(text) => out.push_str(text),
+                Piece::Blank(blank) => out.push_str(&self.blank(blank, written)),
+            }
+        }
+        out
+    }
+
+    fn blank(&self, blank: &str, written: bool) -> String {
+        if let Some((key, value)) = blank.split_once('=')
+            && let Some(key) = Key::of(key)
+        {
+            return self.words.set(key, &self.fill(value, true));
+        }
+        if let Some(key) = Key::of(blank) {
+            return self.words.key(key).into();
+        }
+        if blank == "key" {
+            let key = self.finding.key;
+            return key.map_or("", |key| self.words.key(key)).into();
+        }
+        let (name, form) = blank.split_once(':').unwrap_or((blank, ""));
+        let facts = &self.finding.facts;
+        match facts.iter().find(|(known, _)| *known == name) {
+            Some((_, fact)) if written => {
+                let own = self.words.written(fact);
+                own.unwrap_or_else(|| self.shown(fact, form))
+            }
+            Some((_, fact)) => self.shown(fact, form),
+            // A test sees that this does not happen.
+            None => format!("{{{blank}}}"),
+        }
+    }
+
+    fn shown(&self, fact: &Fact, form: &str) -> String {
+        match fact {
+            Fact::Number(number) => counted(*number, form),
+            Fact::Value(value) => self::value(value),
+            Fact::Type(data_type) => data_type.name().into(),
+            Fact::FormOf(data_type) => self.words.form_of(*data_type),
+            Fact::Code(code) => code.name().into(),
+            Fact::Access(access) => access.name().into(),
+            Fact::Index(index) => format!("{index:04X}h"),
+            Fact::Object(address) => address.to_string(),
+            Fact::Section(index, sub) => self.words.section(*index, *sub),
+            Fact::Key(key) => self.words.key(*key).into(),
+            Fact::Text(text) => text.clone(),
+            Fact::List(facts) => {
+                let shown: Vec<String> = facts.iter().map(|fact| self.shown(fact, form)).collect();
+                shown.join(", ")
+            }
+        }
+    }
+}
+
+/// A number in one of the forms of a blank.
+fn counted(number: i128, form: &str) -> String {
+    if let Some((one, many)) = form.split_once('|') {
+        let noun = if number == 1 { one } else { many };
+        return format!("{number} {noun}");
+    }
+    match form.strip_suffix('X') {
+        Some(width) => format!("{number:0width$X}", width = width.parse().unwrap_or(0)),
+        None => number.to_string(),
+    }
+}
+
+/// A value as an EDS would write it.
+fn value(value: &Value) -> String {
+    match value {
+        Value::Unsigned(v) => v.to_string(),
+        Value::Signed(v) => v.to_string(),
+        Value::Real(v) => format!("{v:?}"),
+        Value::NodeId(0) => "$NODEID".into(),
+        Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
+        Value::Text(text) => format!("{text:?}"),
+        Value::Bytes(_) => "bytes".into(),
+    }
+}
+
+/// A piece of a sentence with blanks.
+enum Piece<'a> {
+    Text(&'a str),
+    Blank(&'a str),
+}
+
+/// A sentence taken apart at its blanks.
+fn pieces(mut text: &str) -> impl Iterator<Item = Piece<'_>> {
+    core::iter::from_fn(move || {
+        if text.is_empty() {
+            return None;
+        }
+        let at = text.find(['{', '}']).unwrap_or(text.len());
+        let (piece, rest) = match text.get(at..at + 2) {
+            _ if at > 0 => (Piece::Text(&text[..at]), &text[at..]),
+            Some("{{" | "}}") => (Piece::Text(&text[..1]), &text[2..]),
+            _ => match end(text) {
+                Some(0) => (Piece::Text("}"), &text[1..]),
+                Some(end) => (Piece::Blank(&text[1..end]), &text[end + 1..]),
+                None => (Piece::Text(text), ""),
+            },
+        };
+        text = rest;
+        Some(piece)
+    })
+}
+
+/// Where the blank that begins the text ends.
+fn end(text: &str) -> Option<usize> {
+    let mut depth = 0usize;
+    text.char_indices().find_map(|(at, c)| {
+        match c {
+            '{' => depth += 1,
+            '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        (depth == 0).then_some(at)
+    })
+}

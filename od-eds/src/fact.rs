@@ -1,0 +1,134 @@
+//! What fills a sentence: facts of a finding, and the keys that it is about.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use od_model::{Access, Address, DataType, ObjectCode};
+
+use crate::description::Value;
+
+/// A key of an object's section in an EDS, which is a field of a row in a macro call.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[allow(missing_docs)] // the variants are the keys' names
+pub enum Key {
+    ParameterName,
+    ObjectType,
+    SubNumber,
+    CompactSubObj,
+    DataType,
+    AccessType,
+    PdoMapping,
+    DefaultValue,
+    ParameterValue,
+    LowLimit,
+    HighLimit,
+    ObjFlags,
+    /// CANopenEditor's comment `;StorageLocation=`.
+    StorageLocation,
+}
+
+impl Key {
+    /// All of them.
+    pub const ALL: [Self; 13] = [
+        Self::ParameterName,
+        Self::ObjectType,
+        Self::SubNumber,
+        Self::CompactSubObj,
+        Self::DataType,
+        Self::AccessType,
+        Self::PdoMapping,
+        Self::DefaultValue,
+        Self::ParameterValue,
+        Self::LowLimit,
+        Self::HighLimit,
+        Self::ObjFlags,
+        Self::StorageLocation,
+    ];
+
+    /// The key as an EDS writes it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ParameterName => "ParameterName",
+            Self::ObjectType => "ObjectType",
+            Self::SubNumber => "SubNumber",
+            Self::CompactSubObj => "CompactSubObj",
+            Self::DataType => "DataType",
+            Self::AccessType => "AccessType",
+            Self::PdoMapping => "PDOMapping",
+            Self::DefaultValue => "DefaultValue",
+            Self::ParameterValue => "ParameterValue",
+            Self::LowLimit => "LowLimit",
+            Self::HighLimit => "HighLimit",
+            Self::ObjFlags => "ObjFlags",
+            Self::StorageLocation => "StorageLocation",
+        }
+    }
+
+    /// The key with this name, written as in the standard.
+    pub fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|key| key.name() == name)
+    }
+}
+
+/// One thing that a finding knows, and that a blank of its sentence shows.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Fact {
+    /// A number or a count.
+    Number(i128),
+    /// A default, a limit or a configured value.
+    Value(Value),
+    /// A data type.
+    Type(DataType),
+    /// What a value of this type looks like.
+    FormOf(DataType),
+    /// An object code.
+    Code(ObjectCode),
+    /// An access type.
+    Access(Access),
+    /// An object, named by its index alone.
+    Index(u16),
+    /// A value of an object.
+    Object(Address),
+    /// A section to write: of an object, or of one of its sub-indices.
+    Section(u16, Option<u8>),
+    /// A key.
+    Key(Key),
+    /// Text as the file has it, or a word.
+    Text(String),
+    /// Several, with commas between.
+    List(Vec<Fact>),
+}
+
+impl Fact {
+    /// The index of the object that this is about, if it is about one.
+    pub fn index(&self) -> Option<u16> {
+        match self {
+            Self::Index(index) | Self::Section(index, _) => Some(*index),
+            Self::Object(address) => Some(address.index),
+            _ => None,
+        }
+    }
+}
+
+macro_rules! facts {
+    ($($variant:ident($t:ty))*) => {$(
+        impl From<$t> for Fact {
+            fn from(value: $t) -> Self {
+                Self::$variant(value.into())
+            }
+        }
+    )*};
+}
+
+facts! {
+    Number(i128) Number(i64) Number(u64) Number(u32) Number(u8)
+    Value(Value) Type(DataType) Code(ObjectCode) Access(Access)
+    Object(Address) Key(Key) Text(String) Text(&str) List(Vec<Fact>)
+}
+
+impl From<usize> for Fact {
+    fn from(count: usize) -> Self {
+        // A count of what is in memory.
+        Self::Number(count as i128)
+    }
+}

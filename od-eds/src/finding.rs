@@ -1,0 +1,291 @@
+//! Rules and findings as plain data; nothing here is put into words.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+use od_model::Address;
+
+use crate::fact::{Fact, Key};
+use crate::fix::Fix;
+use crate::span::{Span, token, token_of};
+
+/// Severity of a finding.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "lowercase")
+)]
+pub enum Severity {
+    /// Worth knowing.
+    Info,
+    /// Many shipped files have it; a device can be built.
+    Warning,
+    /// No sound device can be built, or a master fails.
+    Error,
+}
+
+/// What can be done about the findings of a rule without asking.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(rename_all = "kebab-case")
+)]
+pub enum Fixability {
+    /// No fix: only who knows the device can correct the file.
+    None,
+    /// A safe fix: every tool then reads what odkit reads now.
+    Safe,
+    /// An unsafe fix: likely right, to be reviewed.
+    Unsafe,
+    /// Safe if nothing is lost by it, otherwise unsafe.
+    Either,
+}
+
+impl Fixability {
+    /// In one word, for tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "by hand",
+            Self::Safe => "safe",
+            Self::Unsafe => "unsafe",
+            Self::Either => "safe or unsafe",
+        }
+    }
+}
+
+/// What a finding says: sentences with blanks such as `{low}`, which facts fill.
+///
+/// The catalogue lists what a blank can be.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Form {
+    /// What is wrong, one clause without a full stop.
+    pub says: &'static str,
+    /// What to write instead, or what is allowed.
+    pub help: &'static str,
+}
+
+/// One rule: what a code means, and what its findings say.
+#[derive(Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Rule {
+    /// Stable code; the letter is the severity's. A code never changes its meaning.
+    pub code: &'static str,
+    /// Severity of its findings.
+    pub severity: Severity,
+    /// The class of fault, in a few words.
+    pub title: &'static str,
+    /// Why it matters, and what odkit does meanwhile.
+    pub why: &'static str,
+    /// Document and clause.
+    pub source: &'static str,
+    /// What `odkit check --fix` can do about it.
+    pub fixability: Fixability,
+    /// Lines of a file that break the rule.
+    pub before: &'static str,
+    /// The same lines, fixed.
+    pub after: &'static str,
+    /// What a finding says, unless it takes one of `also`.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub form: Form,
+    /// What else a finding of this rule can say.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub also: &'static [Form],
+}
+
+impl PartialEq for Rule {
+    fn eq(&self, other: &Self) -> bool {
+        self.code == other.code
+    }
+}
+impl Eq for Rule {}
+
+impl fmt::Debug for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.code)
+    }
+}
+
+impl Rule {
+    /// What a rule is unless it says otherwise.
+    pub(crate) const NEW: Self = Self {
+        code: "",
+        severity: Severity::Error,
+        title: "",
+        why: "",
+        source: "",
+        fixability: Fixability::None,
+        before: "",
+        after: "",
+        form: TOLD,
+        also: &[],
+    };
+
+    /// A finding of this rule; place and facts are added to it.
+    pub(crate) fn finding(&'static self) -> Finding {
+        Finding {
+            rule: self,
+            form: self.form,
+            place: Place::Nowhere,
+            object: None,
+            key: None,
+            facts: Vec::new(),
+            related: Vec::new(),
+            fix: None,
+        }
+    }
+
+    /// A finding of this rule at `span`.
+    pub(crate) fn at(&'static self, span: Span) -> Finding {
+        Finding {
+            place: Place::from(span),
+            ..self.finding()
+        }
+    }
+
+    /// A finding with a sentence that was made where it was found.
+    pub(crate) fn told(&'static self, span: Span, message: impl Into<String>) -> Finding {
+        let mut finding = self.at(span).fact("message", message.into());
+        finding.form = Form { help: "", ..TOLD };
+        finding
+    }
+}
+
+/// For findings whose sentences are made where they are found.
+const TOLD: Form = Form {
+    says: "{message}",
+    help: "{help}",
+};
+
+/// Where a finding is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// In the text.
+    Text(Span),
+    /// At the caller's token of this number.
+    Token(u32),
+    /// Something is missing altogether.
+    Nowhere,
+}
+
+impl From<Span> for Place {
+    fn from(span: Span) -> Self {
+        match (span.line, token_of(span)) {
+            (0, _) => Self::Nowhere,
+            (_, Some(id)) => Self::Token(id),
+            _ => Self::Text(span),
+        }
+    }
+}
+
+/// A second place that belongs to a finding.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Related {
+    /// Place that the label marks.
+    pub span: Span,
+    /// The label, with blanks as a [`Form`] has them.
+    pub says: alloc::borrow::Cow<'static, str>,
+}
+
+/// One report at one place, as data: [`say`](crate::say) makes the sentence.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finding {
+    /// The rule that reports it.
+    pub rule: &'static Rule,
+    /// What it says, with blanks.
+    pub form: Form,
+    /// Where it is.
+    pub place: Place,
+    /// The object it is about, if it is about one.
+    pub object: Option<Address>,
+    /// The key that is wrong, if it is one of an object.
+    pub key: Option<Key>,
+    /// What fills the blanks, by name.
+    pub facts: Vec<(&'static str, Fact)>,
+    /// Second places.
+    pub related: Vec<Related>,
+    /// Automatic fix, if there is one.
+    pub fix: Option<Fix>,
+}
+
+impl Finding {
+    /// Stable code of its rule, for example `E0412`.
+    pub const fn code(&self) -> &'static str {
+        self.rule.code
+    }
+
+    /// Severity of its rule.
+    pub const fn severity(&self) -> Severity {
+        self.rule.severity
+    }
+
+    /// Is it an error?
+    pub fn is_error(&self) -> bool {
+        self.rule.severity == Severity::Error
+    }
+
+    /// Where it is; `None` if something is missing altogether.
+    pub const fn span(&self) -> Option<Span> {
+        match self.place {
+            Place::Text(span) => Some(span),
+            Place::Token(id) => Some(token(id)),
+            Place::Nowhere => None,
+        }
+    }
+
+    /// Adds the object.
+    #[must_use]
+    pub(crate) fn about(mut self, object: Address) -> Self {
+        self.object = Some(object);
+        self
+    }
+
+    /// Adds the key that is wrong.
+    #[must_use]
+    pub(crate) fn key(mut self, key: Key) -> Self {
+        self.key = Some(key);
+        self
+    }
+
+    /// Adds a fact for the blank of this name.
+    #[must_use]
+    pub(crate) fn fact(mut self, name: &'static str, fact: impl Into<Fact>) -> Self {
+        self.facts.push((name, fact.into()));
+        self
+    }
+
+    /// Adds a fix; none if one of its edits has no place in a text.
+    #[must_use]
+    pub(crate) fn fix(mut self, fix: Fix) -> Self {
+        self.fix = fix.placed();
+        self
+    }
+
+    /// Adds a second place with words that were made where it was found.
+    #[must_use]
+    pub(crate) fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
+        if span.line != 0 {
+            let says = text.into().into();
+            self.related.push(Related { span, says });
+        }
+        self
+    }
+
+    /// Adds a help that was made where it was found.
+    #[must_use]
+    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.form.help = TOLD.help;
+        self.fact("help", help.into())
+    }
+}
+
+/// File order; what stands nowhere comes last.
+pub(crate) fn sort(findings: &mut [Finding]) {
+    findings.sort_by_key(|finding| match finding.place {
+        Place::Text(span) => (0, span.line, span.column),
+        Place::Token(_) => (1, 0, 0),
+        Place::Nowhere => (2, 0, 0),
+    });
+}
