@@ -1,18 +1,19 @@
-//! The SDO client behind `sdo read` and `sdo write`: expedited and segmented transfers.
+//! The SDO client behind `sdo read` and `sdo write`.
 
 use std::format;
 use std::prelude::v1::*;
 
+use od_client::sdo::{Channel, Options, SdoError};
+use od_client::{Client, Event, lss};
 use od_model::{Address, DataType};
-use od_runtime::{AbortCode, Frame};
-use od_wire::sdo::{Request, Response};
+use od_wire::{AbortCode, CanId, Frame};
 
 use super::run::{Result, Runner, failed, impossible};
 use super::statement::Outcome;
 use od_model::values;
 
-/// So long a client waits for an answer.
-const TIMEOUT: u64 = 1_000_000;
+/// A script's frames are those of segmented transfers, whatever the length of a value.
+const SDO: Options = Options::SEGMENTED;
 
 /// How a transfer ended: with data, or with an abort.
 type Transfer<T> = core::result::Result<T, u32>;
@@ -87,109 +88,77 @@ impl Runner<'_> {
     }
 
     fn upload(&mut self, address: Address) -> Result<Transfer<Vec<u8>>> {
-        match self.ask(Request::InitiateUpload { address })? {
-            Response::InitiateUpload {
-                size,
-                expedited: Some(data),
-                ..
-            } => {
-                let len = size.map_or(4, |size| size.min(4) as usize);
-                return Ok(Ok(data[..len].to_vec()));
-            }
-            Response::InitiateUpload {
-                expedited: None, ..
-            } => {}
-            Response::Abort { code, .. } => return Ok(Err(code)),
-            other => return out_of_turn("an upload answer", other),
-        }
-        let mut bytes = Vec::new();
-        let mut toggle = false;
+        let mut client = Client::with(SDO, lss::Options::DEFAULT);
+        client.read(self.device().node_id(), address);
         loop {
-            match self.ask(Request::UploadSegment { toggle })? {
-                Response::UploadSegment {
-                    toggle: answered,
-                    data,
-                    len,
-                    last,
-                } if answered == toggle => {
-                    bytes.extend_from_slice(&data[..usize::from(len)]);
-                    if last {
-                        return Ok(Ok(bytes));
-                    }
-                }
-                Response::Abort { code, .. } => return Ok(Err(code)),
-                other => return out_of_turn("an upload segment", other),
+            if let Event::Read(_, result) = self.next_event(&mut client) {
+                return outcome(result);
             }
-            toggle = !toggle;
         }
     }
 
     fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Transfer<()>> {
-        let size = Some(bytes.len() as u32);
-        let expedited = (1..=4).contains(&bytes.len()).then(|| {
-            let mut data = [0; 4];
-            data[..bytes.len()].copy_from_slice(bytes);
-            data
-        });
-        match self.ask(Request::InitiateDownload {
-            address,
-            size,
-            expedited,
-        })? {
-            Response::InitiateDownload { .. } if expedited.is_some() => return Ok(Ok(())),
-            Response::InitiateDownload { .. } => {}
-            Response::Abort { code, .. } => return Ok(Err(code)),
-            other => return out_of_turn("a download answer", other),
-        }
-        let count = bytes.len().div_ceil(7).max(1);
-        for number in 0..count {
-            let chunk = bytes
-                .get(number * 7..bytes.len().min(number * 7 + 7))
-                .unwrap_or_default();
-            let mut data = [0; 7];
-            data[..chunk.len()].copy_from_slice(chunk);
-            let toggle = number % 2 == 1;
-            let segment = Request::DownloadSegment {
-                toggle,
-                data,
-                len: chunk.len() as u8,
-                last: number + 1 == count,
-            };
-            match self.ask(segment)? {
-                Response::DownloadSegment { toggle: answered } if answered == toggle => {}
-                Response::Abort { code, .. } => return Ok(Err(code)),
-                other => return out_of_turn("a download segment answer", other),
+        let mut client = Client::with(SDO, lss::Options::DEFAULT);
+        client.write(self.device().node_id(), address, bytes);
+        loop {
+            if let Event::Written(_, result) = self.next_event(&mut client) {
+                return outcome(result);
             }
         }
-        Ok(Ok(()))
     }
 
-    /// Sends a request and takes its answer out of what came; the rest stays for `expect`.
-    fn ask(&mut self, request: Request) -> Result<Response> {
-        let node = self.device().node_id();
-        let before = self.pending.len();
-        self.send(&Frame::full(node.plus(0x600), request.emit()));
-        let until = self.bus.now().plus_micros(TIMEOUT);
-        let mut looked_at = before;
+    /// Runs the client until something happens. It gets the answers among the frames that come
+    /// after its request; the rest stays for `expect`.
+    fn next_event(&mut self, client: &mut Client) -> Event {
+        let id = Channel::of(self.device().node_id()).response;
+        let mut looked_at = self.pending.len();
         loop {
-            while let Some(sent) = self.pending.get(looked_at) {
-                if sent.frame.id() == node.plus(0x580) && !sent.frame.is_remote() {
-                    let answer = Response::parse(sent.frame.bytes());
-                    self.pending.remove(looked_at);
-                    return Ok(answer);
-                }
-                looked_at += 1;
+            if let Some(event) = client.poll_event() {
+                return event;
             }
-            if !self.bus.advance_until_sent(until) {
-                return failed("an SDO answer", "none came within 1s");
+            while let Some(frame) = client.poll_transmit(self.bus.now()) {
+                looked_at = self.pending.len();
+                self.send(&frame);
             }
-            self.advance(self.bus.now());
+            if let Some(answer) = self.answer(id, &mut looked_at) {
+                client.handle_frame(self.bus.now(), &answer);
+                continue;
+            }
+            let until = client.poll_timeout().unwrap_or(self.bus.now());
+            if self.bus.advance_until_sent(until) {
+                self.advance(self.bus.now());
+            } else {
+                client.handle_timeout(until);
+            }
         }
+    }
+
+    /// Takes the next frame with this CAN-ID out of what came.
+    fn answer(&mut self, id: CanId, looked_at: &mut usize) -> Option<Frame> {
+        while let Some(sent) = self.pending.get(*looked_at) {
+            if sent.frame.id() == id && !sent.frame.is_remote() {
+                return self.pending.remove(*looked_at).map(|sent| sent.frame);
+            }
+            *looked_at += 1;
+        }
+        None
     }
 }
 
-fn out_of_turn<T>(expected: &str, got: Response) -> Result<T> {
-    failed(expected, format!("{got:?} came"))
+/// A script may expect an abort; any other error stops it.
+fn outcome<T>(result: core::result::Result<T, SdoError>) -> Result<Transfer<T>> {
+    match result {
+        Ok(value) => Ok(Ok(value)),
+        Err(SdoError::Abort(code)) => Ok(Err(code)),
+        Err(SdoError::Silent) => failed(
+            "an SDO answer",
+            format!("none came within {:?}", SDO.timeout),
+        ),
+        Err(SdoError::OutOfTurn { expected, got }) => {
+            failed(expected.to_string(), format!("{got:?} came"))
+        }
+        Err(other) => failed("an SDO transfer", other.to_string()),
+    }
 }
 
 fn aborted(code: u32) -> String {

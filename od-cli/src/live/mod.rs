@@ -4,17 +4,16 @@ mod slcan;
 
 use std::time::{Duration, Instant};
 
+use od_client::sdo::{Options, SdoError};
+use od_client::{Event, lss};
 use od_model::Address;
-use od_runtime::{Frame, NodeId};
-use od_wire::sdo::{Request, Response};
+use od_wire::{Frame, NodeId};
 
 use crate::Failure;
 
-/// So long an answer may take. Devices that save or calibrate take their time.
-const TIMEOUT: Duration = Duration::from_secs(1);
-
-/// A value longer than this is a device gone wild.
-const LONGEST: usize = 1 << 20;
+/// An answer within 1 s, as devices that save or calibrate take their time; a value of at most
+/// 1 MiB, as a longer one is a device gone wild.
+const OPTIONS: Options = Options::DEFAULT;
 
 /// What carries frames.
 pub(crate) trait Link {
@@ -38,80 +37,78 @@ pub(crate) fn open(name: &str) -> Result<Box<dyn Link>, Failure> {
 pub(crate) struct Client<'l> {
     link: &'l mut dyn Link,
     node: NodeId,
+    client: od_client::Client,
+    /// Origin of the client's time.
+    start: Instant,
 }
 
 impl<'l> Client<'l> {
     pub(crate) fn new(link: &'l mut dyn Link, node: NodeId) -> Self {
-        Self { link, node }
+        Self {
+            link,
+            node,
+            client: od_client::Client::with(OPTIONS, lss::Options::DEFAULT),
+            start: Instant::now(),
+        }
     }
 
     /// The bytes of an object, or the code of the abort; a device that says nothing, or
     /// something else, is an error.
     pub(crate) fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Failure> {
-        match self.ask(Request::InitiateUpload { address })? {
-            Response::InitiateUpload {
-                size,
-                expedited: Some(data),
-                address: answered,
-            } if answered == address => {
-                let len = size.map_or(4, |size| size.min(4) as usize);
-                return Ok(Ok(data[..len].to_vec()));
+        self.client.read(self.node, address);
+        loop {
+            self.send()?;
+            match self.client.poll_event() {
+                Some(Event::Read(_, result)) => return self.outcome(address, result),
+                Some(_) => continue,
+                None => {}
             }
-            Response::InitiateUpload {
-                expedited: None, ..
-            } => {}
-            Response::Abort { code, .. } => return Ok(Err(code)),
-            other => return Err(self.odd(address, other)),
-        }
-        let mut bytes = Vec::new();
-        let mut toggle = false;
-        while bytes.len() < LONGEST {
-            match self.ask(Request::UploadSegment { toggle })? {
-                Response::UploadSegment {
-                    toggle: answered,
-                    data,
-                    len,
-                    last,
-                } if answered == toggle => {
-                    bytes.extend_from_slice(&data[..usize::from(len)]);
-                    if last {
-                        return Ok(Ok(bytes));
-                    }
-                }
-                Response::Abort { code, .. } => return Ok(Err(code)),
-                other => return Err(self.odd(address, other)),
+            let until = self.client.poll_timeout().map_or(0, |at| at.as_micros());
+            match self
+                .link
+                .receive(self.start + Duration::from_micros(until))?
+            {
+                Some(frame) => self.client.handle_frame(self.now(), &frame),
+                None => self.client.handle_timeout(self.now()),
             }
-            toggle = !toggle;
         }
-        Err(Failure::Failed(format!(
-            "node {}: {address} has no end after {LONGEST} bytes",
-            self.node.raw()
-        )))
     }
 
-    fn ask(&mut self, request: Request) -> Result<Response, Failure> {
-        // What an earlier, slower answer left behind is not the answer to this.
-        while self.link.receive(Instant::now())?.is_some() {}
-        self.link
-            .send(&Frame::full(self.node.plus(0x600), request.emit()))?;
-        let until = Instant::now() + TIMEOUT;
-        while let Some(frame) = self.link.receive(until)? {
-            if frame.id() == self.node.plus(0x580) && !frame.is_remote() {
-                return Ok(Response::parse(frame.bytes()));
-            }
+    fn send(&mut self) -> Result<(), Failure> {
+        while let Some(frame) = self.client.poll_transmit(self.now()) {
+            // What an earlier, slower answer left behind is not the answer to this.
+            while self.link.receive(Instant::now())?.is_some() {}
+            self.link.send(&frame)?;
         }
-        Err(Failure::Failed(format!(
-            "node {} does not answer SDO requests within {} s; is it powered, not stopped, and is \
-             this its node ID?",
-            self.node.raw(),
-            TIMEOUT.as_secs()
-        )))
+        Ok(())
     }
 
-    fn odd(&self, address: Address, response: Response) -> Failure {
-        Failure::Failed(format!(
-            "node {} answers {address} out of turn: {response:?}",
-            self.node.raw()
-        ))
+    fn now(&self) -> od_client::Instant {
+        od_client::Instant::ZERO + self.start.elapsed()
+    }
+
+    fn outcome(
+        &self,
+        address: Address,
+        result: Result<Vec<u8>, SdoError>,
+    ) -> Result<Result<Vec<u8>, u32>, Failure> {
+        let node = self.node;
+        Err(Failure::Failed(match result {
+            Ok(bytes) => return Ok(Ok(bytes)),
+            Err(SdoError::Abort(code)) => return Ok(Err(code)),
+            Err(SdoError::Silent) => format!(
+                "node {node} does not answer SDO requests within {} s; is it powered, not \
+                 stopped, and is this its node ID?",
+                OPTIONS.timeout.as_secs()
+            ),
+            Err(SdoError::OutOfTurn { got, .. }) => {
+                format!("node {node} answers {address} out of turn: {got:?}")
+            }
+            Err(SdoError::TooLong) => {
+                let limit = OPTIONS.limit;
+                format!("node {node}: {address} has no end after {limit} bytes")
+            }
+            Err(other) => format!("node {node}: {address}: {other}"),
+        }))
     }
 }
