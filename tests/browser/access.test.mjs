@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, nmt, row } from './bench.mjs';
+import { becomes, booted, nmt, row } from './bench.mjs';
 
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
 
@@ -17,15 +17,19 @@ async function faults(page) {
   return violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(', ')}`);
 }
 
+/** Colours fade in, so what opens is looked at until it is as it will be. */
+const flawless = (page, where) => becomes(`what axe finds: ${where}`, () => faults(page), []);
+
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing, ${colorScheme}`, async () => {
     const { page, close } = await open(browser, { colorScheme });
     await booted(page);
     await nmt(page, 'Start');
     await row(page, 'a PDO1', (one) => one.id === '181');
-    assert.deepEqual(await faults(page), []);
+    await flawless(page, 'the page');
     await page.locator('.device-button').click();
-    assert.deepEqual(await faults(page), []);
+    await page.getByRole('dialog', { name: 'Device on the bus' }).waitFor();
+    await flawless(page, 'the devices');
     await close();
   });
 }
@@ -34,7 +38,7 @@ test('axe finds nothing on a phone', async () => {
   const { page, close } = await open(browser, { width: 390, height: 844 });
   for (const name of ['Bus', 'Objects', 'Encoder']) {
     await page.getByRole('tab', { name }).click();
-    assert.deepEqual(await faults(page), [], name);
+    await flawless(page, name);
   }
   await close();
 });
@@ -44,10 +48,10 @@ test('the sheet of keys opens by its key', async () => {
   await booted(page);
   await page.keyboard.press('?');
   const sheet = page.getByRole('dialog', { name: 'Keys' });
-  assert.ok(await sheet.isVisible());
-  assert.deepEqual(await faults(page), []);
+  await sheet.waitFor();
+  await flawless(page, 'the keys');
   await page.keyboard.press('Escape');
-  assert.ok(!(await sheet.isVisible()));
+  await sheet.waitFor({ state: 'hidden' });
   await close();
 });
 
@@ -56,18 +60,19 @@ test('axe finds nothing in what opens over the page', async () => {
     const { page, close } = await open(browser, { width, height, hash: '#device=eam_mt&node=1' });
     await page.getByRole('button', { name: 'Share and save' }).click();
     await page.getByRole('dialog', { name: 'Share and save' }).waitFor();
-    assert.deepEqual(await faults(page), [], `sharing, ${width}`);
+    await flawless(page, `sharing, ${width}`);
     await page.keyboard.press('Escape');
     if (width < 1024) await page.getByRole('tab', { name: 'Objects' }).click();
     await page.getByRole('searchbox', { name: 'Search objects' }).fill('6001');
     await page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: '6001h' }).click();
-    assert.deepEqual(await faults(page), [], `an object, ${width}`);
+    await page.locator('od-object-detail').getByText('6001h').first().waitFor();
+    await flawless(page, `an object, ${width}`);
     await page.getByRole('button', { name: 'PDO mapping' }).click();
     const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
     await dialog.locator('.mapping-steps li').first().waitFor();
     await dialog.getByRole('button', { name: /^Send/ }).click();
     await dialog.getByText('✓').first().waitFor();
-    assert.deepEqual(await faults(page), [], `the mapping, ${width}`);
+    await flawless(page, `the mapping, ${width}`);
     await close();
   }
 });
@@ -76,21 +81,18 @@ test('keys alone: from part to part, to the filter, to an object and its value',
   const { page, close } = await open(browser, {});
   await booted(page);
   const focused = () => page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.id);
-  const seen = [];
-  for (let i = 0; i < 5; i++) {
-    await page.keyboard.press('F6');
-    seen.push(await focused());
-  }
-  assert.deepEqual(seen.slice(0, 4), ['Shaft', 'Objects with their live values', 'Captured frames, oldest first', 'raw-frame']);
+  const after = async (key, name) => {
+    await page.keyboard.press(key);
+    await becomes(`the focus after ${key}`, focused, name);
+  };
+  for (const name of ['Shaft', 'Objects with their live values', 'Captured frames, oldest first', 'raw-frame']) await after('F6', name);
   await page.keyboard.press('F6');
-  assert.equal(await focused(), 'Shaft');
-  await page.keyboard.press('/');
-  assert.equal(await focused(), 'Filter frames');
+  await after('F6', 'Shaft');
+  await after('/', 'Filter frames');
   await page.getByRole('searchbox', { name: 'Search objects' }).fill('6001');
   await page.getByRole('listbox', { name: 'Objects with their live values' }).focus();
   await page.keyboard.press('ArrowDown');
-  await page.keyboard.press('Enter');
-  assert.equal(await focused(), 'New value');
+  await after('Enter', 'New value');
   await page.keyboard.type('1000');
   await page.keyboard.press('Enter');
   await row(page, 'the download', (one) => one.id === '601' && one.data.startsWith('23 01 60 00 E8 03'));

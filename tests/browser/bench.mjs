@@ -1,15 +1,68 @@
 // What the tests do over and over, in the words of a person at the page.
 import assert from 'node:assert/strict';
+import { isDeepStrictEqual } from 'node:util';
 
-/** Waits until `probe` answers with something true; says what was expected if it never does. */
-export async function until(what, probe, { within = 6000 } = {}) {
-  const end = Date.now() + within;
+/** Milliseconds that a machine with other work may take. */
+const PATIENCE = 20_000;
+
+/** Waits until `holds` accepts what `probe` answers, and answers with that; `fail` gets the last one. */
+async function poll(probe, holds, fail) {
+  const end = Date.now() + PATIENCE;
   for (;;) {
     const value = await probe();
-    if (value) return value;
-    if (Date.now() > end) assert.fail(`expected ${what}`);
+    if (holds(value)) return value;
+    if (Date.now() > end) fail(value);
     await new Promise((resolve) => setTimeout(resolve, 40));
   }
+}
+
+/** Waits until `probe` answers with something true; says what was expected if it never does. */
+export const until = (what, probe) => poll(probe, Boolean, () => assert.fail(`expected ${what}`));
+
+/** Waits until `probe` answers `expected`, or a text that fits this pattern: what an action leads to comes later. */
+export function becomes(what, probe, expected) {
+  if (expected instanceof RegExp) return poll(probe, (value) => expected.test(value), (value) => assert.match(value, expected, what));
+  return poll(probe, (value) => isDeepStrictEqual(value, expected), (value) => assert.deepEqual(value, expected, what));
+}
+
+/** Waits until `probe` answers the same for so many milliseconds of the bench's time; answers with that. */
+export async function stays(page, what, probe, milliseconds) {
+  let since = await clock(page);
+  let value = await probe();
+  return poll(
+    async () => {
+      const now = await clock(page);
+      const fresh = await probe();
+      if (!isDeepStrictEqual(fresh, value)) [since, value] = [now, fresh];
+      return now - since >= milliseconds ? { value } : null;
+    },
+    Boolean,
+    () => assert.fail(`expected ${what} to stay; it is ${value}`),
+  ).then((found) => found.value);
+}
+
+/** The bench's time in milliseconds. */
+export async function clock(page) {
+  const text = await page.getByRole('timer').textContent();
+  return Math.round(text.split(':').reduce((sum, part) => sum * 60 + Number(part), 0) * 1000);
+}
+
+/** Waits until so many milliseconds of the bench's time have passed. */
+export async function pass(page, milliseconds) {
+  const from = await clock(page);
+  await until(`${milliseconds} ms to pass`, async () => (await clock(page)) - from >= milliseconds);
+}
+
+/** Stops time. Pictures that are under way still come, so it is stopped when the clock has stood still for half a second. */
+export async function stopTime(page) {
+  await page.getByRole('button', { name: 'Stop time' }).click();
+  let [at, since] = [-1, 0];
+  await until('time to stop', async () => {
+    const now = await clock(page);
+    if (now !== at) [at, since] = [now, Date.now()];
+    return Date.now() - since >= 500;
+  });
+  await page.getByRole('button', { name: 'Run time' }).waitFor();
 }
 
 /** The rows on screen, oldest first. */

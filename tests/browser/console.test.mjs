@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -44,11 +44,11 @@ check('the filter shows what passes, by service, node, identifier, object and wo
     ['nmt or pdo1', '000 181'],
   ]) {
     await filter(page, text);
-    await until(`${expected} with “${text}”`, async () => (await ids(page)) === expected);
+    await becomes(`what passes “${text}”`, () => ids(page), expected);
   }
   await page.getByRole('button', { name: 'Clear' }).click();
-  await row(page, 'the filter after Clear', (one) => one.id === '181');
-  assert.equal(await ids(page), '181');
+  // The last filter let NMT frames pass, too; there are none since.
+  await becomes('what passes after Clear', () => ids(page), '181');
   await filter(page, '');
   await row(page, 'all frames', (one) => one.id === '701');
 });
@@ -57,8 +57,8 @@ check('a filter that cannot be read says so as it is typed', {}, async (page) =>
   const box = page.getByRole('searchbox', { name: 'Filter frames' });
   for (const [text, error] of [['node:', /missing/], ['node:200', /1 to 127/], ['nod:5', /no field/], ['(sdo', /not closed/]]) {
     await box.fill(text);
-    await until(`${error} under “${text}”`, async () => error.test(await page.locator('#filter-note').textContent()));
-    assert.equal(await box.getAttribute('aria-invalid'), 'true');
+    await becomes(`what stands under “${text}”`, () => page.locator('#filter-note').textContent(), error);
+    await becomes('aria-invalid', () => box.getAttribute('aria-invalid'), 'true');
   }
   await box.fill('hb');
   await until('no error', async () => (await page.locator('#filter-note').count()) === 0);
@@ -69,14 +69,14 @@ check('one row for each identifier, and back to order without loss', {}, async (
   await page.getByRole('button', { name: 'By COB-ID' }).click();
   const table = page.getByRole('region', { name: 'By COB-ID' });
   const line = table.getByRole('row').filter({ hasText: '701' });
-  await until('a rhythm of 100 ms', async () => /100\.0 ms/.test(await line.textContent()));
+  await becomes('the rhythm', () => line.textContent(), /100\.0 ms/);
   const count = async () => Number((await line.getByRole('cell').nth(2).textContent()).replace(/\D/g, ''));
   const first = await count();
   await until('more heartbeats', async () => (await count()) > first + 3);
   await page.getByRole('button', { name: 'In order' }).click();
   await page.locator('.frames').press('Home');
-  assert.ok((await captured(page)) > 10);
-  await filter(page, `sdo`);
+  await until('all frames', async () => (await captured(page)) > 10);
+  await filter(page, 'sdo');
   await row(page, 'what came before', (one) => one.id === '601');
 });
 
@@ -84,13 +84,13 @@ check('changed bytes stand out', {}, async (page) => {
   await sendRaw(page, '181#01 02 03');
   await sendRaw(page, '181#01 FF 03');
   const changed = page.locator('.frame', { hasText: '01 FF 03' }).locator('mark');
-  await until('the mark', async () => (await changed.allTextContents()).join() === 'FF');
+  await becomes('what is marked', () => changed.allTextContents(), ['FF']);
 });
 
 check('the second time column shows delta or cycle', {}, async (page) => {
   await traffic(page);
   await page.getByRole('button', { name: 'Delta' }).click();
-  await until('the cycle', async () => (await page.locator('.frame', { hasText: '701' }).last().locator('.delta').textContent()) === '+100.0 ms');
+  await becomes('the cycle', () => page.locator('.frame', { hasText: '701' }).last().locator('.delta').textContent(), '+100.0 ms');
 });
 
 const LONG = `[FileInfo]\nFileName=long.eds\n[DeviceInfo]\nProductName=Long\n[MandatoryObjects]\nSupportedObjects=3\n1=0x1000\n2=0x1001\n3=0x1018\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2001\n[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x191\nPDOMapping=0\n[1001]\nParameterName=Error register\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n[1018sub0]\nParameterName=Number\nObjectType=0x7\nDataType=0x0005\nAccessType=const\nDefaultValue=1\nPDOMapping=0\n[1018sub1]\nParameterName=Vendor\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n[2001]\nParameterName=Label\nObjectType=0x7\nDataType=0x0009\nAccessType=rw\nDefaultValue=Pump room, second floor\nPDOMapping=0\n`;
@@ -109,15 +109,14 @@ async function drop(page, name, bytes) {
 
 check('a transfer of many frames is one row, and opens', {}, async (page) => {
   await drop(page, 'long.eds', LONG);
-  await until('the device', async () => /Long/.test(await page.locator('.device-button').textContent()));
+  await becomes('the device', () => page.locator('.device-button').textContent(), /Long/);
   await sdo(page, 'Label');
-  const fold = await row(page, 'the folded transfer', (one) => /Read 2001h Label = “Pump room, second floor”/.test(one.words));
-  assert.equal((await rows(page)).filter((one) => one.tag === 'SDO').length, 1);
-  assert.match(fold.data, /10 frames, 23 bytes/);
+  await row(page, 'the folded transfer', (one) => /Read 2001h Label = “Pump room, second floor”/.test(one.words) && /10 frames, 23 bytes/.test(one.data));
+  await becomes('rows of SDO', async () => (await rows(page)).filter((one) => one.tag === 'SDO').length, 1);
   await page.locator('.frame', { hasText: 'Pump room' }).click();
-  await until('its frames', async () => (await page.locator('.fold div').count()) === 10);
+  await becomes('its frames', () => page.locator('.fold div').count(), 10);
   await page.getByRole('button', { name: 'Fold SDO transfers' }).click();
-  await until('a row for each', async () => (await rows(page)).filter((one) => one.tag === 'SDO').length === 10);
+  await becomes('a row for each', async () => (await rows(page)).filter((one) => one.tag === 'SDO').length, 10);
 });
 
 check('the chosen frame links bytes, fields and objects', {}, async (page) => {
@@ -126,9 +125,9 @@ check('the chosen frame links bytes, fields and objects', {}, async (page) => {
   await page.locator('.frame', { hasText: '181' }).first().click();
   const detail = page.locator('.frame-detail');
   await detail.getByRole('button', { name: 'Position value' }).click();
-  await until('the object', async () => /6004h/.test(await page.locator('od-object-detail').textContent()));
+  await becomes('the object', () => page.locator('od-object-detail').textContent(), /6004h/);
   await detail.locator('.byte').nth(2).hover();
-  await until('all its bytes', async () => (await detail.locator('.byte[data-lit=true]').count()) === 4);
+  await becomes('its bytes', () => detail.locator('.byte[data-lit=true]').count(), 4);
   const before = await captured(page);
   await detail.getByRole('button', { name: 'Send again' }).click();
   await until('the frame again', async () => (await captured(page)) > before && (await rows(page)).some((one) => one.id === '181' && one.dir === 'Tx'));
@@ -142,16 +141,16 @@ check('finding goes from frame to frame, marks hold them', {}, async (page) => {
   await box.fill('nmt');
   await box.press('Enter');
   const detail = page.locator('.frame-detail');
-  await until('the NMT command', async () => /Start node 1/.test(await detail.textContent()));
+  await becomes('the NMT command', () => detail.textContent(), /Start node 1/);
   await page.locator('.frames').focus();
   await page.keyboard.press('b');
-  await until('the mark', async () => (await page.locator('.frame[data-marked]').count()) === 1);
+  await becomes('marked frames', () => page.locator('.frame[data-marked]').count(), 1);
   await page.locator('.frames').press('Escape');
   await box.fill('1017');
   await box.press('Enter');
-  await until('the write', async () => /1017h/.test(await detail.textContent()));
+  await becomes('the write', () => detail.textContent(), /1017h/);
   await page.getByRole('button', { name: 'Next marked frame' }).click();
-  await until('the NMT command again', async () => /Start node 1/.test(await detail.textContent()));
+  await becomes('the NMT command again', () => detail.textContent(), /Start node 1/);
   await box.fill('nosuchword');
   await box.press('Enter');
   await page.getByText('No frame passes.').waitFor();
@@ -171,10 +170,7 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
   await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
   await until('many answers', async () => (await captured(page)) > before + 10);
   await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
-  await page.waitForTimeout(300);
-  const still = await captured(page);
-  await page.waitForTimeout(300);
-  assert.equal(await captured(page), still);
+  await stays(page, 'the number of frames', () => captured(page), 300);
   await what.fill('read zz');
   await what.press('Tab');
   await page.getByText('An object is written as').waitFor();
@@ -182,13 +178,13 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
   await what.press('Enter');
   await row(page, 'the write', (one) => one.id === '601' && one.data === '23 01 60 00 00 10 00 00');
   await page.reload();
-  await until('the row is kept', async () => (await page.getByRole('textbox', { name: 'What to send' }).inputValue()) === 'write 6001 = 4096');
+  await becomes('the row that is kept', () => page.getByRole('textbox', { name: 'What to send' }).inputValue(), 'write 6001 = 4096');
 });
 
 check('frames that are hard to remember are offered', {}, async (page) => {
   await page.getByRole('combobox', { name: 'Frames to begin with' }).selectOption({ label: 'Node guarding: ask for the state' });
   const line = page.getByRole('textbox', { name: 'Frame', exact: true });
-  assert.equal(await line.inputValue(), '701#R1');
+  await becomes('the send line', () => line.inputValue(), '701#R1');
   await line.press('Enter');
   await row(page, 'the request', (one) => one.data.includes('remote'));
 });
@@ -218,8 +214,7 @@ check('a log with faults says which, a file that is none says so', {}, async (pa
 
 check('the bus tells how busy it is', {}, async (page) => {
   await sdo(page, '1800:05', '2');
-  await until('written', async () => /written/.test(await sdoNote(page)));
+  await becomes('the answer', () => sdoNote(page), /written/);
   await nmt(page, 'Start');
-  await until('500 frames a second', async () => /\b(49\d|50\d) frames\/s/.test(await page.locator('.bus-status').textContent()));
-  assert.match(await page.locator('.bus-status').textContent(), /Bus load \d\d+ % of 50 kbit\/s/);
+  await becomes('load and frames', () => page.locator('.bus-status').textContent(), /Bus load \d\d+ % of 50 kbit\/s\s+(49\d|50\d) frames\/s/);
 });

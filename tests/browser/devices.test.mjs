@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+import { becomes, booted, nmt, row, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -86,6 +86,9 @@ async function drop(page, name, text) {
   await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
 }
 
+const deviceName = (page) => page.locator('.device-button').textContent();
+const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
+
 function check(name, options, body) {
   test(name, async () => {
     const { page, faults, close } = await open(browser, options);
@@ -101,26 +104,26 @@ function check(name, options, body) {
 check('an EDS file that is dropped runs', {}, async (page) => {
   await booted(page);
   await drop(page, 'little.eds', GOOD);
-  await until('the name of the device', async () => /Little node|little/.test(await page.locator('.device-button').textContent()));
+  await becomes('the name of the device', () => deviceName(page), /Little node|little/);
   await sdo(page, '2000');
-  await until('its value', async () => /2000h = 40/.test(await sdoNote(page)));
+  await note(page, /2000h = 40/);
   await sdo(page, 'Lamp brightness', '55');
-  await until('the answer', async () => /2000h written/.test(await sdoNote(page)));
+  await note(page, /2000h written/);
   await sdo(page, '2000', '101');
-  await until('the abort', async () => /0609003[01]/.test(await sdoNote(page)));
+  await note(page, /0609003[01]/);
   await row(page, 'the object by its name', (one) => /Lamp brightness/.test(one.words));
 });
 
 check('long texts go in segments, both ways', {}, async (page) => {
   await booted(page);
   await drop(page, 'little.eds', GOOD);
-  await until('the name of the device', async () => /Little node/.test(await page.locator('.device-button').textContent()));
+  await becomes('the name of the device', () => deviceName(page), /Little node/);
   await sdo(page, 'Label on the door');
-  await until('the text', async () => (await sdoNote(page)).includes('“Pump room, second floor”'));
+  await note(page, /“Pump room, second floor”/);
   await sdo(page, '2001', 'Boiler room in the basement');
-  await until('the answer', async () => /2001h written/.test(await sdoNote(page)));
+  await note(page, /2001h written/);
   await sdo(page, '2001');
-  await until('the new text', async () => (await sdoNote(page)).includes('“Boiler room in the basement”'));
+  await note(page, /“Boiler room in the basement”/);
 });
 
 check('an EDS file that cannot run says where and why', {}, async (page) => {
@@ -129,17 +132,17 @@ check('an EDS file that cannot run says where and why', {}, async (page) => {
   await drop(page, 'broken.eds', bad);
   const faults = page.getByRole('alert', { name: 'What is wrong with the file' });
   await until('the faults', () => faults.isVisible());
-  assert.match(await faults.textContent(), /broken\.eds/);
+  await becomes('the file', () => faults.textContent(), /broken\.eds/);
   const line = bad.split('\n').findIndex((text) => text === 'DataType=0x00FF') + 1;
   await until(`line ${line}`, async () => (await faults.locator('.where').allTextContents()).some((where) => where.startsWith(`${line}:`)));
-  assert.match(await faults.textContent(), /E\d{3,4}/);
+  await becomes('a code', () => faults.textContent(), /E\d{3,4}/);
   await page.keyboard.press('Escape');
-  assert.match(await page.locator('.device-button strong').textContent(), /gxmm/, 'the device before stays');
+  await becomes('the device before stays', () => page.locator('.device-button strong').textContent(), /gxmm/);
   await drop(page, 'broken.eds', bad);
   await page.getByRole('button', { name: 'Run anyway' }).click();
-  await until('the device without its faults', async () => /Little node/.test(await page.locator('.device-button').textContent()));
+  await becomes('the device without its faults', () => deviceName(page), /Little node/);
   await sdo(page, '1000');
-  await until('an answer', async () => /1000h = /.test(await sdoNote(page)));
+  await note(page, /1000h = /);
 });
 
 check('the dialog changes device and node ID, and the link keeps them', {}, async (page) => {
@@ -149,10 +152,10 @@ check('the dialog changes device and node ID, and the link keeps them', {}, asyn
   await dialog.getByRole('spinbutton', { name: 'Node ID' }).fill('5');
   await dialog.getByRole('button', { name: 'gxam' }).click();
   await row(page, 'the boot-up of node 5', (one) => one.id === '705');
-  assert.match(await page.evaluate(() => location.hash), /device=gxam/);
+  await becomes('the address', () => page.url(), /device=gxam/);
   await page.reload();
   await row(page, 'the boot-up of node 5 after loading', (one) => one.id === '705');
-  assert.match(await page.locator('.device-button').textContent(), /gxam/);
+  await becomes('the device', () => deviceName(page), /gxam/);
 });
 
 check('a link opens a device', { hash: '#device=gxam&node=33' }, async (page) => {
@@ -163,20 +166,22 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   await booted(page);
   const [worker] = page.workers();
   await worker.evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
-  await until('a word about it', async () => /started again/.test(await page.locator('.toasts').textContent()));
+  await becomes('a word about it', () => page.locator('.toasts').textContent(), /started again/);
   // As on a bus: who asks a node before it has booted again gets no answer.
-  await until('two boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
+  await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 2);
   await sendRaw(page, '601#4000100000000000');
   await row(page, 'an answer after the crash', (one) => one.id === '581');
 });
 
+/** Everything has room: nothing is wider than what it stands in. */
+const fits = (page) => becomes('what has no room', () => overflow(page), []);
 const overflow = (page) =>
   page.evaluate(() => [...document.querySelectorAll('html, body, main, .panel, .panel-head, .topbar')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent.trim().slice(0, 40)));
 
 for (const width of [820, 1024, 1280, 1920]) {
   check(`${width} pixels wide: everything has room`, { width, height: 700 }, async (page) => {
-    await until('Pre-operational', async () => /Pre-op/.test(await page.getByLabel('NMT state').textContent()));
-    assert.deepEqual(await overflow(page), []);
+    await becomes('the state', () => state(page), /Pre-op/);
+    await fits(page);
   });
 }
 
@@ -184,23 +189,23 @@ check('on a phone an object goes from the dictionary to the SDO line', { width: 
   await page.getByRole('tab', { name: 'Objects' }).click();
   await page.getByRole('searchbox', { name: 'Search objects' }).fill('1018 vendor');
   await page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: ':01' }).click();
-  assert.deepEqual(await overflow(page), []);
+  await fits(page);
   await page.getByRole('button', { name: 'Read or write' }).click();
   await page.getByRole('button', { name: 'Read', exact: true }).click();
-  await until('the vendor', async () => /1018h:01 = 000000ECh/.test(await sdoNote(page)));
+  await note(page, /1018h:01 = 000000ECh/);
 });
 
 for (const width of [390, 320]) {
   check(`${width} pixels wide: no sideways scrolling, every panel in reach`, { width, height: 780, hasTouch: true }, async (page) => {
-    await until('Pre-operational', async () => /Pre-op/.test(await page.getByLabel('NMT state').textContent()));
-    assert.deepEqual(await overflow(page), []);
+    await becomes('the state', () => state(page), /Pre-op/);
+    await fits(page);
     await page.getByRole('tab', { name: 'Bus' }).click();
     await booted(page);
     await nmt(page, 'Start');
     await row(page, 'a PDO1', (one) => one.id === '181');
-    assert.deepEqual(await overflow(page), []);
+    await fits(page);
     await page.getByRole('tab', { name: 'Objects' }).click();
     await until('objects', () => page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').first().isVisible());
-    assert.deepEqual(await overflow(page), []);
+    await fits(page);
   });
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
 import { launch, open, URL_OF_PAGE } from './harness.mjs';
-import { booted, nmt, sdo, sdoNote, sendRaw, until } from './bench.mjs';
+import { becomes, booted, clock, nmt, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
 
 const folder = new URL('../../playground/lessons/', import.meta.url);
 const files = (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name));
@@ -19,14 +19,22 @@ const part = (page, name) => page.getByRole('group', { name: 'Encoder views' }).
 const power = (page) => page.getByRole('switch', { name: 'Power' }).click();
 const devices = (page) => page.getByRole('group', { name: 'Devices on the bus' }).getByRole('button', { name: /node \d/ });
 
+/** Waits until so much of the bench's time has passed, or a goal has stopped it. */
+async function pass(page, milliseconds) {
+  const from = await clock(page);
+  await until(`${milliseconds} ms to pass`, async () => (await clock(page)) - from >= milliseconds || (await page.getByRole('button', { name: 'Run time' }).isVisible()));
+}
+
 /** Does one line of a solution, as a person does it. */
 async function act(page, line, labels) {
   const [word, ...rest] = line.split(/\s+/);
   switch (word) {
     case 'power':
       await power(page);
+      if (rest[0] === 'on') return;
+      await becomes('the state', () => state(page), 'Off');
       if (rest[0] !== 'cycle') return;
-      await page.waitForTimeout(300);
+      await pass(page, millis(rest[1] ?? '300ms'));
       return power(page);
     case 'nmt':
       if (rest[1]) return sendRaw(page, `000#${{ start: '01', stop: '02', reset: '81' }[rest[0]]} ${rest[1] === 'all' ? '00' : rest[1].padStart(2, '0')}`);
@@ -34,7 +42,7 @@ async function act(page, line, labels) {
     case 'sdo': {
       const [, kind, object, value] = /^sdo (read|write) (\S+?)(?: = (\S+))?(?: aborts .*)?$/.exec(line);
       await sdo(page, object.replace('h', ''), kind === 'write' ? value : undefined);
-      return until(`an answer to ${line}`, async () => /written|=|abort/i.test(await sdoNote(page)));
+      return becomes(`the answer to ${line}`, () => sdoNote(page), /written|=|abort/i);
     }
     case 'fault':
       await part(page, 'Hardware');
@@ -42,7 +50,11 @@ async function act(page, line, labels) {
     case 'shaft': {
       await part(page, 'Shaft');
       const shaft = page.getByRole('slider', { name: 'Shaft' });
-      for (let degrees = 0; degrees < Number(rest[1]) * 360; degrees += 5) await shaft.press('ArrowRight');
+      for (let degrees = 0; degrees < Number(rest[1]) * 360; degrees += 5) {
+        const before = await shaft.getAttribute('aria-valuenow');
+        await shaft.press('ArrowRight');
+        await until('the shaft to turn', async () => (await shaft.getAttribute('aria-valuenow')) !== before);
+      }
       return;
     }
     case 'use':
@@ -51,14 +63,16 @@ async function act(page, line, labels) {
       await part(page, 'Hardware');
       for (const [i, bit] of [4, 2, 1].entries()) {
         const dip = page.getByRole('switch', { name: `DIP ${i + 1}` });
-        if (((await dip.getAttribute('aria-checked')) === 'true') !== ((Number(rest[1]) & bit) !== 0)) await dip.click();
+        const wanted = String((Number(rest[1]) & bit) !== 0);
+        if ((await dip.getAttribute('aria-checked')) !== wanted) await dip.click();
+        await becomes(`DIP ${i + 1}`, () => dip.getAttribute('aria-checked'), wanted);
       }
       return;
     case 'line':
       await part(page, 'Hardware');
       return page.getByRole('button', { name: `${rest[1]} × 120 Ω` }).click();
     case 'wait':
-      return page.waitForTimeout(millis(rest[0]));
+      return pass(page, millis(rest[0]));
     default:
       return sendRaw(page, line);
   }
@@ -74,16 +88,27 @@ for (const name of BY_HAND) {
     const lesson = page.locator('od-lesson');
     const isDone = async () => (await lesson.locator('.happened').count()) === 1;
     for (const [i, lines] of solutions.entries()) {
-      await until(`step ${i + 1}`, async () => (await lesson.locator('.lesson-step h3 .num').textContent()) === String(i + 1), { within: 15_000 });
-      assert.equal(await isDone(), false, `step ${i + 1} is done before anything was done`);
+      await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(i + 1));
+      await becomes(`step ${i + 1} is done before anything was done`, isDone, false);
       for (const line of lines) if (!(await isDone())) await act(page, line.trim(), labels);
-      await until(`step ${i + 1} of ${name} to be done`, isDone, { within: 15_000 });
+      await until(`step ${i + 1} of ${name} to be done`, isDone);
       if (i + 1 < solutions.length) await lesson.getByRole('button', { name: 'Go on' }).click();
     }
     await lesson.getByText('You did it').waitFor();
     assert.deepEqual(faults, [], 'the page complained');
     await close();
   });
+}
+
+/** Takes hint after hint, until none is left and the solution is offered. */
+async function takeHints(lesson) {
+  const hint = lesson.getByRole('button', { name: /hint$/ });
+  const solution = lesson.getByRole('button', { name: 'Show me' });
+  for (let taken = await lesson.locator('.hint').count(); !(await solution.isVisible()); ) {
+    await hint.click();
+    taken += 1;
+    await becomes('hints', () => lesson.locator('.hint').count(), taken);
+  }
 }
 
 const nameOf = (file) => file.replace(/^\d+-|\.md$/g, '');
@@ -94,12 +119,11 @@ for (const name of files.map(nameOf).filter((name) => !BY_HAND.includes(name))) 
     const { page, faults, close } = await open(browser, { hash: `#lesson=${name}` });
     const lesson = page.locator('od-lesson');
     for (let step = 1; step <= steps; step++) {
-      await until(`step ${step}`, async () => (await lesson.locator('.lesson-step h3 .num').textContent()) === String(step), { within: 15_000 });
-      assert.equal(await lesson.locator('.happened').count(), 0, `step ${step} is done before anything was done`);
-      const hint = lesson.getByRole('button', { name: /hint$/ });
-      while (await hint.count()) await hint.click();
+      await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
+      await becomes(`step ${step} is done before anything was done`, () => lesson.locator('.happened').count(), 0);
+      await takeHints(lesson);
       await lesson.getByRole('button', { name: 'Show me' }).click();
-      await until(`step ${step} of ${name} to be done`, async () => (await lesson.locator('.happened').count()) === 1, { within: 15_000 });
+      await becomes(`step ${step} of ${name} is done`, () => lesson.locator('.happened').count(), 1);
       if (step < steps) await lesson.getByRole('button', { name: 'Go on' }).click();
     }
     await lesson.getByText('You did it').waitFor();
@@ -113,11 +137,11 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await booted(page);
   await page.getByRole('button', { name: 'Learn' }).click();
   const list = page.getByRole('dialog', { name: 'Lessons' });
-  await until('all lessons', async () => (await list.getByRole('listitem').count()) === files.length);
+  await becomes('all lessons', () => list.getByRole('listitem').count(), files.length);
   await list.getByRole('button', { name: /^Find the fault: now and then/ }).click();
   const lesson = page.locator('od-lesson');
   await lesson.getByRole('heading', { level: 3 }).waitFor();
-  assert.match(page.url(), /#lesson=find-terminator$/);
+  await becomes('the address', () => page.url(), /#lesson=find-terminator$/);
 
   await lesson.getByRole('button', { name: 'Other lessons' }).click();
   await list.getByRole('button', { name: /^Boot-up and heartbeat/ }).click();
@@ -131,12 +155,12 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await lesson.getByText('That is it.').waitFor();
 
   await lesson.getByRole('button', { name: 'A hint' }).click();
-  assert.equal(await lesson.locator('.hint').count(), 1);
+  await becomes('hints', () => lesson.locator('.hint').count(), 1);
   await lesson.getByRole('button', { name: 'Another hint' }).click();
-  assert.equal(await lesson.locator('.hint').count(), 2);
+  await becomes('hints', () => lesson.locator('.hint').count(), 2);
   await power(page);
   await lesson.getByText('What just happened').waitFor();
-  assert.equal(await page.getByRole('button', { name: 'Run time' }).count(), 1, 'time stands still');
+  await page.getByRole('button', { name: 'Run time' }).waitFor();
   const beside = page.getByRole('group', { name: 'Beside the bus' });
   await beside.getByRole('button', { name: 'Objects' }).click();
   await page.getByRole('searchbox', { name: 'Search objects' }).waitFor();
@@ -144,16 +168,21 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await lesson.getByRole('button', { name: 'Go on' }).click();
   await page.getByRole('button', { name: 'Stop time' }).waitFor();
 
-  // A requirement is ticked as soon as it holds, though others are open.
+  // A requirement is ticked as soon as it holds, though others are open: time runs slowly
+  // here, so that the heartbeat does not come before one has looked.
+  const speed = page.getByRole('combobox', { name: 'Speed', exact: true });
+  await speed.selectOption('0.01');
   await sdo(page, '1017', '500');
-  await until('two requirements ticked', async () => (await lesson.locator('.checks li[data-done=true]').count()) === 2);
+  await becomes('requirements ticked', () => lesson.locator('.checks li[data-done=true]').count(), 2);
   assert.equal(await lesson.locator('.happened').count(), 0);
+  await speed.selectOption('1');
   await lesson.getByText('What just happened').waitFor();
 
   // From here on it is shown how: the hints end with that.
   for (let step = 3; step <= 5; step++) {
     await lesson.getByRole('button', { name: 'Go on' }).click();
-    while (await lesson.getByRole('button', { name: /hint$/ }).count()) await lesson.getByRole('button', { name: /hint$/ }).click();
+    await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
+    await takeHints(lesson);
     await lesson.getByRole('button', { name: 'Show me' }).click();
     await lesson.getByText('What just happened').waitFor();
   }
@@ -162,7 +191,7 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await list.getByRole('button', { name: /^Boot-up and heartbeat.*Done/s }).waitFor();
   await list.getByRole('button', { name: 'Close' }).click();
   await lesson.getByRole('button', { name: 'Leave the lesson' }).click();
-  await until('no lesson', async () => (await lesson.count()) === 0);
+  await becomes('lessons', () => lesson.count(), 0);
   assert.deepEqual(faults, []);
   await close();
 });
@@ -212,16 +241,16 @@ test("a trainer's own lesson is opened from a file; a wrong one says in which li
   const faulty = list.getByRole('alert');
   await faulty.getByText('bad.md cannot be opened').waitFor();
   await faulty.getByText(`Line ${line}`, { exact: true }).waitFor();
-  assert.match(await faulty.locator('.help').first().textContent(), /operational/, 'it says what to do');
+  await becomes('it says what to do', () => faulty.locator('.help').first().textContent(), /operational/);
   assert.equal(await page.locator('od-lesson').count(), 0);
-  assert.match(await devices(page).first().textContent(), /node 1/, 'the bench is as it was');
+  await becomes('the bench is as it was', () => devices(page).first().textContent(), /node 1/);
 
   await give('device.md', OWN.replace('device gxam', 'device nonsense'));
   await faulty.getByText('device.md cannot be opened').waitFor();
 
   await give('own.md', OWN);
   await page.getByRole('heading', { name: 'A lesson of my own' }).waitFor();
-  assert.match(await devices(page).first().textContent(), /node 3/);
+  await becomes('the device of the lesson', () => devices(page).first().textContent(), /node 3/);
   assert.equal(await page.locator('#markup').count(), 0, 'what stands in a lesson is text');
   await nmt(page, 'Start');
   await page.getByText('You did it').waitFor();

@@ -97,7 +97,7 @@ async function throughput(browser) {
   await page.goto(url);
   await booted(page);
   await sdo(page, '1800:05', '2');
-  await until('the answer', async () => /written/.test(await sdoNote(page)), { within: 20_000 });
+  await until('the answer', async () => /written/.test(await sdoNote(page)));
   await page.getByRole('combobox', { name: 'Speed' }).selectOption('10');
   await nmt(page, 'Start');
   await page.waitForTimeout(500);

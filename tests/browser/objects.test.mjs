@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, captured, row, sdo, sdoNote, until } from './bench.mjs';
+import { becomes, booted, captured, row, sdo, sdoNote, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -21,7 +21,7 @@ function check(name, body) {
   });
 }
 
-const note = (page, pattern) => until(`${pattern} under the SDO line`, async () => pattern.test(await sdoNote(page)));
+const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 
 check('reads and writes by index', async (page) => {
   await sdo(page, '1017', '500');
@@ -38,7 +38,7 @@ check('offers objects by name', async (page) => {
   await until('offers', async () => (await options.count()) > 0);
   await box.press('ArrowDown');
   await box.press('Enter');
-  assert.match(await box.inputValue(), /^10\d\dh/);
+  await becomes('the object', () => box.inputValue(), /^10\d\dh/);
   await page.getByRole('button', { name: 'Read', exact: true }).click();
   await note(page, /= /);
 });
@@ -56,7 +56,7 @@ check('checks width and limits before it sends', async (page) => {
   await page.getByRole('combobox', { name: 'Object', exact: true }).fill('2101');
   await page.getByRole('textbox', { name: 'Value', exact: true }).fill('300');
   await note(page, /does not fit UNSIGNED8/);
-  assert.ok(await page.getByRole('button', { name: 'Write', exact: true }).isDisabled());
+  await until('nothing to write', () => page.getByRole('button', { name: 'Write', exact: true }).isDisabled());
   await page.getByRole('textbox', { name: 'Value', exact: true }).fill('twelve');
   await note(page, /not a whole number/);
   assert.equal(await captured(page), before);
@@ -84,11 +84,11 @@ check('shows live values without a frame on the bus', async (page) => {
 check('marks what was changed and shows the details', async (page) => {
   await page.getByRole('searchbox', { name: 'Search objects' }).fill('2300');
   const data = page.getByRole('listbox', { name: 'Objects with their live values' }).getByRole('option').filter({ hasText: ':01' });
-  await until('a value', async () => (await data.locator('.value').textContent()) === '0');
-  assert.equal(await data.getAttribute('data-changed'), null);
+  await becomes('the value', () => data.locator('.value').textContent(), '0');
+  await becomes('no mark', () => data.getAttribute('data-changed'), null);
   await data.click();
-  assert.match(await page.getByRole('combobox', { name: 'Object', exact: true }).inputValue(), /^2300h:01/);
-  assert.match(await page.locator('od-object-detail').textContent(), /UNSIGNED16/);
+  await becomes('the object', () => page.getByRole('combobox', { name: 'Object', exact: true }).inputValue(), /^2300h:01/);
+  await becomes('its type', () => page.locator('od-object-detail').textContent(), /UNSIGNED16/);
   await page.getByRole('textbox', { name: 'Value', exact: true }).fill('1234h');
   await page.getByRole('button', { name: 'Write', exact: true }).click();
   await note(page, /2300h:01 written/);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, captured, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
+import { becomes, booted, captured, clock, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -24,32 +24,30 @@ function check(name, options, body) {
   });
 }
 
+const boots = async (page) => (await rows(page)).filter((one) => one.id === '701').length;
+
 check('the node boots and says so', async (page) => {
   const boot = await booted(page);
   assert.equal(boot.dir, 'Rx');
   assert.match(boot.words, /boot-?up/i);
-  assert.equal(await state(page), 'Pre-operational');
-  assert.match(await page.locator('.led-words').textContent(), /Green flashing/);
+  await becomes('the state', () => state(page), 'Pre-operational');
+  await becomes('the lamp', () => page.locator('.led-words').textContent(), /Green flashing/);
 });
 
 check('a quiet bus says what to try', async (page) => {
   await page.getByRole('button', { name: 'Read the position' }).click();
   await row(page, 'the answer', (one) => one.id === '581' && one.data.startsWith('43 04 60 00'));
   await page.getByRole('button', { name: 'Start the node' }).click();
-  await until('Operational', async () => (await state(page)) === 'Operational');
-  await until('no more hints', async () => (await page.locator('.hints').count()) === 0);
+  await becomes('the state', () => state(page), 'Operational');
+  await becomes('hints', () => page.locator('.hints').count(), 0);
 });
 
 check('a request typed by hand gets its answer', async (page) => {
   await sendRaw(page, '601#4004600000000000');
-  const request = await row(page, 'the request', (one) => one.id === '601');
-  assert.equal(request.dir, 'Tx');
-  assert.match(request.words, /6004/);
-  const answer = await row(page, 'the answer', (one) => one.id === '581');
-  assert.match(answer.data, /^43 04 60 00 /);
-  assert.equal(answer.tag, 'SDO');
+  await row(page, 'the request in words', (one) => one.id === '601' && one.dir === 'Tx' && /6004/.test(one.words));
+  const answer = await row(page, 'the answer', (one) => one.id === '581' && one.tag === 'SDO' && one.data.startsWith('43 04 60 00 '));
   const bytes = answer.data.split(' ').slice(4).map((byte) => Number.parseInt(byte, 16));
-  assert.equal(bytes.reduceRight((value, byte) => value * 256 + byte, 0), await position(page));
+  await becomes('the position', () => position(page), bytes.reduceRight((value, byte) => value * 256 + byte, 0));
 });
 
 check('typed frames may be loose, and are checked as they are typed', async (page) => {
@@ -64,51 +62,47 @@ check('typed frames may be loose, and are checked as they are typed', async (pag
   ]) {
     await line.fill(text);
     if (fault) await until(`“${fault}” under “${text}”`, async () => (await note.textContent()).includes(fault));
-    assert.equal(await line.getAttribute('aria-invalid'), String(fault !== ''), text);
+    await becomes(`aria-invalid of ${text}`, () => line.getAttribute('aria-invalid'), String(fault !== ''));
   }
   await sendRaw(page, '601 40 00 10 00');
   await row(page, 'the answer of 1000h', (one) => one.id === '581' && one.data.startsWith('43 00 10 00'));
   await line.press('ArrowUp');
-  assert.equal(await line.inputValue(), '601 40 00 10 00');
+  await becomes('the send line', () => line.inputValue(), '601 40 00 10 00');
 });
 
 check('NMT start makes PDOs run, stop silences them', async (page) => {
   await nmt(page, 'Start');
-  await until('Operational', async () => (await state(page)) === 'Operational');
-  const pdo = await row(page, 'a PDO1', (one) => one.id === '181');
-  assert.equal(pdo.tag, 'PDO1');
-  assert.match(pdo.words, /position/i);
+  await becomes('the state', () => state(page), 'Operational');
+  await row(page, 'a PDO1 in words', (one) => one.id === '181' && one.tag === 'PDO1' && /position/i.test(one.words));
   const before = (await rows(page)).filter((one) => one.id === '181').length;
   await until('more PDOs', async () => (await rows(page)).filter((one) => one.id === '181').length > before + 1);
   await nmt(page, 'Stop');
-  await until('Stopped', async () => (await state(page)) === 'Stopped');
-  const count = await captured(page);
-  await page.waitForTimeout(1200);
-  assert.equal(await captured(page), count);
+  await becomes('the state', () => state(page), 'Stopped');
+  await stays(page, 'the number of frames', () => captured(page), 1200);
   await sdo(page, '6004');
-  await until('no answer', async () => /No answer/.test(await sdoNote(page)));
+  await becomes('no answer', () => sdoNote(page), /No answer/);
 });
 
 check('the shaft turns by key', async (page) => {
   const shaft = page.getByRole('slider', { name: 'Shaft' });
   await shaft.focus();
   await page.keyboard.press('Home');
-  await until('the zero point', async () => Number(await shaft.getAttribute('aria-valuenow')) === 0);
+  await becomes('the zero point', () => shaft.getAttribute('aria-valuenow'), '0.0');
   const start = await position(page);
   await page.keyboard.press('ArrowRight');
-  await until('5 degrees', async () => (await shaft.getAttribute('aria-valuenow')) === '5.0');
+  await becomes('degrees', () => shaft.getAttribute('aria-valuenow'), '5.0');
   await until('6004h to follow', async () => Math.abs((await position(page)) - start - (8192 * 5) / 360) <= 1);
   await page.keyboard.press('PageUp');
   await until('a turn more', async () => Math.abs((await position(page)) - start - 8192 - (8192 * 5) / 360) <= 1);
   await page.keyboard.press('Shift+ArrowLeft');
-  await until('a tenth of a degree less', async () => (await shaft.getAttribute('aria-valuenow')) === '4.9');
+  await becomes('a tenth of a degree less', () => shaft.getAttribute('aria-valuenow'), '4.9');
 });
 
 check('the shaft turns by pointer, more than once round', async (page) => {
   const shaft = page.getByRole('slider', { name: 'Shaft' });
   await shaft.focus();
   await page.keyboard.press('Home');
-  await until('the zero point', async () => Number(await shaft.getAttribute('aria-valuenow')) === 0);
+  await becomes('the zero point', () => shaft.getAttribute('aria-valuenow'), '0.0');
   const start = await position(page);
   const box = await shaft.boundingBox();
   const at = (degrees) => {
@@ -130,10 +124,7 @@ check('the shaft runs at a speed', async (page) => {
   await until('a moving position', async () => Math.abs((await position(page)) - before) > 8192);
   await rpm.fill('0');
   await rpm.press('Enter');
-  await page.waitForTimeout(200);
-  const stopped = await position(page);
-  await page.waitForTimeout(300);
-  assert.equal(await position(page), stopped);
+  await stays(page, 'the position', () => position(page), 300);
 });
 
 check('power off silences the node, power on boots it', async (page) => {
@@ -141,21 +132,19 @@ check('power off silences the node, power on boots it', async (page) => {
   await row(page, 'a PDO1', (one) => one.id === '181');
   const power = page.getByRole('switch', { name: 'Power' });
   await power.click();
-  await until('Off', async () => (await state(page)) === 'Off');
-  assert.match(await page.locator('.led-words').textContent(), /no supply/);
-  const count = await captured(page);
-  await page.waitForTimeout(900);
-  assert.equal(await captured(page), count);
+  await becomes('the state', () => state(page), 'Off');
+  await becomes('the lamp', () => page.locator('.led-words').textContent(), /no supply/);
+  await stays(page, 'the number of frames', () => captured(page), 900);
   await sdo(page, '6004');
-  await until('a word about the power', async () => /power is off/.test(await sdoNote(page)));
+  await becomes('a word about the power', () => sdoNote(page), /power is off/);
   await power.click();
-  await until('the second boot-up', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
-  assert.equal(await state(page), 'Pre-operational');
+  await becomes('boot-ups', () => boots(page), 2);
+  await becomes('the state', () => state(page), 'Pre-operational');
 });
 
 check('reset node boots again', async (page) => {
   await page.getByRole('button', { name: 'Reset node', exact: true }).first().click();
-  await until('the second boot-up', async () => (await rows(page)).filter((one) => one.id === '701').length === 2);
+  await becomes('boot-ups', () => boots(page), 2);
 });
 
 check('pause holds the view and loses nothing', async (page) => {
@@ -164,7 +153,8 @@ check('pause holds the view and loses nothing', async (page) => {
   await page.locator('.frames').focus();
   await page.keyboard.press('Space');
   await until('the mark of the pause', () => page.getByText(/^Paused/).isVisible());
-  const shown = (await rows(page)).length;
+  // The last frames before the pause are still being drawn.
+  const shown = await stays(page, 'the number of rows', async () => (await rows(page)).length, 200);
   const count = await captured(page);
   await until('frames behind the pause', async () => (await captured(page)) >= count + 2);
   assert.equal((await rows(page)).length, shown);
@@ -177,15 +167,15 @@ check('a chosen frame is shown in full and goes back to the send line', async (p
   await row(page, 'the answer', (one) => one.id === '581');
   await page.locator('.frame', { hasText: '581' }).click();
   const detail = page.locator('.frame-detail');
-  assert.match(await detail.textContent(), /1008h/);
-  assert.match(await detail.textContent(), /GXMM/);
+  await becomes('its object', () => detail.textContent(), /1008h/);
+  await becomes('its value', () => detail.textContent(), /GXMM/);
   await page.locator('.frames').press('ArrowUp');
-  await until('the frame before', async () => /Read 1008h/.test(await detail.textContent()));
+  await becomes('the frame before', () => detail.textContent(), /Read 1008h/);
   await detail.getByRole('button', { name: 'To send line' }).click();
   const line = page.getByRole('textbox', { name: 'Frame', exact: true });
-  assert.equal(await line.inputValue(), '601#40 08 10 00');
+  await becomes('the send line', () => line.inputValue(), '601#40 08 10 00');
   await page.locator('.frames').press('Escape');
-  await until('no detail', async () => (await detail.count()) === 0);
+  await becomes('details', () => detail.count(), 0);
 });
 
 check('SYNC fetches the synchronous PDO', async (page) => {
@@ -223,40 +213,35 @@ check('scrolling up holds the place, one button goes back to the end', async (pa
   await page.locator('.frames').hover();
   await page.mouse.wheel(0, -600);
   await until('the way back', () => page.getByRole('button', { name: 'Latest frames' }).isVisible());
-  await page.waitForTimeout(150);
-  const [first] = await rows(page);
-  await page.waitForTimeout(400);
-  assert.equal((await rows(page))[0].number, first.number);
+  // 400 milliseconds of a person's time, at this speed.
+  const first = await stays(page, 'the first row', async () => (await rows(page))[0].number, 40_000);
   await page.getByRole('button', { name: 'Latest frames' }).click();
-  await until('the newest rows', async () => (await rows(page)).at(-1).number > first.number + 60);
+  await until('the newest rows', async () => (await rows(page)).at(-1).number > first + 60);
 });
 
 check('time stands still and goes on by steps', async (page) => {
-  await page.getByRole('button', { name: 'Stop time' }).click();
-  const clock = page.getByRole('timer');
-  await page.waitForTimeout(150);
-  const before = await clock.textContent();
-  await page.waitForTimeout(250);
-  assert.equal(await clock.textContent(), before);
+  await stopTime(page);
+  const before = await clock(page);
   await page.getByRole('button', { name: 'Step 1 millisecond' }).click();
-  await until('one millisecond more', async () => (await clock.textContent()) !== before);
+  await becomes('the clock', () => clock(page), before + 1);
   await page.getByRole('button', { name: 'Run time' }).click();
-  const after = await clock.textContent();
-  await until('time to run', async () => (await clock.textContent()) !== after);
+  await until('time to run', async () => (await clock(page)) > before + 1);
 });
 
 check('light and dark', async (page) => {
   const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await background();
   await page.getByRole('button', { name: 'Light or dark' }).click();
+  await until('another colour', async () => (await background()) !== light);
   const dark = await background();
-  assert.notEqual(dark, light);
   await page.reload();
   await booted(page);
-  assert.equal(await background(), dark, 'the choice is kept');
+  await becomes('the choice is kept', background, dark);
 });
 
 check('dark where the system is dark', { colorScheme: 'dark' }, async (page) => {
-  const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
-  assert.ok(red < 40);
+  await until('a dark page', async () => {
+    const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
+    return red < 40;
+  });
 });

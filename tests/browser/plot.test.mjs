@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open } from './harness.mjs';
-import { booted, captured, number, until } from './bench.mjs';
+import { becomes, booted, captured, number, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -32,26 +32,26 @@ test('position and speed are drawn while the shaft turns, and any other object',
     await page.keyboard.press('Enter');
     const frames = await captured(page);
     await page.getByRole('button', { name: 'Plot', exact: true }).click();
-    await until('two charts', async () => (await page.locator('.plot-area canvas').count()) === 2);
+    await becomes('charts', () => page.locator('.plot-area canvas').count(), 2);
     assert.notEqual(await loaded(), first, 'the plots are fetched when they are wanted');
     const position = page.getByRole('img', { name: /^6004h Position value: .* to / });
-    await until('the range of the position', async () => (await position.count()) === 1);
-    for (const n of [0, 1]) await until(`a line in chart ${n}`, async () => (await columns(page, n)) > 20, { within: 15_000 });
-    await until('the speed', async () => (await number(page, 'Shaft speed in rpm now')) === 60);
+    await becomes('the range of the position', () => position.count(), 1);
+    for (const n of [0, 1]) await until(`a line in chart ${n}`, async () => (await columns(page, n)) > 20);
+    await becomes('the speed', () => number(page, 'Shaft speed in rpm now'), 60);
     const before = await number(page, '6004h Position value now');
     await until('another position', async () => (await number(page, '6004h Position value now')) !== before);
 
     await page.getByRole('combobox', { name: 'Plot an object' }).selectOption(String(0x6001 * 256));
-    await until('a third chart', async () => (await page.locator('.plot-area canvas').count()) === 3);
-    await until('its value', async () => /8.?192|4.?096/.test(await page.locator('.plot figcaption .num').nth(4).textContent()));
+    await becomes('charts', () => page.locator('.plot-area canvas').count(), 3);
+    await becomes('its value', () => page.locator('.plot figcaption .num').nth(4).textContent(), /8.?192|4.?096/);
     await page.getByRole('combobox', { name: 'Time shown' }).selectOption('0');
     await page.getByRole('button', { name: /^Take 6004h/ }).click();
-    await until('two charts again', async () => (await page.locator('.plot-area canvas').count()) === 2);
-    assert.equal(await page.getByRole('img', { name: /^6004h/ }).count(), 0);
+    await becomes('charts', () => page.locator('.plot-area canvas').count(), 2);
+    await becomes('charts of 6004h', () => page.getByRole('img', { name: /^6004h/ }).count(), 0);
     assert.equal(await captured(page), frames, 'a plot puts nothing on the bus');
 
     await page.getByRole('button', { name: 'In order', exact: true }).click();
-    assert.equal(await page.locator('od-plot').count(), 0);
+    await becomes('plots', () => page.locator('od-plot').count(), 0);
     assert.deepEqual(faults, []);
   } finally {
     await close();

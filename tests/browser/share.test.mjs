@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch, open, URL_OF_PAGE } from './harness.mjs';
-import { booted, captured, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
+import { becomes, booted, captured, nmt, pass, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 
 let browser;
 before(async () => (browser = await launch()));
@@ -26,7 +26,7 @@ function check(name, options, body) {
   });
 }
 
-const note = (page, pattern) => until(`${pattern} under the SDO line`, async () => pattern.test(await sdoNote(page)));
+const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 
 /** Changes something of every kind: values, saved and not, the shaft, the NMT state. */
 async function use(page) {
@@ -40,25 +40,42 @@ async function use(page) {
   await page.getByRole('slider', { name: 'Shaft' }).press('PageUp');
   await page.getByRole('slider', { name: 'Shaft' }).press('ArrowRight');
   await nmt(page, 'Start');
-  await until('Operational', async () => (await state(page)) === 'Operational');
+  await becomes('the state', () => state(page), 'Operational');
 }
 
+/** The value of an object as the SDO line shows it. */
 const read = async (page, object) => {
   await sdo(page, object);
-  return (await until(`${object}`, async () => /= (.*)/.exec(await sdoNote(page))))[1];
+  return (await becomes(`the value of ${object}`, () => sdoNote(page), /= ./)).split('= ')[1];
 };
+
+/** When this browser last kept a bench, in wall-clock milliseconds; 0 before that. */
+const keptAt = (page) =>
+  page.evaluate(async () => {
+    const answer = (request) => new Promise((resolve, reject) => Object.assign(request, { onsuccess: () => resolve(request.result), onerror: () => reject(request.error) }));
+    let newest = 0;
+    for (const { name } of await indexedDB.databases()) {
+      const database = await answer(indexedDB.open(name));
+      for (const store of database.objectStoreNames) {
+        for (const { at } of await answer(database.transaction(store).objectStore(store).getAll())) newest = Math.max(newest, at ?? 0);
+      }
+      database.close();
+    }
+    return newest;
+  });
 
 /** The bench of `use`, on another page. */
 async function isUsed(page, at) {
-  await until('Operational', async () => (await state(page)) === 'Operational');
-  await until('the shaft', async () => (await position(page)) === at);
+  await becomes('the state', () => state(page), 'Operational');
+  await becomes('the position', () => position(page), at);
   assert.match(await read(page, '6001'), /^1\u2009?000/);
   assert.match(await read(page, '2300:01'), /^77/);
   // What was not saved goes with the power, what was saved stays.
   const power = page.getByRole('switch', { name: 'Power' });
   await power.click();
+  await becomes('the state', () => state(page), 'Off');
   await power.click();
-  await until('Pre-operational', async () => (await state(page)) === 'Pre-operational');
+  await becomes('the state', () => state(page), 'Pre-operational');
   assert.match(await read(page, '6001'), /^1\u2009?000/);
   assert.match(await read(page, '2300:01'), /^0/);
 }
@@ -87,7 +104,7 @@ check('a link without the run brings the bench as it stands', async (page) => {
   const hash = await linkOf(page);
   assert.ok(hash.length < 4000, `${hash.length} characters`);
   const other = await open(browser, { hash });
-  await until('Operational', async () => (await state(other.page)) === 'Operational');
+  await becomes('the state', () => state(other.page), 'Operational');
   assert.ok((await rows(other.page)).every((one) => one.id === '181' || one.id === '701'), 'no frame of the past');
   await isUsed(other.page, at);
   assert.deepEqual(other.faults, []);
@@ -96,18 +113,18 @@ check('a link without the run brings the bench as it stands', async (page) => {
 
 check('a link with the run brings every frame again', async (page) => {
   await use(page);
-  await page.getByRole('button', { name: 'Stop time' }).click();
+  await stopTime(page);
   const at = await position(page);
-  await page.waitForTimeout(300);
   const count = await captured(page);
   const clock = await page.getByRole('timer').textContent();
-  const before = await rows(page);
+  const strip = (list) => list.map(({ time, id, data, dir }) => [time, id, data, dir].join(' '));
+  await becomes('the newest row', async () => (await rows(page)).at(-1).number, count - 1);
+  const before = strip(await rows(page));
   const hash = await linkOf(page, { trace: true });
   const other = await open(browser, { hash });
-  await until('the same moment', async () => (await other.page.getByRole('timer').textContent()) === clock);
-  await until('all frames', async () => (await captured(other.page)) === count);
-  const strip = (list) => list.map(({ time, id, data, dir }) => [time, id, data, dir].join(' '));
-  await until('the same rows', async () => JSON.stringify(strip(await rows(other.page))) === JSON.stringify(strip(before)));
+  await becomes('the moment', () => other.page.getByRole('timer').textContent(), clock);
+  await becomes('frames', () => captured(other.page), count);
+  await becomes('the rows', async () => strip(await rows(other.page)), before);
   await other.page.getByRole('button', { name: 'Run time' }).click();
   await isUsed(other.page, at);
   assert.deepEqual(other.faults, []);
@@ -118,11 +135,11 @@ check('two nodes, switches, a wire without terminators', async (page) => {
   await booted(page);
   await page.getByRole('button', { name: 'Add a node' }).click();
   await page.getByRole('button', { name: /^gxam/ }).click();
-  await until('two nodes', async () => (await page.locator('.topbar .badge').count()) === 2);
+  await becomes('nodes', () => page.locator('.topbar .badge').count(), 2);
   const hash = await linkOf(page);
   const other = await open(browser, { hash });
-  await until('two nodes there', async () => (await other.page.locator('.topbar .badge').allTextContents()).join() === 'node 1,node 2');
-  assert.deepEqual(await other.page.locator('.topbar .nodes strong').allTextContents(), ['gxmm', 'gxam']);
+  await becomes('nodes there', () => other.page.locator('.topbar .badge').allTextContents(), ['node 1', 'node 2']);
+  await becomes('their devices', () => other.page.locator('.topbar .nodes strong').allTextContents(), ['gxmm', 'gxam']);
   await other.close();
 });
 
@@ -135,15 +152,15 @@ check('a dropped EDS, its node and its values go along', async (page) => {
   await page.getByRole('spinbutton', { name: 'Node ID' }).fill('9');
   await page.getByLabel('EDS or DCF file').setInputFiles(eds);
   const anyway = page.getByRole('button', { name: 'Run anyway' });
-  await until('the file or its faults', async () => (await anyway.isVisible()) || /node 9/.test(await page.locator('.topbar').textContent()), { within: 15_000 });
+  await until('the file or its faults', async () => (await anyway.isVisible()) || /node 9/.test(await page.locator('.topbar').textContent()));
   if (await anyway.isVisible()) await anyway.click();
-  await until('node 9', async () => /node 9/.test(await page.locator('.topbar').textContent()));
+  await becomes('the node', () => page.locator('.topbar').textContent(), /node 9/);
   await sdo(page, '2000', '321');
   await note(page, /2000h written/);
   for (const trace of [false, true]) {
     const hash = await linkOf(page, { trace });
     const other = await open(browser, { hash });
-    await until('node 9 there', async () => /node 9/.test(await other.page.locator('.topbar').textContent()), { within: 15_000 });
+    await becomes('the node there', () => other.page.locator('.topbar').textContent(), /node 9/);
     assert.match(await read(other.page, '2000'), /^321/);
     assert.deepEqual(other.faults, []);
     await other.close();
@@ -155,7 +172,7 @@ test('bad links get a message and a fresh bench', async () => {
     const { page, faults, close } = await open(browser, { hash });
     await booted(page);
     if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link holds no bench').isVisible());
-    assert.equal(await state(page), 'Pre-operational');
+    await becomes('the state', () => state(page), 'Pre-operational');
     assert.deepEqual(faults, []);
     await close();
   }
@@ -185,22 +202,26 @@ check('a file is saved and opened again', async (page) => {
 check('a bench is kept, and offered at the next visit', async (page) => {
   await use(page);
   const at = await position(page);
-  await page.waitForTimeout(3200);
+  // What is done next is kept together with all that was done before.
+  const used = Date.now();
+  await read(page, '1000');
+  await until('the bench to be kept', async () => (await keptAt(page)) >= used);
   await page.reload();
   await booted(page);
-  assert.equal(await position(page), 0);
+  await becomes('the position', () => position(page), 0);
   await page.getByRole('button', { name: 'Go on with it' }).click();
   await isUsed(page, at);
-  assert.equal(await page.getByRole('button', { name: 'Go on with it' }).count(), 0);
+  await becomes('what is offered', () => page.getByRole('button', { name: 'Go on with it' }).count(), 0);
 });
 
 check('nothing is offered where nothing was done', async (page) => {
   await booted(page);
-  await page.waitForTimeout(2500);
+  await pass(page, 2500);
   await page.reload();
   await booted(page);
-  await page.waitForTimeout(400);
+  await pass(page, 400);
   assert.equal(await page.getByRole('button', { name: 'Go on with it' }).count(), 0);
+  assert.equal(await keptAt(page), 0);
 });
 
 test('it loads without a network after the first visit', async () => {
@@ -221,7 +242,7 @@ test('it loads without a network after the first visit', async () => {
   await page.locator('.device-button').click();
   await page.getByLabel('EDS or DCF file').setInputFiles(eds);
   await until('the file in the module that reads it', async () =>
-    /Offline/.test(await page.locator('.topbar').textContent()) || (await page.getByRole('alert', { name: 'What is wrong with the file' }).isVisible()), { within: 15_000 });
+    /Offline/.test(await page.locator('.topbar').textContent()) || (await page.getByRole('alert', { name: 'What is wrong with the file' }).isVisible()));
   assert.deepEqual(faults, []);
   await close();
 });
@@ -280,9 +301,8 @@ test('in a frame of another page there is less around it', async () => {
     assert.equal(await frame.locator('od-console').isVisible(), true);
     assert.equal(await frame.getByRole('button', { name: 'Share and save' }).isVisible(), false);
     const [opened] = await Promise.all([page.context().waitForEvent('page'), frame.getByRole('link', { name: 'Open in a tab of its own' }).click()]);
-    await booted(opened).catch(() => undefined);
     await until('the whole page', () => opened.locator('od-encoder').isVisible());
-    assert.match(opened.url(), /#bench=/);
+    await becomes('the address', () => opened.url(), /#bench=/);
   } finally {
     await page.close();
     host.close();

@@ -40,7 +40,7 @@ for (const colorScheme of ['light', 'dark']) {
     await rpm.fill('12');
     await rpm.press('Enter');
     await tab('Bus');
-    await until('PDOs', async () => (await captured(page)) >= 14, { within: 12_000 });
+    await until('PDOs', async () => (await captured(page)) >= 14);
     if (isPhone) {
       await shot('bus');
       await tab('Encoder');
