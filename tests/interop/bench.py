@@ -31,6 +31,22 @@ def odkit():
     return str(path)
 
 
+def needs(present, what):
+    """Skips a test where `what` is missing; in CI it runs and fails instead."""
+    return unittest.skipUnless(present or os.environ.get("CI") == "true", f"missing: {what}")
+
+
+def receive(client, count):
+    """Exactly `count` bytes from a socket, or what came before it was closed."""
+    data = b""
+    while len(data) < count:
+        more = client.recv(count - len(data))
+        if not more:
+            break
+        data += more
+    return data
+
+
 class Sim:
     """A running `odkit sim` on a port of its own, and the world around it on standard input."""
 

@@ -4,7 +4,6 @@ What is expected comes from the EDS that `odkit export` writes and from the manu
 (`devices.py`); the tests know no device by name.
 """
 
-import time
 import unittest
 
 import canopen
@@ -274,9 +273,10 @@ class EveryDevice:
         network.lss.configure_node_id(9)
         network.lss.store_configuration()
         network.lss.send_switch_state_global(network.lss.WAITING_STATE)
-        time.sleep(1.1)  # what is stored in the background has its time
         booted = Listener(network, 0x709)
-        node.nmt.state = "RESET"
+        # What is stored in the background has its time before the node is reset.
+        self.running.world("wait 1500ms")
+        self.running.world("000#81 01")
         self.eventually(lambda: b"\0" in booted.frames)
         other = network.add_node(9, str(self.device.eds))
         self.assertEqual(other.sdo[0x1000].raw, node.object_dictionary[0x1000].default)

@@ -3,14 +3,15 @@
 import unittest
 
 import differences
+from bench import needs
+
+FOLDER = differences.corpus()
 
 
 class Differences(unittest.TestCase):
+    @needs(FOLDER, "a folder of device files, which ODKIT_CORPUS names")
     def test_each_difference_has_a_reason(self):
-        folder = differences.corpus()
-        if folder is None:
-            self.skipTest("no corpus: set ODKIT_CORPUS to a folder of device files")
-        counts, _, _, unknown, compared = differences.differences(folder)
+        counts, _, _, unknown, compared = differences.differences(FOLDER)
         self.assertEqual(unknown, [], "differences of no kind")
         self.assertGreater(compared["values"], 0)
         self.assertTrue(set(counts) <= set(differences.KINDS))

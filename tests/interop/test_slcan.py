@@ -1,22 +1,11 @@
 """The line protocol itself, and several clients on one bus."""
 
-import time
+import socket
 
-from bench import PATIENCE, BenchCase, Listener
+from bench import BenchCase, Listener, receive
 
 READ = b"t60184000100000000000\r"
 ANSWER = b"t58184300100096010200\r"
-
-
-def receive(client, count):
-    """Exactly `count` bytes."""
-    data = b""
-    while len(data) < count:
-        more = client.recv(count - len(data))
-        if not more:
-            break
-        data += more
-    return data
 
 
 class Lines(BenchCase):
@@ -24,11 +13,9 @@ class Lines(BenchCase):
         client.sendall(sent)
         self.assertEqual(receive(client, len(expected)), expected)
 
-    def silent(self, client):
-        client.settimeout(0.2)
-        with self.assertRaises(TimeoutError):
-            client.recv(1)
-        client.settimeout(PATIENCE)
+    def hears_nothing(self, client):
+        """What came before is received: the next bytes answer a question."""
+        self.say(client, b"V\r", b"V1013\r")
 
     def test_a_host_opens(self):
         client = self.sim().raw()
@@ -37,8 +24,9 @@ class Lines(BenchCase):
         self.say(client, b"V\r", b"V1013\r")
         self.say(client, b"F\r", b"F00\r")
         self.say(client, b"T000006010\r", b"Z\r")
-        self.say(client, b"r7018\r", b"z\r")
-        self.silent(client)
+        # Node guarding is off: the next frame is the answer to the next request.
+        self.say(client, b"r7018\r" + READ, b"z\rz\r" + ANSWER)
+        self.hears_nothing(client)
 
     def test_malformed_lines_get_a_bell(self):
         client = self.sim().raw()
@@ -49,21 +37,32 @@ class Lines(BenchCase):
         self.say(client, READ, b"z\r" + ANSWER)
 
     def test_lines_in_pieces_and_in_heaps(self):
-        client = self.sim().raw()
+        sim = self.sim()
+        client, other = sim.raw(), sim.raw()
+        client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         for byte in b"O\r" + READ:
             client.sendall(bytes([byte]))
-            time.sleep(0.002)
+            self.hears_nothing(other)  # a turn of the bus for each byte
         expected = b"\rz\r" + ANSWER
         self.assertEqual(receive(client, len(expected)), expected)
         self.say(client, READ * 500, (b"z\r" + ANSWER) * 500)
 
     def test_closed_channels_are_deaf_and_dumb(self):
-        client = self.sim().raw()
-        self.say(client, READ, b"\x07")
+        sim = self.sim()
+        client, witness = sim.raw(), sim.raw()
+        self.say(witness, b"O\r", b"\r")
+        for closed in (b"", b"C\r"):
+            self.say(client, closed + READ, closed[1:] + b"\x07")
+            # No frame of the client went over the bus, and it hears none.
+            self.say(witness, READ, b"z\r" + ANSWER)
+            self.hears_nothing(client)
         self.say(client, b"O\r" + READ, b"\rz\r" + ANSWER)
-        self.say(client, b"C\r" + READ, b"\r\x07")
-        self.say(client, b"L\r" + READ, b"\r\x07")
-        self.silent(client)
+        self.assertEqual(receive(witness, len(READ + ANSWER)), READ + ANSWER)
+        # Listening only, it hears and cannot send.
+        self.say(client, b"C\rL\r" + READ, b"\r\r\x07")
+        self.say(witness, READ, b"z\r" + ANSWER)
+        self.assertEqual(receive(client, len(READ + ANSWER)), READ + ANSWER)
+        self.hears_nothing(client)
 
     def test_every_length(self):
         sim = self.sim()
@@ -130,13 +129,12 @@ class Clients(BenchCase):
         self.eventually(lambda: any("does not read" in line for line in sim.errors))
         talker.sendall(READ)
         self.assertEqual(receive(talker, 24), b"z\r" + ANSWER)
-        # When it reads again, it gets whole lines.
-        deaf.settimeout(1)
+        # When it reads again, it gets whole lines, and after those the newest ones.
+        last = b"t7770\r"
         data = b""
-        try:
-            while more := deaf.recv(1 << 20):
-                data += more
-        except TimeoutError:
-            pass
-        whole = {b"", b"t12380000000000000000", READ[:-1], ANSWER[:-1]}
+        while not data.endswith(last):
+            data += deaf.recv(1 << 20)
+            talker.sendall(last)
+            self.assertEqual(receive(talker, 2), b"z\r")
+        whole = {b"", b"t12380000000000000000", READ[:-1], ANSWER[:-1], last[:-1]}
         self.assertLessEqual(set(data.split(b"\r")), whole)
