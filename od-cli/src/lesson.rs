@@ -155,11 +155,8 @@ impl Host for Terminal {
     ) -> Result<VirtualDevice, String> {
         let source = Source::find_in(name.unwrap_or("gxmm"), &self.folder);
         source
-            .and_then(|source| source.device(node_id))
-            .map_err(|failure| match failure {
-                Failure::Usage(message) | Failure::Failed(message) => message,
-                Failure::Reported(_) => String::from("the device cannot be made"),
-            })
+            .map_err(|failure| failure.to_string())?
+            .device(node_id)
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {

@@ -1,7 +1,6 @@
 //! `odkit`: CANopen devices from EDS files, on the command line.
 //!
-//! The library is the program: [`main`] for `odkit` itself, and [`serve`] for a device of one's
-//! own, such as `odkit new` writes. Nothing else of it is meant to be called.
+//! The library is the program; nothing else of it than [`main`] is meant to be called.
 //!
 //! One file for each subcommand. What they share: `source` finds a device, `output`
 //! writes to a pipe that may close, `report` shows diagnostics.
@@ -18,13 +17,10 @@ mod new;
 mod output;
 mod report;
 mod run;
-mod serve;
 mod sim;
 mod source;
 
 use std::process::ExitCode;
-
-pub use serve::serve;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -62,9 +58,27 @@ enum Failure {
     Reported(u8),
 }
 
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Usage(message) | Self::Failed(message) => f.write_str(message),
+            Self::Reported(code) => write!(f, "exit code {code}"),
+        }
+    }
+}
+
 impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         Self::Failed(error.to_string())
+    }
+}
+
+impl From<od_bench::serve::Failure> for Failure {
+    fn from(failure: od_bench::serve::Failure) -> Self {
+        match failure {
+            od_bench::serve::Failure::Usage(message) => Self::Usage(message),
+            other => Self::Failed(other.to_string()),
+        }
     }
 }
 

@@ -57,11 +57,8 @@ impl Host for Terminal<'_> {
             None
         });
         source
-            .and_then(|source| source.device(node_id))
-            .map_err(|failure| match failure {
-                Failure::Usage(message) | Failure::Failed(message) => message,
-                Failure::Reported(_) => String::from("the device cannot be made"),
-            })
+            .map_err(|failure| failure.to_string())?
+            .device(node_id)
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {

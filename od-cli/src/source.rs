@@ -8,6 +8,8 @@ use od_devices::DEVICES;
 use od_runtime::DeviceKind;
 use od_runtime::NodeId;
 
+pub(crate) use od_bench::serve::options::node_id;
+
 use crate::{Failure, output};
 
 mod text;
@@ -73,9 +75,17 @@ impl Source {
         Ok(Self::File(base.with_overlay(overlay)?))
     }
 
+    /// The built-in device, if it is one.
+    pub(crate) fn kind(&self) -> Option<&'static DeviceKind> {
+        match self {
+            Self::BuiltIn(kind) => Some(kind),
+            Self::File(_) => None,
+        }
+    }
+
     /// A device with power off. Errors of a text are reported on standard error; what can
     /// run of it runs all the same, as masters take such files, too.
-    pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Failure> {
+    pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, String> {
         let file = match self {
             Self::BuiltIn(kind) => {
                 return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
@@ -108,9 +118,9 @@ impl Source {
                 ));
                 Ok(device)
             }
-            _ => Err(Failure::Failed(format!(
+            _ => Err(format!(
                 "{path} describes no object that could run; is it an EDS or DCF file?"
-            ))),
+            )),
         }
     }
 }
@@ -142,12 +152,4 @@ pub(crate) fn device_list() -> String {
     }
     list.push_str("\nExit codes: 0 all is well, 1 something failed, 2 wrong usage\n");
     list
-}
-
-/// A node ID as an argument.
-pub(crate) fn node_id(text: &str) -> Result<NodeId, String> {
-    let number = od_model::values::integer(text).and_then(|value| u8::try_from(value).ok());
-    number
-        .and_then(NodeId::new)
-        .ok_or_else(|| String::from("a node ID is a number from 1 to 127"))
 }

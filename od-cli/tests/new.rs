@@ -149,6 +149,53 @@ fn the_corpus_makes_crates() {
     }
 }
 
+/// A new crate depends on no command line, and on nothing that only one needs.
+#[test]
+fn a_new_crate_does_not_depend_on_the_command_line() {
+    let folder = fresh("new-tree");
+    make(&repository("devices/eds/GXMM.eds"), "tree", &folder);
+    let tree = cargo(
+        &folder,
+        &["tree", "--edges", "normal,build", "--prefix", "none"],
+    );
+    for name in ["od-bench", "od-model"] {
+        assert!(tree.contains(&format!("{name} v")), "{name}\n{tree}");
+    }
+    for name in ["od-cli", "od-devices", "clap", "annotate-snippets"] {
+        assert!(!tree.contains(&format!("{name} v")), "{name}\n{tree}");
+    }
+}
+
+/// Makes a crate, with the versions that this checkout was tested with and that are downloaded
+/// already.
+fn make(from: &str, name: &str, folder: &Path) {
+    let to = folder.display().to_string();
+    let made = odkit(&["new", from, "--name", name, "--path", &to], "");
+    assert_eq!(made.code, 0, "{from}: {}", made.err);
+    fs::copy(repository("Cargo.lock"), folder.join("Cargo.lock")).expect("a lock file");
+}
+
+/// What cargo prints in a crate; it succeeds.
+fn cargo(folder: &Path, arguments: &[&str]) -> String {
+    let cargo = std::process::Command::new(env!("CARGO"))
+        .args(arguments)
+        .arg("--offline")
+        .env("CARGO_TARGET_DIR", target())
+        .env("CARGO_PROFILE_DEV_DEBUG", "0")
+        .current_dir(folder)
+        .output()
+        .expect("cargo starts");
+    let out = String::from_utf8_lossy(&cargo.stdout);
+    let err = String::from_utf8_lossy(&cargo.stderr);
+    assert!(cargo.status.success(), "{}\n{out}{err}", folder.display());
+    out.into_owned()
+}
+
+/// Where new crates are built.
+fn target() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target")
+}
+
 /// `cargo test` passes in a new crate: for our own file, and in a long run for one of each of
 /// twenty vendors.
 #[test]
@@ -172,24 +219,7 @@ fn a_new_crate_builds_and_its_tests_pass() {
     for (number, source) in sources.iter().enumerate() {
         let name = format!("made-{number}");
         let folder = all.join(&name);
-        let (from, to) = (source.display().to_string(), folder.display().to_string());
-        let made = odkit(&["new", &from, "--name", &name, "--path", &to], "");
-        assert_eq!(made.code, 0, "{from}: {}", made.err);
-        let lock = repository("Cargo.lock");
-        // The versions that this checkout was tested with, and what is downloaded already.
-        fs::copy(lock, folder.join("Cargo.lock")).expect("a lock file");
-        let cargo = std::process::Command::new(env!("CARGO"))
-            .args(["test", "--quiet", "--offline"])
-            .env("CARGO_TARGET_DIR", all.with_file_name("new-target"))
-            .env("CARGO_PROFILE_DEV_DEBUG", "0")
-            .current_dir(&folder)
-            .output()
-            .expect("cargo starts");
-        assert!(
-            cargo.status.success(),
-            "{from}\n{}{}",
-            String::from_utf8_lossy(&cargo.stdout),
-            String::from_utf8_lossy(&cargo.stderr)
-        );
+        make(&source.display().to_string(), &name, &folder);
+        cargo(&folder, &["test", "--quiet"]);
     }
 }

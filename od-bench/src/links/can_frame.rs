@@ -3,7 +3,9 @@
 
 use std::prelude::v1::*;
 
-use od_runtime::{CanId, Frame};
+use od_runtime::{CanId, Frame, Instant};
+
+use super::codec::{Codec, Step};
 
 /// Bytes of a frame; a socket takes and gives one frame at a time.
 pub const SIZE: usize = 16;
@@ -11,6 +13,24 @@ pub const SIZE: usize = 16;
 const EXTENDED: u32 = 1 << 31;
 const REMOTE: u32 = 1 << 30;
 const ERROR: u32 = 1 << 29;
+
+/// The codec of a CAN socket.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CanSocket;
+
+impl Codec for CanSocket {
+    fn receive(&mut self, bytes: &[u8], _: Instant, steps: &mut Vec<Step>) {
+        steps.extend(decode(bytes).map(Step::Frame));
+    }
+
+    fn form(&self) -> Option<&'static str> {
+        Some("can_frame")
+    }
+
+    fn encode(&mut self, frame: &Frame, _: Instant, _: u64, out: &mut Vec<u8>) {
+        encode(frame, out);
+    }
+}
 
 /// Writes a frame.
 pub fn encode(frame: &Frame, out: &mut Vec<u8>) {

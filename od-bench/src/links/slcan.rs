@@ -6,9 +6,9 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{CanId, Frame};
+use od_runtime::{CanId, Frame, Instant};
 
-use super::{Step, reply};
+use super::codec::{Codec, Step, reply};
 
 /// The answer to what was right.
 const OK: &[u8] = b"\r";
@@ -29,19 +29,8 @@ pub struct Channel {
     time_stamps: bool,
 }
 
-impl Channel {
-    /// Do frames of the bus go to this client?
-    pub fn is_open(&self) -> bool {
-        self.open
-    }
-
-    /// Does a time stamp stand behind each frame?
-    pub fn stamps(&self) -> bool {
-        self.time_stamps
-    }
-
-    /// Bytes from the client, and what they bring about.
-    pub fn receive(&mut self, bytes: &[u8], steps: &mut Vec<Step>) {
+impl Codec for Channel {
+    fn receive(&mut self, bytes: &[u8], _: Instant, steps: &mut Vec<Step>) {
         for byte in bytes {
             match byte {
                 b'\r' => {
@@ -63,18 +52,28 @@ impl Channel {
         }
     }
 
-    /// A frame of the bus, as this client gets it; nothing while the channel is closed.
-    pub fn encode(&self, frame: &Frame, millis: u64, out: &mut Vec<u8>) {
+    fn form(&self) -> Option<&'static str> {
+        match (self.open, self.time_stamps) {
+            (false, _) => None,
+            (true, false) => Some("slcan"),
+            (true, true) => Some("slcan with time stamps"),
+        }
+    }
+
+    fn encode(&mut self, frame: &Frame, now: Instant, _: u64, out: &mut Vec<u8>) {
         if !self.open {
             return;
         }
         write_frame(frame, out);
         if self.time_stamps {
-            out.extend_from_slice(format!("{:04X}", millis % 60_000).as_bytes());
+            let millis = now.as_micros() / 1000 % 60_000;
+            out.extend_from_slice(format!("{millis:04X}").as_bytes());
         }
         out.extend_from_slice(OK);
     }
+}
 
+impl Channel {
     /// One line without its CR.
     fn command(&mut self, line: &[u8], steps: &mut Vec<Step>) -> Option<Frame> {
         let answer = match line {
@@ -198,12 +197,12 @@ mod tests {
     /// What is answered, and which frames go to the bus.
     fn taken(channel: &mut Channel, input: &[u8]) -> (Vec<u8>, Vec<Frame>) {
         let (mut steps, mut answered, mut seen) = (Vec::new(), Vec::new(), Vec::new());
-        channel.receive(input, &mut steps);
+        channel.receive(input, Instant::ZERO, &mut steps);
         for step in steps {
             match step {
                 Step::Reply(bytes) => answered.extend(bytes),
                 Step::Frame(frame) => seen.push(frame),
-                Step::Pause => unreachable!("nobody needs one here"),
+                Step::Line(_) | Step::Pause => unreachable!("slcan has neither"),
             }
         }
         (answered, seen)
@@ -287,21 +286,21 @@ mod tests {
         let frame = Frame::standard(0x701, &[0]);
         let mut channel = Channel::default();
         let mut out = Vec::new();
-        channel.encode(&frame, 0, &mut out);
+        channel.encode(&frame, Instant::ZERO, 0, &mut out);
         assert!(out.is_empty());
-        channel.receive(b"Z1\rO\r", &mut Vec::new());
-        channel.encode(&frame, 61_000, &mut out);
+        channel.receive(b"Z1\rO\r", Instant::ZERO, &mut Vec::new());
+        channel.encode(&frame, Instant::from_micros(61_000_000), 0, &mut out);
         assert_eq!(out, b"t70110003E8\r");
-        channel.receive(b"Z0\rC\r", &mut Vec::new());
+        channel.receive(b"Z0\rC\r", Instant::ZERO, &mut Vec::new());
         out.clear();
-        channel.encode(&frame, 0, &mut out);
+        channel.encode(&frame, Instant::ZERO, 0, &mut out);
         assert!(out.is_empty());
     }
 
     #[test]
     fn what_goes_out_comes_back() {
         let mut channel = Channel::default();
-        channel.receive(b"O\r", &mut Vec::new());
+        channel.receive(b"O\r", Instant::ZERO, &mut Vec::new());
         for frame in [
             Frame::standard(0x581, &[0x43, 2, 0x60, 0, 0, 0, 0, 0x20]),
             Frame::standard(0x80, &[]),
@@ -310,7 +309,7 @@ mod tests {
             Frame::remote(CanId::extended(0x701), 8).unwrap(),
         ] {
             let mut out = Vec::new();
-            channel.encode(&frame, 0, &mut out);
+            channel.encode(&frame, Instant::ZERO, 0, &mut out);
             assert_eq!(taken(&mut channel, &out).1, [frame]);
         }
     }

@@ -23,7 +23,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{CanId, Frame, Instant};
 
-use super::{Step, reply};
+use super::codec::{Codec, Step, reply};
 use jobs::{Jobs, Watches};
 
 /// The longest command that means anything is an `add` with 8 bytes.
@@ -54,17 +54,12 @@ pub struct Session {
     watches: Watches,
 }
 
-impl Session {
-    /// What a client hears first.
-    pub const HELLO: &'static [u8] = b"< hi >";
-
-    /// Does the client hear everything?
-    pub fn is_raw(&self) -> bool {
-        self.mode == Mode::Raw
+impl Codec for Session {
+    fn hello(&self) -> &'static [u8] {
+        b"< hi >"
     }
 
-    /// Bytes from the client, and what they bring about.
-    pub fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>) {
+    fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>) {
         for byte in bytes {
             match byte {
                 b'<' => {
@@ -89,6 +84,40 @@ impl Session {
         }
     }
 
+    fn form(&self) -> Option<&'static str> {
+        (self.mode == Mode::Raw).then_some("socketcand")
+    }
+
+    fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>) {
+        match self.mode {
+            Mode::NoBus => {}
+            Mode::Raw => write(frame, stamp, "", out),
+            Mode::Bcm => {
+                if self.watches.hears(frame, now) {
+                    write(frame, stamp, " ", out);
+                }
+            }
+        }
+    }
+
+    fn deadline(&self) -> Option<Instant> {
+        match (self.jobs.deadline(), self.watches.deadline()) {
+            (Some(job), Some(watch)) => Some(job.min(watch)),
+            (job, watch) => job.or(watch),
+        }
+    }
+
+    fn wake(&mut self, now: Instant, stamp: u64, steps: &mut Vec<Step>) {
+        while let Some(frame) = self.watches.due(now) {
+            let mut text = Vec::new();
+            write(&frame, stamp, " ", &mut text);
+            reply(steps, &text);
+        }
+        self.jobs.due(now, |frame| steps.push(Step::Frame(frame)));
+    }
+}
+
+impl Session {
     fn command(&mut self, text: &str, now: Instant, steps: &mut Vec<Step>) {
         let mut words = text.split_ascii_whitespace();
         let name = words.next().unwrap_or_default();
@@ -155,38 +184,6 @@ impl Session {
         self.jobs = Jobs::default();
         self.watches = Watches::default();
         reply(steps, OK);
-    }
-
-    /// A frame of the bus, as this client gets it; nothing where it does not hear it.
-    /// `stamp` is the time of day in microseconds that belongs to `now`.
-    pub fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>) {
-        match self.mode {
-            Mode::NoBus => {}
-            Mode::Raw => write(frame, stamp, "", out),
-            Mode::Bcm => {
-                if self.watches.hears(frame, now) {
-                    write(frame, stamp, " ", out);
-                }
-            }
-        }
-    }
-
-    /// When [`wake`](Self::wake) is due.
-    pub fn deadline(&self) -> Option<Instant> {
-        match (self.jobs.deadline(), self.watches.deadline()) {
-            (Some(job), Some(watch)) => Some(job.min(watch)),
-            (job, watch) => job.or(watch),
-        }
-    }
-
-    /// Time has passed: frames that are due again, and what was held back.
-    pub fn wake(&mut self, now: Instant, stamp: u64, steps: &mut Vec<Step>) {
-        while let Some(frame) = self.watches.due(now) {
-            let mut text = Vec::new();
-            write(&frame, stamp, " ", &mut text);
-            reply(steps, &text);
-        }
-        self.jobs.due(now, |frame| steps.push(Step::Frame(frame)));
     }
 }
 

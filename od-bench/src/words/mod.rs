@@ -154,8 +154,13 @@ impl Decoder {
 }
 
 fn bytes(count: usize) -> String {
+    plural(count, "byte")
+}
+
+/// `1 frame`, `2 frames`.
+pub(crate) fn plural(count: usize, what: &str) -> String {
     match count {
-        1 => String::from("1 byte"),
-        count => format!("{count} bytes"),
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
     }
 }

@@ -19,7 +19,7 @@ pub(super) struct Project<'p> {
 }
 
 /// Words that cannot name a crate, or stand for something else where one is used.
-const TAKEN: [&str; 16] = [
+const TAKEN: [&str; 15] = [
     "test",
     "core",
     "std",
@@ -31,8 +31,7 @@ const TAKEN: [&str; 16] = [
     "od_model",
     "od_macros",
     "od_runtime",
-    "od_devices",
-    "od_cli",
+    "od_bench",
     "dictionary",
     "build",
     "main",
@@ -138,8 +137,7 @@ impl Project<'_> {
 
     fn dependencies(&self) -> String {
         let crates = [
-            ("od-cli", "od-cli", ""),
-            ("od-devices", "devices", ", features = [\"sim\"]"),
+            ("od-bench", "od-bench", ", features = [\"serve\"]"),
             ("od-macros", "od-macros", ""),
             ("od-model", "od-model", ""),
             ("od-runtime", "od-runtime", ""),

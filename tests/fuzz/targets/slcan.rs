@@ -1,6 +1,7 @@
 //! slcan: what comes in pieces means the same, and every frame goes out as it came in.
 
-use od_bench::links::{Step, slcan};
+use od_bench::links::{Codec, Step, slcan};
+use od_runtime::Instant;
 
 use super::Target;
 
@@ -44,7 +45,7 @@ fn take(channel: &mut slcan::Channel, pieces: &[&[u8]]) -> Vec<Step> {
     let mut all: Vec<Step> = Vec::new();
     for piece in pieces {
         let mut steps = Vec::new();
-        channel.receive(piece, &mut steps);
+        channel.receive(piece, Instant::ZERO, &mut steps);
         for step in steps {
             match (all.last_mut(), step) {
                 (Some(Step::Reply(reply)), Step::Reply(more)) => reply.extend(more),
@@ -75,7 +76,7 @@ fn run(input: &[u8]) {
             let mut channel = slcan::Channel::default();
             let _ = take(&mut channel, &[b"O\r"]);
             let mut out = Vec::new();
-            channel.encode(&frame, 0, &mut out);
+            channel.encode(&frame, Instant::ZERO, 0, &mut out);
             let again = take(&mut channel, &[&out]);
             assert!(
                 again.contains(&Step::Frame(frame)),

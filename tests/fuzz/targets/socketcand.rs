@@ -1,8 +1,8 @@
 //! socketcand: what comes in pieces means the same, time cannot make it loop, and every frame
 //! goes out as it came in.
 
-use od_bench::links::Step;
 use od_bench::links::socketcand::Session;
+use od_bench::links::{Codec, Step};
 use od_runtime::{Frame, Instant};
 
 use super::Target;

@@ -51,6 +51,7 @@ fn shown(steps: Vec<Step>) -> String {
         match step {
             Step::Reply(bytes) => text.push_str(&String::from_utf8_lossy(&bytes)),
             Step::Frame(frame) => text.push_str(&format!("({frame})")),
+            Step::Line(_) => unreachable!("socketcand has no lines"),
             Step::Pause => text.push('|'),
         }
     }

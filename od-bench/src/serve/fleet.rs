@@ -1,11 +1,13 @@
 //! The devices on the bus, as the command line asks for them.
 
-use od_bench::VirtualDevice;
 use od_runtime::storage::File;
 use od_runtime::{Instant, NodeId};
 
-use super::{Maker, Options};
-use crate::Failure;
+use super::failure::Failure;
+use super::maker::Maker;
+use super::options::Options;
+use crate::device::VirtualDevice;
+use crate::words::plural;
 
 /// A device for the bus.
 pub(super) struct Place {
@@ -20,7 +22,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     let nodes: Vec<(&Maker<'_>, u8)> = makers
         .iter()
         .flat_map(|maker| {
-            let channels = od_devices::find(maker.name).map_or(1, |kind| kind.channels);
+            let channels = maker.kind.map_or(1, |kind| kind.channels);
             (0..channels).map(move |channel| (maker, channel))
         })
         .collect();
@@ -30,7 +32,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
         ("--eeprom", args.eeproms.len()),
     ] {
         if given > count {
-            let devices = crate::report::plural(count, "device");
+            let devices = plural(count, "device");
             return Err(Failure::Usage(format!(
                 "{option} stands there {given} times, and there is {devices}; name every device"
             )));
@@ -68,7 +70,7 @@ fn one(
     others: &[Place],
 ) -> Result<VirtualDevice, Failure> {
     let wanted = args.node_ids.get(at).copied();
-    let device = (maker.make)(wanted)?;
+    let device = (maker.make)(wanted).map_err(Failure::Failed)?;
     let is_used = |id: NodeId| others.iter().any(|other| other.device.node_id() == id);
     let own = device.node_id();
     let Some(last) = others.last().map(|other| other.device.node_id().raw()) else {
@@ -80,7 +82,7 @@ fn one(
     }
     let mut free = (last..=127).chain(1..last).filter_map(NodeId::new);
     match free.find(|id| !is_used(*id)) {
-        Some(id) => (maker.make)(Some(id)),
+        Some(id) => (maker.make)(Some(id)).map_err(Failure::Failed),
         None => Err(Failure::Usage(
             "a bus has room for 127 devices; start another odkit for the rest".into(),
         )),

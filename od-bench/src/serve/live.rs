@@ -5,16 +5,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant as Clock, SystemTime};
 
-use od_bench::links::Step;
-use od_bench::script::Console;
-use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Event, Frame, Instant};
 
-use super::adapter::{Adapter, FORMS, Kind, Taken};
-use super::clients::{Client, Input};
+use super::client::{Client, Encoded};
 use super::fleet::Place;
-use crate::output::note;
-use crate::report;
+use super::links::LINKS;
+use super::links::opened::Protocol;
+use super::terminal::note;
+use super::threads::Input;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::links::Step;
+use crate::script::Console;
+use crate::words::plural;
 
 /// Bytes of clients that the bus takes in one turn, before its answers go out.
 const TURN: usize = 16 * 1024;
@@ -24,20 +27,13 @@ const INPUT: usize = 64;
 /// made up for.
 const SLEPT: Duration = Duration::from_secs(2);
 
-/// A client with its adapter.
-struct Seat {
-    client: Client,
-    kind: Kind,
-    adapter: Adapter,
-}
-
 /// The bus in real time.
 pub(super) struct Live {
     pub(super) bus: Bus,
     start: Clock,
     /// Time of day at the start, in microseconds.
     epoch: u64,
-    seats: BTreeMap<u64, Seat>,
+    clients: BTreeMap<u64, Client>,
     console: Console,
     /// Links that nobody can come to again once they are gone.
     links: usize,
@@ -62,7 +58,7 @@ impl Live {
             bus,
             start: Clock::now(),
             epoch: epoch.map_or(0, |since| since.as_micros() as u64),
-            seats: BTreeMap::new(),
+            clients: BTreeMap::new(),
             console: Console::default(),
             links,
             listens,
@@ -119,11 +115,11 @@ impl Live {
             self.bus.with(number, VirtualDevice::power_off);
         }
         // Whoever waits for the last lines sees that there are no more.
-        self.seats.clear();
-        note!(
+        self.clients.clear();
+        note(&format!(
             "\nodkit: ended; {} went over the bus",
-            report::plural(self.frames as usize, "frame")
-        );
+            plural(self.frames as usize, "frame")
+        ));
     }
 
     fn is_over(&self) -> bool {
@@ -131,12 +127,10 @@ impl Live {
     }
 
     fn deadline(&self) -> Option<Instant> {
-        let seats = self
-            .seats
-            .values()
-            .filter_map(|seat| seat.adapter.deadline());
+        let clients = self.clients.values();
+        let clients = clients.filter_map(|client| client.codec.deadline());
         let console = self.console.deadline(self.bus.now());
-        seats.chain(console).chain(self.bus.next_deadline()).min()
+        clients.chain(console).chain(self.bus.next_deadline()).min()
     }
 
     /// A machine that slept must not send at once all that it has missed.
@@ -148,7 +142,9 @@ impl Live {
         if late > SLEPT {
             self.start += late;
             let seconds = late.as_secs();
-            note!("the machine stood still for {seconds} s, and so did the bus");
+            note(&format!(
+                "the machine stood still for {seconds} s, and so did the bus"
+            ));
         }
     }
 
@@ -167,78 +163,57 @@ impl Live {
         self.events(|_| true);
     }
 
-    /// Lets adapters and the console do what is due.
+    /// Lets codecs and the console do what is due.
     fn wake(&mut self) {
         let now = self.bus.now();
-        let due = |seat: &Seat| seat.adapter.deadline().is_some_and(|at| at <= now);
-        let numbers: Vec<u64> = self
-            .seats
-            .iter()
-            .filter(|(_, seat)| due(seat))
-            .map(|(n, _)| *n)
-            .collect();
-        for number in numbers {
-            if let Some(seat) = self.seats.get_mut(&number) {
-                let taken = seat.adapter.wake(now, self.epoch);
-                self.steps(number, taken);
+        let stamp = self.epoch + now.as_micros();
+        let mut due = Vec::new();
+        for (number, client) in &mut self.clients {
+            if client.codec.deadline().is_some_and(|at| at <= now) {
+                let mut steps = Vec::new();
+                client.codec.wake(now, stamp, &mut steps);
+                due.push((*number, steps));
             }
+        }
+        for (number, steps) in due {
+            self.steps(number, steps);
         }
         self.run_console();
     }
 
     /// What the turn has brought goes out, each client's share as one message.
     fn flush(&mut self) {
-        for seat in self.seats.values_mut() {
-            seat.client.flush();
+        for client in self.clients.values_mut() {
+            client.flush();
         }
     }
 
     /// A frame for every client but the one it is from.
     fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<u64>) {
-        // Clients of a kind get the same text.
-        let mut texts: [Vec<u8>; FORMS] = Default::default();
-        let mut own = Vec::new();
-        for (number, seat) in &mut self.seats {
-            if Some(*number) == from {
-                continue;
+        let stamp = self.epoch + at.as_micros();
+        let mut encoded = Encoded::new();
+        for (number, client) in &mut self.clients {
+            if Some(*number) != from {
+                client.hear(frame, at, stamp, &mut encoded);
             }
-            let text = match seat.adapter.form() {
-                Some(form) => &mut texts[form],
-                None => {
-                    own.clear();
-                    &mut own
-                }
-            };
-            if text.is_empty() {
-                seat.adapter.encode(frame, at, self.epoch, text);
-            }
-            seat.client.push(text);
         }
     }
 
     fn take(&mut self, input: Input) {
         match input {
-            Input::Connected(mut client, kind) => {
-                let adapter = Adapter::new(kind);
-                if matches!(kind, Kind::Slcan | Kind::Socketcand) {
-                    note!("{} connected", client.name);
+            Input::Connected(mut client) => {
+                if matches!(client.protocol, Protocol::Slcan | Protocol::Socketcand) {
+                    note(&format!("{} connected", client.name));
                 }
-                client.push(adapter.hello());
-                self.seats.insert(
-                    client.number,
-                    Seat {
-                        client,
-                        kind,
-                        adapter,
-                    },
-                );
+                client.push(client.codec.hello());
+                self.clients.insert(client.number, client);
             }
             Input::Gone(number) => self.gone(number),
             Input::Bytes(number, bytes) => {
-                if let Some(seat) = self.seats.get_mut(&number) {
-                    let now = self.bus.now();
-                    let taken = seat.adapter.receive(&bytes, now);
-                    self.steps(number, taken);
+                if let Some(client) = self.clients.get_mut(&number) {
+                    let mut steps = Vec::new();
+                    client.codec.receive(&bytes, self.bus.now(), &mut steps);
+                    self.steps(number, steps);
                 }
             }
             Input::Stop => {}
@@ -246,47 +221,48 @@ impl Live {
     }
 
     fn gone(&mut self, number: u64) {
-        let Some(seat) = self.seats.get_mut(&number) else {
+        let Some(client) = self.clients.get_mut(&number) else {
             return;
         };
-        let rest = seat.adapter.finish();
-        let kind = seat.kind;
+        let mut rest = Vec::new();
+        client.codec.finish(&mut rest);
+        let protocol = client.protocol;
         self.steps(number, rest);
-        if (number as usize) < super::LINKS {
+        if (number as usize) < LINKS {
             self.links = self.links.saturating_sub(1);
         }
-        if kind == Kind::Lines {
+        if protocol == Protocol::Lines {
             // It has no more to say, and still hears.
             return;
         }
-        if let Some(mut seat) = self.seats.remove(&number) {
+        if let Some(mut client) = self.clients.remove(&number) {
             // It may have ended its own side only, and read on.
-            seat.client.flush();
-            note!("{} left", seat.client.name);
+            client.flush();
+            note(&format!("{} left", client.name));
         }
     }
 
     /// What a client's bytes bring about, one after the other.
-    fn steps(&mut self, number: u64, taken: Vec<Taken>) {
-        for taken in taken {
-            match taken {
-                Taken::Step(Step::Reply(bytes)) => {
-                    if let Some(seat) = self.seats.get_mut(&number) {
-                        seat.client.push(&bytes);
+    fn steps(&mut self, number: u64, steps: Vec<Step>) {
+        for step in steps {
+            match step {
+                Step::Reply(bytes) => {
+                    if let Some(client) = self.clients.get_mut(&number) {
+                        client.push(&bytes);
                     }
                 }
-                Taken::Step(Step::Pause) => {
-                    if let Some(seat) = self.seats.get_mut(&number) {
-                        seat.client.pause();
+                Step::Pause => {
+                    if let Some(client) = self.clients.get_mut(&number) {
+                        client.pause();
                     }
                 }
-                Taken::Step(Step::Frame(frame)) => {
+                Step::Frame(frame) => {
                     self.catch_up();
                     self.frame(&frame, Some(number));
                 }
-                Taken::Line(text) => {
+                Step::Line(text) => {
                     if let Err(problem) = self.console.push(&text) {
-                        note!("odkit: line {problem}");
+                        note(&format!("odkit: line {problem}"));
                     }
                     self.catch_up();
                     self.run_console();
@@ -298,13 +274,14 @@ impl Live {
     /// Lines of the console whose moment has come.
     fn run_console(&mut self) {
         // The console itself does not hear what it sends; the others do.
-        let console = self.seats.iter().find(|(_, seat)| seat.kind == Kind::Lines);
-        let console = console.map(|(number, _)| *number);
+        let mut clients = self.clients.values();
+        let console = clients.find(|client| client.protocol == Protocol::Lines);
+        let console = console.map(|client| client.number);
         while let Some(done) = self.console.step(&mut self.bus) {
             match done {
                 Ok(Some(frame)) => self.frame(&frame, console),
                 Ok(None) => self.deliver(),
-                Err(why) => note!("odkit: {why}"),
+                Err(why) => note(&format!("odkit: {why}")),
             }
         }
     }
@@ -329,7 +306,7 @@ impl Live {
             let (name, events) = events.unwrap_or_default();
             for event in events.into_iter().filter(&wanted) {
                 if let Some(text) = words(event) {
-                    note!("{name}{text}");
+                    note(&format!("{name}{text}"));
                 }
             }
         }

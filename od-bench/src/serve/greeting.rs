@@ -1,18 +1,17 @@
-//! What `odkit sim` says at the start: what there is, and what to type next.
+//! What a live bench says at the start: what there is, and what to type next.
 
 use std::fmt::Write as _;
 
-use od_bench::Bus;
-
-use super::Options;
-use super::adapter::Kind;
-use super::link::Opened;
-use crate::Failure;
-use crate::output::{Output, note, note_text};
+use super::failure::Failure;
+use super::links::opened::{Opened, Protocol};
+use super::maker::Maker;
+use super::options::Options;
+use super::terminal::{note, print as print_line};
+use crate::bus::Bus;
 
 /// Prints it: to standard output, or where that carries frames, to standard error.
 pub(super) fn print(
-    first: &str,
+    first: Option<&Maker<'_>>,
     args: &Options,
     bus: &Bus,
     links: &[Opened],
@@ -20,22 +19,22 @@ pub(super) fn print(
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
         if *wanted != node {
-            note!("the EEPROM says node {node}; --node-id {wanted} is for an empty one");
+            note(&format!(
+                "the EEPROM says node {node}; --node-id {wanted} is for an empty one"
+            ));
         }
     }
     let text = text(first, args, bus, links);
-    let has_frames = |link: &Opened| matches!(link, Opened::Ends(ends) if ends.kind == Kind::Lines);
+    let has_frames =
+        |link: &Opened| matches!(link, Opened::Ends(ends) if ends.protocol == Protocol::Lines);
     if links.iter().any(has_frames) {
-        note_text(&text);
-        note_text("\n");
+        note(&text);
         return Ok(());
     }
-    let mut output = Output::new();
-    output.line(&text)?;
-    output.flush().map(|_| ())
+    Ok(print_line(&text)?)
 }
 
-fn text(first: &str, args: &Options, bus: &Bus, links: &[Opened]) -> String {
+fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) -> String {
     let places: Vec<String> = links.iter().map(place).collect();
     let places = places.join(", ");
     let mut text = String::new();
@@ -62,7 +61,7 @@ fn text(first: &str, args: &Options, bus: &Bus, links: &[Opened]) -> String {
         _ => files.join(", "),
     };
     let _ = writeln!(text, "EEPROM {eeprom}");
-    let Some(device) = devices.first() else {
+    let (Some(device), Some(first)) = (devices.first(), first) else {
         return text;
     };
     let node = device.node_id().raw();
@@ -75,20 +74,20 @@ fn text(first: &str, args: &Options, bus: &Bus, links: &[Opened]) -> String {
 
 fn place(link: &Opened) -> String {
     match link {
-        Opened::Listener(Kind::Socketcand, _, address) => format!("socketcand on {address}"),
+        Opened::Listener(Protocol::Socketcand, _, address) => format!("socketcand on {address}"),
         Opened::Listener(_, _, address) => format!("slcan on {address}"),
-        Opened::Ends(ends) => match ends.kind {
-            Kind::Slcan => format!("slcan on {}", ends.name),
-            Kind::CanFrame => format!("SocketCAN on {}", ends.name),
+        Opened::Ends(ends) => match ends.protocol {
+            Protocol::Slcan => format!("slcan on {}", ends.name),
+            Protocol::CanFrame => format!("SocketCAN on {}", ends.name),
             _ => "standard input and output".into(),
         },
     }
 }
 
 /// What to type to reach the first device by this link.
-fn help(text: &mut String, link: &Opened, device: &str, node: u8, bitrate: u32) {
+fn help(text: &mut String, link: &Opened, device: &Maker<'_>, node: u8, bitrate: u32) {
     let (connect, needs) = match link {
-        Opened::Listener(Kind::Socketcand, _, address) => (
+        Opened::Listener(Protocol::Socketcand, _, address) => (
             format!(
                 "interface='socketcand', channel='can0',\n                  host='{}', port={}",
                 address.ip(),
@@ -103,8 +102,8 @@ fn help(text: &mut String, link: &Opened, device: &str, node: u8, bitrate: u32) 
             ),
             "canopen pyserial",
         ),
-        Opened::Ends(ends) => match ends.kind {
-            Kind::Slcan => (
+        Opened::Ends(ends) => match ends.protocol {
+            Protocol::Slcan => (
                 format!(
                     "interface='slcan', channel='{}',\n                  \
                      bitrate={bitrate}, sleep_after_open=0",
@@ -112,7 +111,7 @@ fn help(text: &mut String, link: &Opened, device: &str, node: u8, bitrate: u32) 
                 ),
                 "canopen pyserial",
             ),
-            Kind::CanFrame => (
+            Protocol::CanFrame => (
                 format!("interface='socketcan', channel='{}'", ends.name),
                 "canopen",
             ),
@@ -125,12 +124,12 @@ fn help(text: &mut String, link: &Opened, device: &str, node: u8, bitrate: u32) 
             }
         },
     };
-    let (description, read) = match od_devices::find(device) {
+    let (description, read) = match device.kind {
         Some(_) => (
             "canopen.ObjectDictionary()".to_owned(),
             "sdo.upload(0x1000, 0).hex()",
         ),
-        None => (format!("{device:?}"), "sdo[0x1000].raw"),
+        None => (format!("{:?}", device.name), "sdo[0x1000].raw"),
     };
     let _ = writeln!(
         text,
@@ -160,7 +159,7 @@ fn candump(text: &mut String, link: &Opened, node: u8, bitrate: u32) {
     let request = 0x600 + u16::from(node);
     let send = format!("{request:03X}#4000100000000000");
     let _ = match link {
-        Opened::Listener(Kind::Slcan, _, address) => writeln!(
+        Opened::Listener(Protocol::Slcan, _, address) => writeln!(
             text,
             "
 candump, as root on Linux
@@ -170,7 +169,7 @@ candump, as root on Linux
   candump can0 &
   cansend can0 {send}"
         ),
-        Opened::Ends(ends) if ends.kind == Kind::Slcan => writeln!(
+        Opened::Ends(ends) if ends.protocol == Protocol::Slcan => writeln!(
             text,
             "
 candump, as root on Linux
@@ -180,7 +179,7 @@ candump, as root on Linux
   cansend can0 {send}",
             ends.name
         ),
-        Opened::Ends(ends) if ends.kind == Kind::CanFrame => writeln!(
+        Opened::Ends(ends) if ends.protocol == Protocol::CanFrame => writeln!(
             text,
             "
 candump

@@ -1,23 +1,29 @@
 //! Where masters come from: what `--link` says, and the ends of it.
 
 mod can;
+pub(super) mod opened;
+mod pty;
 mod serial;
+mod tcp;
 
-use std::io::{ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, ToSocketAddrs};
-
-use super::adapter::Kind;
-use crate::Failure;
+use super::failure::Failure;
+use opened::{Ends, Opened, Protocol};
 
 /// What `--link` takes, for error messages.
 const FORMS: &str = "slcan:HOST:PORT, slcan:pty, slcan:DEVICE[@BAUD], socketcand:HOST:PORT, \
                      socketcan:INTERFACE, or - for standard input and output";
 
+/// Most links of one bench; as clients they have the numbers below this one.
+pub(super) const LINKS: usize = 64;
+
 /// One link, as it was asked for.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Link {
-    /// A TCP server that speaks this.
-    Tcp(Kind, String),
+#[non_exhaustive]
+pub enum Link {
+    /// An slcan server on TCP.
+    Slcan(String),
+    /// A socketcand server on TCP.
+    Socketcand(String),
     /// A pseudo-terminal that a program opens as if it were an adapter's serial port.
     Pty,
     /// An adapter's end of a serial line, with its baud rate.
@@ -29,8 +35,16 @@ pub(super) enum Link {
 }
 
 impl Link {
+    /// An slcan server on TCP at `HOST:PORT`.
+    pub fn slcan(place: &str) -> Self {
+        Self::Slcan(place.to_owned())
+    }
+
     /// Reads what stands behind `--link`.
-    pub(super) fn parse(text: &str) -> Result<Self, String> {
+    ///
+    /// # Errors
+    /// It is no link; the text says which ones there are.
+    pub fn parse(text: &str) -> Result<Self, String> {
         if text == "-" {
             return Ok(Self::Console);
         }
@@ -49,8 +63,8 @@ impl Link {
                 let baud = baud.ok_or_else(|| format!("`{place}` has no baud rate behind @"))?;
                 Ok(Self::Serial(path.to_owned(), baud))
             }
-            "slcan" => Ok(Self::Tcp(Kind::Slcan, place.to_owned())),
-            "socketcand" => Ok(Self::Tcp(Kind::Socketcand, place.to_owned())),
+            "slcan" => Ok(Self::slcan(place)),
+            "socketcand" => Ok(Self::Socketcand(place.to_owned())),
             "socketcan" => Ok(Self::SocketCan(place.to_owned())),
             _ => Err(unknown()),
         }
@@ -59,13 +73,14 @@ impl Link {
     /// Opens it.
     pub(super) fn open(&self) -> Result<Opened, Failure> {
         match self {
-            Self::Tcp(kind, place) => listen(*kind, place),
-            Self::Pty => serial::pty(),
+            Self::Slcan(place) => tcp::listen(Protocol::Slcan, place),
+            Self::Socketcand(place) => tcp::listen(Protocol::Socketcand, place),
+            Self::Pty => pty::open(),
             Self::Serial(path, baud) => serial::open(path, *baud),
             Self::SocketCan(name) => can::open(name),
             Self::Console => Ok(Opened::Ends(Ends {
                 name: "standard input".into(),
-                kind: Kind::Lines,
+                protocol: Protocol::Lines,
                 reading: Box::new(std::io::stdin()),
                 writing: Box::new(std::io::stdout()),
             })),
@@ -80,67 +95,23 @@ fn is_device(place: &str) -> bool {
         || place.to_ascii_uppercase().starts_with("COM")
 }
 
-/// A link that works.
-pub(super) enum Opened {
-    /// Clients come and go.
-    Listener(Kind, TcpListener, SocketAddr),
-    /// There is one client, and it is there already.
-    Ends(Ends),
-}
-
-/// Both directions of a client.
-pub(super) struct Ends {
-    /// What to call it; for a pseudo-terminal the path that others open.
-    pub(super) name: String,
-    pub(super) kind: Kind,
-    pub(super) reading: Box<dyn Read + Send>,
-    pub(super) writing: Box<dyn Write + Send>,
-}
-
-fn listen(kind: Kind, wanted: &str) -> Result<Opened, Failure> {
-    let option = match kind {
-        Kind::Socketcand => "--link socketcand:",
-        _ => "--slcan ",
-    };
-    let full = match wanted.parse::<u16>() {
-        Ok(port) => format!("127.0.0.1:{port}"),
-        Err(_) => wanted.to_owned(),
-    };
-    let addresses: Vec<SocketAddr> = match full.to_socket_addrs() {
-        Ok(addresses) => addresses.collect(),
-        Err(_) => {
-            return Err(Failure::Usage(format!(
-                "`{wanted}` is no address to listen on; write {option}127.0.0.1:29536"
-            )));
-        }
-    };
-    let listener = TcpListener::bind(addresses.as_slice()).map_err(|error| {
-        Failure::Failed(match error.kind() {
-            ErrorKind::AddrInUse => format!(
-                "{full} is in use, perhaps by another odkit; end that one, or take any free \
-                 port with {option}127.0.0.1:0"
-            ),
-            _ => format!("{full}: {error}; choose another address with {option}HOST:PORT"),
-        })
-    })?;
-    let address = listener.local_addr()?;
-    Ok(Opened::Listener(kind, listener, address))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_kind_of_link() {
-        let tcp = |kind, place: &str| Ok(Link::Tcp(kind, place.into()));
+        let slcan = |place| Ok(Link::slcan(place));
         for (text, link) in [
             ("-", Ok(Link::Console)),
             ("slcan:pty", Ok(Link::Pty)),
-            ("slcan:29536", tcp(Kind::Slcan, "29536")),
-            ("slcan:localhost:1", tcp(Kind::Slcan, "localhost:1")),
-            ("slcan:[::1]:1", tcp(Kind::Slcan, "[::1]:1")),
-            ("socketcand:0.0.0.0:1", tcp(Kind::Socketcand, "0.0.0.0:1")),
+            ("slcan:29536", slcan("29536")),
+            ("slcan:localhost:1", slcan("localhost:1")),
+            ("slcan:[::1]:1", slcan("[::1]:1")),
+            (
+                "socketcand:0.0.0.0:1",
+                Ok(Link::Socketcand("0.0.0.0:1".into())),
+            ),
             ("socketcan:vcan0", Ok(Link::SocketCan("vcan0".into()))),
             (
                 "slcan:/dev/ttyUSB0",

@@ -1,7 +1,7 @@
 //! A CAN interface of Linux.
 
-use super::Opened;
-use crate::Failure;
+use super::opened::Opened;
+use crate::serve::failure::Failure;
 
 /// Opens an interface that exists and is up.
 #[cfg(target_os = "linux")]
@@ -13,12 +13,14 @@ pub(super) fn open(name: &str) -> Result<Opened, Failure> {
     CanSocket::open_iface(0).map_err(failed)?;
     let socket = CanSocket::open(name).map_err(failed)?;
     if is_down(name) {
-        crate::output::note!("{name} is down; `sudo ip link set {name} up` starts it");
+        crate::serve::terminal::note(&format!(
+            "{name} is down; `sudo ip link set {name} up` starts it"
+        ));
     }
     let ends = |socket: &CanSocket| socket.as_raw_socket().try_clone();
-    Ok(Opened::Ends(super::Ends {
+    Ok(Opened::Ends(super::opened::Ends {
         name: name.to_owned(),
-        kind: super::Kind::CanFrame,
+        protocol: super::opened::Protocol::CanFrame,
         reading: Box::new(ends(&socket).map_err(failed)?),
         writing: Box::new(ends(&socket).map_err(failed)?),
     }))

@@ -1,0 +1,63 @@
+//! The codec of a client: its bytes on one side, the frames of the bus on the other.
+
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant};
+
+/// An effect of the bytes of a client.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Step {
+    /// These bytes go back to the client.
+    Reply(Vec<u8>),
+    /// This frame goes to the bus.
+    Frame(Frame),
+    /// This line goes to the console.
+    Line(String),
+    /// The client needs time to read the reply before frames follow.
+    Pause,
+}
+
+/// A codec: takes bytes as they come, in any pieces, and answers with [`Step`]s in the order in
+/// which they have to happen. No codec waits, and none grows with the input.
+pub trait Codec: Send {
+    /// Returns the first bytes for a new client.
+    fn hello(&self) -> &'static [u8] {
+        b""
+    }
+
+    /// Takes bytes from the client, and adds what they bring about to `steps`.
+    fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>);
+
+    /// Takes the end of the input: the last line of a text may lack its line end.
+    fn finish(&mut self, steps: &mut Vec<Step>) {
+        let _ = steps;
+    }
+
+    /// Name of the form of the next frame. Codecs that return the same name encode a frame to
+    /// the same bytes; `None`: the bytes are for this client only.
+    fn form(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Adds a frame of the bus as this client gets it to `out`; nothing while the client does not
+    /// hear it. `stamp` is the time of day at `now`, in microseconds.
+    fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>);
+
+    /// When [`wake`](Self::wake) is due; `None`: never.
+    fn deadline(&self) -> Option<Instant> {
+        None
+    }
+
+    /// Does what is due at `now`, whose time of day is `stamp` in microseconds.
+    fn wake(&mut self, now: Instant, stamp: u64, steps: &mut Vec<Step>) {
+        let _ = (now, stamp, steps);
+    }
+}
+
+/// Adds to the reply that comes next.
+pub(super) fn reply(steps: &mut Vec<Step>, bytes: &[u8]) {
+    match steps.last_mut() {
+        Some(Step::Reply(reply)) => reply.extend_from_slice(bytes),
+        _ => steps.push(Step::Reply(bytes.to_vec())),
+    }
+}

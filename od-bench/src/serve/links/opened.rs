@@ -1,0 +1,55 @@
+//! A link that works: who speaks what over it.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpListener};
+
+use crate::links::Codec;
+use crate::links::can_frame::{self, CanSocket};
+use crate::links::lines::Lines;
+use crate::links::slcan::Channel;
+use crate::links::socketcand::Session;
+
+/// What a client speaks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(in crate::serve) enum Protocol {
+    Slcan,
+    Socketcand,
+    /// `struct can_frame` of Linux.
+    CanFrame,
+    /// Lines of the script language in, a candump log out.
+    Lines,
+}
+
+impl Protocol {
+    /// Makes the codec of one client.
+    pub(in crate::serve) fn codec(self) -> Box<dyn Codec> {
+        match self {
+            Self::Slcan => Box::<Channel>::default(),
+            Self::Socketcand => Box::<Session>::default(),
+            Self::CanFrame => Box::new(CanSocket),
+            Self::Lines => Box::<Lines>::default(),
+        }
+    }
+
+    /// How long a message is, where it has to be written in one piece.
+    pub(in crate::serve) fn message_len(self) -> Option<usize> {
+        (self == Self::CanFrame).then_some(can_frame::SIZE)
+    }
+}
+
+/// A link that works.
+pub(in crate::serve) enum Opened {
+    /// Clients come and go.
+    Listener(Protocol, TcpListener, SocketAddr),
+    /// There is one client, and it is there already.
+    Ends(Ends),
+}
+
+/// Both directions of a client.
+pub(in crate::serve) struct Ends {
+    /// What to call it; for a pseudo-terminal the path that others open.
+    pub(in crate::serve) name: String,
+    pub(in crate::serve) protocol: Protocol,
+    pub(in crate::serve) reading: Box<dyn Read + Send>,
+    pub(in crate::serve) writing: Box<dyn Write + Send>,
+}

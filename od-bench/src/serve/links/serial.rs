@@ -1,0 +1,38 @@
+//! slcan as an adapter speaks it over a serial line.
+
+use std::io::ErrorKind;
+
+use super::opened::{Ends, Opened, Protocol};
+use crate::serve::failure::Failure;
+
+/// The rate that a serial line has where none is asked for.
+pub(super) const BAUD: u32 = 115_200;
+
+/// Opens a serial port.
+pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
+    let failed = |error: std::io::Error| {
+        Failure::Failed(match error.kind() {
+            ErrorKind::NotFound => format!(
+                "there is no serial port {path}; for a port that another program opens, use \
+                 --link slcan:pty"
+            ),
+            ErrorKind::PermissionDenied => format!(
+                "{path} may not be opened; on Debian and Ubuntu its users are in the group \
+                 dialout: `sudo usermod -aG dialout $USER`, then log in again"
+            ),
+            _ => format!("{path} at {baud} baud: {error}"),
+        })
+    };
+    let port = serial2::SerialPort::open(path, baud).map_err(failed)?;
+    let mut writing = port.try_clone().map_err(failed)?;
+    // A host that reads slowly holds up the thread that writes, and nothing else.
+    writing
+        .set_write_timeout(std::time::Duration::from_secs(3600))
+        .map_err(failed)?;
+    Ok(Opened::Ends(Ends {
+        name: path.to_owned(),
+        protocol: Protocol::Slcan,
+        reading: Box::new(port),
+        writing: Box::new(writing),
+    }))
+}

@@ -1,0 +1,20 @@
+//! A device that is to be.
+
+use od_runtime::{DeviceKind, NodeId};
+
+use crate::device::VirtualDevice;
+
+/// A device that is to be, by the name that it was asked for with.
+pub struct Maker<'m> {
+    /// Name of a built-in device, or path of a file.
+    pub name: &'m str,
+    /// The built-in device; `None`: a file describes it.
+    pub kind: Option<&'static DeviceKind>,
+    /// Makes it.
+    pub make: Make<'m>,
+}
+
+/// Makes a device without power, with this node ID or else its own.
+///
+/// The error says why there is no device.
+pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, String> + 'm>;

@@ -1,0 +1,265 @@
+//! The options of a live bench, for every program that runs one.
+
+use std::path::PathBuf;
+
+use od_model::values;
+use od_runtime::NodeId;
+
+use super::links::Link;
+
+/// How devices run, whichever they are.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Options {
+    /// Node ID of each device, in their order.
+    pub node_ids: Vec<NodeId>,
+    /// How masters reach the bus; none: slcan on port 29536 of this machine.
+    pub links: Vec<Link>,
+    /// File with the EEPROM of each device, in their order; in memory if there is none.
+    pub eeproms: Vec<PathBuf>,
+    /// Raw position of the shaft at the start, in steps.
+    pub position: Option<u64>,
+    /// Speed of the shaft in revolutions per minute.
+    pub rpm: Option<f64>,
+    /// Seed for start positions of the shafts.
+    pub seed: Option<u64>,
+    /// Bit rate in the connection lines of the greeting, in bit/s.
+    pub bitrate: u32,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            node_ids: Vec::new(),
+            links: Vec::new(),
+            eeproms: Vec::new(),
+            position: None,
+            rpm: None,
+            seed: None,
+            bitrate: 500_000,
+        }
+    }
+}
+
+/// One option as it is written: `--name VALUE`.
+#[derive(Debug)]
+pub struct Choice {
+    /// Without the two dashes.
+    pub name: &'static str,
+    /// Placeholder of its value in help texts.
+    pub value: &'static str,
+    /// What it does, for help texts.
+    pub help: &'static str,
+    /// Value without it, for help texts.
+    pub default: Option<&'static str>,
+    /// May be given again.
+    pub repeats: bool,
+    /// The option that cannot be given beside it.
+    pub conflicts: Option<&'static str>,
+    set: fn(&mut Options, &str) -> Result<(), String>,
+}
+
+impl Choice {
+    /// Puts a value into the options.
+    ///
+    /// # Errors
+    /// What is wrong with the value.
+    pub fn set(&self, options: &mut Options, value: &str) -> Result<(), String> {
+        (self.set)(options, value)
+    }
+}
+
+const PLAIN: Choice = Choice {
+    name: "",
+    value: "",
+    help: "",
+    default: None,
+    repeats: false,
+    conflicts: None,
+    set: |_, _| Ok(()),
+};
+
+/// Every option, in the order of help texts.
+pub const CHOICES: [Choice; 8] = [
+    Choice {
+        name: "node-id",
+        value: "N",
+        help: "Node ID that a device starts with, 1 to 127; given again it is for the next device \
+               (a redundant encoder is two). A device without one takes 1, or the next that is free",
+        repeats: true,
+        set: |options, text| Ok(options.node_ids.push(node_id(text)?)),
+        ..PLAIN
+    },
+    Choice {
+        name: "link",
+        value: "LINK",
+        help: "How masters reach the bus; may be given again [default: slcan:127.0.0.1:29536]",
+        repeats: true,
+        set: |options, text| Ok(options.links.push(Link::parse(text)?)),
+        ..PLAIN
+    },
+    Choice {
+        name: "slcan",
+        value: "HOST:PORT",
+        help: "The same as --link slcan:HOST:PORT; port 0 takes any free one",
+        set: |options, text| Ok(options.links.insert(0, Link::slcan(text))),
+        ..PLAIN
+    },
+    Choice {
+        name: "eeprom",
+        value: "FILE",
+        help: "File that keeps what 1010h saves; in memory where none is given. Given again it is \
+               for the next device",
+        repeats: true,
+        set: |options, text| Ok(options.eeproms.push(PathBuf::from(text))),
+        ..PLAIN
+    },
+    Choice {
+        name: "position",
+        value: "STEPS",
+        help: "Raw position of the shaft at the start, in steps (497042 or 0x79592)",
+        set: |options, text| Ok(options.position = Some(position(text)?)),
+        ..PLAIN
+    },
+    Choice {
+        name: "rpm",
+        value: "RPM",
+        help: "How fast the shaft turns, revolutions a minute; negative: the other way",
+        set: |options, text| Ok(options.rpm = Some(number(text)?)),
+        ..PLAIN
+    },
+    Choice {
+        name: "seed",
+        value: "NUMBER",
+        help: "Let the shafts start anywhere; the same number is the same place",
+        conflicts: Some("position"),
+        set: |options, text| Ok(options.seed = Some(number(text)?)),
+        ..PLAIN
+    },
+    Choice {
+        name: "bitrate",
+        value: "BIT/S",
+        help: "Bit rate to show in the connection lines; this bus has none",
+        default: Some("500000"),
+        set: |options, text| Ok(options.bitrate = number(text)?),
+        ..PLAIN
+    },
+];
+
+/// Reads a node ID.
+///
+/// # Errors
+/// It is not 1 to 127.
+pub fn node_id(text: &str) -> Result<NodeId, String> {
+    let number = values::integer(text).and_then(|value| u8::try_from(value).ok());
+    number
+        .and_then(NodeId::new)
+        .ok_or_else(|| String::from("a node ID is a number from 1 to 127"))
+}
+
+fn position(text: &str) -> Result<u64, String> {
+    let value = values::integer(text).and_then(|value| u64::try_from(value).ok());
+    value.ok_or_else(|| String::from("a position is a number of steps, like 497042 or 0x79592"))
+}
+
+fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|error: T::Err| error.to_string())
+}
+
+/// Reads the arguments of a program that has these options and no other.
+///
+/// # Errors
+/// The argument that is wrong, and why.
+pub(super) fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, String> {
+    let mut options = Options::default();
+    let mut given: Vec<&str> = Vec::new();
+    let mut arguments = arguments.into_iter();
+    while let Some(argument) = arguments.next() {
+        let (name, value) = match argument.split_once('=') {
+            Some((name, value)) => (name, Some(value.to_owned())),
+            None => (argument.as_str(), None),
+        };
+        let known = |choice: &&Choice| name.strip_prefix("--") == Some(choice.name);
+        let Some(choice) = CHOICES.iter().find(known) else {
+            return Err(format!("unexpected argument `{argument}`"));
+        };
+        let clash = choice.conflicts.filter(|other| given.contains(other));
+        let clash = clash.or_else(|| {
+            let other = |other: &&Choice| other.conflicts == Some(choice.name);
+            let other = CHOICES.iter().find(other)?.name;
+            given.contains(&other).then_some(other)
+        });
+        if let Some(other) = clash {
+            return Err(format!("`{name}` cannot be used with `--{other}`"));
+        }
+        if given.contains(&choice.name) && !choice.repeats {
+            return Err(format!("`{name}` is given twice"));
+        }
+        given.push(choice.name);
+        let Some(value) = value.or_else(|| arguments.next()) else {
+            return Err(format!("`{name}` needs a value, {}", choice.value));
+        };
+        choice
+            .set(&mut options, &value)
+            .map_err(|why| format!("`{value}` is not valid for `{name}`: {why}"))?;
+    }
+    Ok(options)
+}
+
+/// The options as a help text lists them.
+pub(super) fn help() -> String {
+    let mut text = String::from("Options:\n");
+    for choice in &CHOICES {
+        let Choice {
+            name, value, help, ..
+        } = choice;
+        text.push_str(&format!("      --{name} <{value}>\n          {help}\n"));
+        if let Some(default) = choice.default {
+            text.push_str(&format!("          [default: {default}]\n"));
+        }
+    }
+    text.push_str("  -h, --help\n          Print help\n");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Options, String> {
+        parse(text.split_whitespace().map(str::to_owned))
+    }
+
+    #[test]
+    fn arguments_are_read_with_a_blank_or_an_equals_sign() {
+        let options = parsed(
+            "--node-id 5 --node-id=0x06 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
+             --position=79592h --bitrate 125000 --eeprom a.bin",
+        )
+        .expect("options");
+        let nodes: Vec<u8> = options.node_ids.iter().map(|node| node.raw()).collect();
+        assert_eq!(nodes, [5, 6]);
+        assert_eq!(options.links, [Link::slcan("127.0.0.1:0"), Link::Pty]);
+        assert_eq!(options.rpm, Some(-60.0));
+        assert_eq!(options.position, Some(0x79592));
+        assert_eq!(options.bitrate, 125_000);
+        assert_eq!(options.eeproms, [PathBuf::from("a.bin")]);
+        assert_eq!(parsed(""), Ok(Options::default()));
+    }
+
+    #[test]
+    fn a_wrong_argument_is_named() {
+        for (text, named) in [
+            ("5", "`5`"),
+            ("--speed 5", "`--speed`"),
+            ("--rpm", "`--rpm`"),
+            ("--rpm fast", "`fast`"),
+            ("--node-id 128", "1 to 127"),
+            ("--rpm 1 --rpm 2", "twice"),
+            ("--seed 1 --position 2", "`--seed`"),
+            ("--position 2 --seed 1", "`--position`"),
+        ] {
+            let why = parsed(text).expect_err(text);
+            assert!(why.contains(named), "{text}: {why}");
+        }
+    }
+}
