@@ -86,7 +86,10 @@ pub const CHOICES: [Choice; 8] = [
         help: "Node ID that a device starts with, 1 to 127; given again it is for the next device \
                (a redundant encoder is two). A device without one takes 1, or the next that is free",
         repeats: true,
-        set: |options, text| Ok(options.node_ids.push(node_id(text)?)),
+        set: |options, text| {
+            options.node_ids.push(node_id(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -94,14 +97,20 @@ pub const CHOICES: [Choice; 8] = [
         value: "LINK",
         help: "How masters reach the bus; may be given again [default: slcan:127.0.0.1:29536]",
         repeats: true,
-        set: |options, text| Ok(options.links.push(Link::parse(text)?)),
+        set: |options, text| {
+            options.links.push(Link::parse(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
         name: "slcan",
         value: "HOST:PORT",
         help: "The same as --link slcan:HOST:PORT; port 0 takes any free one",
-        set: |options, text| Ok(options.links.insert(0, Link::slcan(text))),
+        set: |options, text| {
+            options.links.insert(0, Link::slcan(text));
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -110,21 +119,30 @@ pub const CHOICES: [Choice; 8] = [
         help: "File that keeps what 1010h saves; in memory where none is given. Given again it is \
                for the next device",
         repeats: true,
-        set: |options, text| Ok(options.eeproms.push(PathBuf::from(text))),
+        set: |options, text| {
+            options.eeproms.push(PathBuf::from(text));
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
         name: "position",
         value: "STEPS",
         help: "Raw position of the shaft at the start, in steps (497042 or 0x79592)",
-        set: |options, text| Ok(options.position = Some(position(text)?)),
+        set: |options, text| {
+            options.position = Some(position(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
         name: "rpm",
         value: "RPM",
         help: "How fast the shaft turns, revolutions a minute; negative: the other way",
-        set: |options, text| Ok(options.rpm = Some(number(text)?)),
+        set: |options, text| {
+            options.rpm = Some(number(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -132,7 +150,10 @@ pub const CHOICES: [Choice; 8] = [
         value: "NUMBER",
         help: "Let the shafts start anywhere; the same number is the same place",
         conflicts: Some("position"),
-        set: |options, text| Ok(options.seed = Some(number(text)?)),
+        set: |options, text| {
+            options.seed = Some(number(text)?);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -140,7 +161,10 @@ pub const CHOICES: [Choice; 8] = [
         value: "BIT/S",
         help: "Bit rate to show in the connection lines; this bus has none",
         default: Some("500000"),
-        set: |options, text| Ok(options.bitrate = number(text)?),
+        set: |options, text| {
+            options.bitrate = number(text)?;
+            Ok(())
+        },
         ..PLAIN
     },
 ];
