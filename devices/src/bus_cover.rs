@@ -6,17 +6,17 @@
 //! the family do differently from CiA 301 and CiA 406. What the eight devices do
 //! differently from each other is in their dictionaries alone.
 
-use od_model::{Address, Dictionary};
-use od_runtime::encoder::{EncoderProfile, Fault, OperatingTime, Options, Report, Total};
-use od_runtime::{
+use odkit::encoder::{EncoderProfile, Fault, OperatingTime, Options, Report, Total};
+use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
     SdoProfile, StoreProfile,
 };
+use odkit::{Address, Dictionary};
 
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
-od_macros::object_dictionary! {
+odkit::object_dictionary! {
     /// `GXMM`, multivo multiturn: 13 bits a revolution, 16 bits of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one

@@ -7,21 +7,21 @@
 //! The redundant version is two channels on one shaft, behind one connector: two nodes, each
 //! with electronics, battery, memory and serial number of its own (chapter 4.5).
 
-use od_model::{Address, Dictionary};
-use od_runtime::encoder::{
+use odkit::encoder::{
     Counter, EncoderProfile, Gear, GearKind, Injection, Movement, OperatingTime, Options, Quantity,
     RangeRule, Sensor, Source, Total,
 };
-use od_runtime::{
+use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
     SdoProfile, StoreProfile,
 };
+use odkit::{Address, Dictionary};
 
 use crate::eam_diagnosis;
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
-od_macros::object_dictionary! {
+odkit::object_dictionary! {
     /// `EAMxxx MT`, multiturn: 16 bits a revolution, of which 14 show by default, and 18 bits
     /// of revolutions.
     ///

@@ -4,8 +4,8 @@
 //! more closely, and looks at its battery only while power is off (chapter 4.5). The codes
 //! are those of object 2116h:01; the rows stand in the order of the manual's table.
 
-use od_model::Address;
-use od_runtime::encoder::{Appears, Fault, Mirror, Report, Until};
+use odkit::Address;
+use odkit::encoder::{Appears, Fault, Mirror, Report, Until};
 
 /// 2117h: the warnings and alarms once more, with what else 1001h tells.
 pub(crate) const DIAGNOSIS: (Address, &[Mirror]) = (

@@ -4,20 +4,20 @@
 //! itself or is silent. The dictionary says what the objects are; the two profiles here say
 //! what the manual has the device do differently from CiA 301 and CiA 406.
 
-use od_model::Address;
-use od_runtime::encoder::{
+use odkit::Address;
+use odkit::encoder::{
     Counter, EncoderProfile, Fault, Gear, GearKind, Movement, OperatingTime, Quantity, RangeRule,
     Report, Sensor, Source, Total,
 };
-use od_runtime::{
+use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
     SdoProfile, StoreProfile,
 };
 
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
-od_macros::object_dictionary! {
+odkit::object_dictionary! {
     /// `EN580C_M`: 24 bits a revolution, of which 6001h takes 21, and 16 bits of revolutions.
     ///
     /// 1018h:04 and 650Bh, the serial number, are 1 unless the host gives another one

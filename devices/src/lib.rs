@@ -25,7 +25,7 @@ pub mod text;
 
 use bus_cover::gxmm;
 use eam::eam_mt;
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
 /// Every device, by family.
 pub const DEVICES: &[DeviceKind] = &[

@@ -5,12 +5,12 @@
 
 use od_bench::shaft::{self, Shaft};
 use od_devices::DEVICES;
-use od_model::Kind;
-use od_runtime::DeviceKind;
-use od_runtime::encoder::Encoder;
-use od_runtime::storage::{Memory, image};
-use od_runtime::{BusEvent, CanId, Frame, Instant, Lent, Node, NodeId, Store};
-use od_wire::nmt::State;
+use odkit::DeviceKind;
+use odkit::Kind;
+use odkit::encoder::Encoder;
+use odkit::nmt::State;
+use odkit::storage::{Memory, image};
+use odkit::{BusEvent, CanId, Frame, Instant, Lent, Node, NodeId, Store};
 
 /// xorshift64*: the same frames on every run.
 struct Random(u64);

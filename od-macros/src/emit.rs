@@ -24,8 +24,9 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         name,
         ..
     } = input;
+    let root = root(input);
     let mut text = String::new();
-    device(&mut text, &family.base, &[]);
+    device(&mut text, &root, &family.base, &[]);
     let body = lex(&text);
     let paths = source.paths.iter().filter_map(|path| path.to_str());
     let track = paths.map(|path| quote! { const _: &[u8] = ::core::include_bytes!(#path); });
@@ -33,7 +34,7 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     let variants = input.variants.iter().zip(&family.variants);
     let variants = variants.map(|(variant, made)| {
         let mut text = String::new();
-        device(&mut text, made, &family.base.items);
+        device(&mut text, &root, made, &family.base.items);
         let (attrs, name, body) = (&variant.attrs, &variant.name, lex(&text));
         let about = docs::variant(&input.name.to_string(), &variant.statements);
         quote! {
@@ -52,6 +53,16 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
             #(#variants)*
         }
     }
+}
+
+/// The path of what the emitted code is written with: of this version, so that it never meets
+/// another one's.
+fn root(input: &Input) -> String {
+    let odkit = match &input.root {
+        Some(path) => quote!(#path).to_string(),
+        None => String::from("::odkit"),
+    };
+    format!("{odkit}::__private1")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -87,16 +98,16 @@ fn lex(text: &str) -> TokenStream {
 }
 
 /// Everything in the module of one device; what `family` has alike, a variant hands on.
-fn device(out: &mut String, device: &Device, family: &[Item]) {
-    out.push_str("use ::od_model::typed::emit::*;\n");
-    dictionary(out, &device.tables);
+fn device(out: &mut String, root: &str, device: &Device, family: &[Item]) {
+    let _ = writeln!(out, "use {root}::*;");
+    dictionary(out, root, &device.tables);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
             Some(other) if other.alike(item) => {
                 handed_on.push(hand_on(&other.name, &item.name));
             }
-            other => self::item(out, item, other),
+            other => self::item(out, root, item, other),
         }
     }
     if !handed_on.is_empty() {
@@ -111,13 +122,13 @@ fn hand_on(from: &str, to: &str) -> String {
     }
 }
 
-fn item(out: &mut String, item: &Item, family: Option<&Item>) {
+fn item(out: &mut String, root: &str, item: &Item, family: Option<&Item>) {
     match &item.body {
         Body::Value(handle) => constant(out, item.index, handle),
         Body::Members(handles) => {
             let _ = writeln!(
                 out,
-                "#[doc = {:?}] pub mod {} {{ use ::od_model::typed::emit::*;",
+                "#[doc = {:?}] pub mod {} {{ use {root}::*;",
                 item.doc, item.name
             );
             let mut handed_on = Vec::new();
@@ -155,7 +166,7 @@ fn constant(out: &mut String, index: u16, handle: &Handle) {
 }
 
 /// `DICTIONARY` with its tables inside, so that they need no names outside.
-fn dictionary(out: &mut String, tables: &Tables) {
+fn dictionary(out: &mut String, root: &str, tables: &Tables) {
     let objects = tables.objects().len();
     let entries = tables.entries().len();
     let object_rows = tables.objects().iter().flat_map(table::object_row);
@@ -164,8 +175,8 @@ fn dictionary(out: &mut String, tables: &Tables) {
     let _ = write!(
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
-pub const DICTIONARY: ::od_model::Dictionary<'static> = {{
-use ::od_model::typed::emit::table::*;
+pub const DICTIONARY: {root}::Dictionary<'static> = {{
+use {root}::table::*;
 static OBJECTS: [Object; {objects}] = objects("
     );
     bytes(out, object_rows);

@@ -6,7 +6,7 @@
 use od_eds::patch::{Action, Target};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
-use syn::{Attribute, LitInt, LitStr, Token, Visibility, braced, ext::IdentExt};
+use syn::{Attribute, LitInt, LitStr, Path, Token, Visibility, braced, ext::IdentExt};
 
 use crate::fields::{self, Field};
 use crate::report::Report;
@@ -17,6 +17,8 @@ pub(crate) struct Input {
     pub(crate) attrs: Vec<Attribute>,
     pub(crate) visibility: Visibility,
     pub(crate) name: Ident,
+    /// Where the crate `odkit` is, if not at `::odkit`.
+    pub(crate) root: Option<Path>,
     pub(crate) eds: Option<LitStr>,
     /// What is laid over it.
     pub(crate) overlay: Option<LitStr>,
@@ -94,6 +96,7 @@ impl Input {
             attrs,
             visibility,
             name: stream.parse()?,
+            root: None,
             eds: None,
             overlay: None,
             profile: None,
@@ -129,6 +132,21 @@ impl Input {
                 match self.eds {
                     None => (self.eds, self.overlay) = (Some(path), overlay),
                     Some(_) => report.at(key.span(), "`eds` is given twice\nhelp: a family has one EDS file; say what differs in a `variant`"),
+                }
+            }
+            "crate" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                let path = Path::parse_mod_style(body).map_err(|e| {
+                    syn::Error::new(
+                        e.span(),
+                        "expected a path\nhelp: `crate = ::my_crate::odkit;`, where the crate `odkit` is",
+                    )
+                })?;
+                semicolon(body, key.span(), report)?;
+                match self.root {
+                    None => self.root = Some(path),
+                    Some(_) => report.at(key.span(), "`crate` is given twice"),
                 }
             }
             "profile" => {
@@ -185,10 +203,11 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
     Ok(Some(path))
 }
 
-const STATEMENTS: [&str; 7] = [
-    "add", "modify", "remove", "rename", "variant", "eds", "profile",
+const STATEMENTS: [&str; 8] = [
+    "add", "modify", "remove", "rename", "variant", "eds", "profile", "crate",
 ];
-const IN_MODULE: &str = "`eds`, `profile`, `add`, `modify`, `remove`, `rename` or `variant`";
+const IN_MODULE: &str =
+    "`eds`, `profile`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
 const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
 
 fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
@@ -218,7 +237,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
         }
-        "eds" | "profile" | "variant" => {
+        "eds" | "profile" | "crate" | "variant" => {
             return Err(syn::Error::new(
                 word.span(),
                 format!(

@@ -2,8 +2,8 @@
 //! object dictionary.
 //!
 //! ```
-//! use od_macros::object_dictionary;
-//! use od_model::typed::{Mapping, pdo};
+//! use odkit::object_dictionary;
+//! use odkit::typed::{Mapping, pdo};
 //!
 //! object_dictionary! {
 //!     /// A thermometer.
@@ -30,14 +30,14 @@
 //! assert_eq!(thermometer::identity_object::VENDOR_ID.address().sub, 1);
 //! ```
 //!
-//! The crate that calls it needs `od-model` beside `od-macros`; under another name (`model`,
-//! say), with `extern crate model as od_model;` in its root.
+//! The crate that calls it needs `odkit`; where that is not at `::odkit`, `crate = path;` says where.
 //!
 //! # Grammar
 //!
 //! ```text
 //! call      = { attribute } [ visibility ] "mod" name "{" { item } "}"
 //! item      = "eds" "=" "path" [ "+" "path" ] ";"  relative to this source file; an overlay
+//!           | "crate" "=" path ";"                 where `odkit` is, if not at ::odkit
 //!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement
@@ -159,7 +159,7 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::od_model::Dictionary<'static> =",
+            "pub const DICTIONARY: ::odkit::__private1::Dictionary<'static> =",
             "static OBJECTS: [Object; 4] = objects(b\"\\0\\x10\\x07",
             "static ENTRIES: [Entry; 5] = entries(b\"\\0\\x10\\0\\x06",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     pub mod small {
@@ -53,7 +53,7 @@ fn a_change_of_the_file_rebuilds() {
     std::fs::copy(workspace.join("Cargo.lock"), scratch.join("Cargo.lock")).unwrap();
     std::fs::write(
         scratch.join("src/main.rs"),
-        "od_macros::object_dictionary! { mod device { eds = \"../eds/device.eds\"; } }
+        "odkit::object_dictionary! { mod device { eds = \"../eds/device.eds\"; } }
         fn main() { println!(\"{:?}\", device::DICTIONARY.entry(0x2000, 1).map(|e| e.default)); }",
     )
     .unwrap();

@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use od_eds::Tables;
-use od_macros::object_dictionary;
 use od_model::Dictionary;
+use odkit::object_dictionary;
 
 /// `module: "path from this folder"`, one line a file.
 macro_rules! files {

@@ -1,8 +1,8 @@
 //! A dictionary from rows alone, and what its handles are.
 
-use od_macros::object_dictionary;
 use od_model::typed::{Const, Mapping, Pdo, Ro, Rw, Text, Var, pdo};
 use od_model::{Access, Address, DataType, Group, Literal, ObjectCode};
+use odkit::object_dictionary;
 
 object_dictionary! {
     /// A device without a file.

@@ -1,8 +1,8 @@
 //! A family: what its variants have, and which handles they share.
 
-use od_macros::object_dictionary;
 use od_model::Literal;
 use od_model::typed::{Ro, Rw, Var};
+use odkit::object_dictionary;
 
 object_dictionary! {
     pub mod family {

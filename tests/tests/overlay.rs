@@ -1,7 +1,7 @@
 //! A device of an EDS and an overlay, made by the macro, is what the two give at run time.
 
 use od_eds::Tables;
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A member of 1018h of another data type.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

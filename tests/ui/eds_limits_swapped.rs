@@ -1,6 +1,6 @@
 //! Limits the wrong way round.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! More faults than are shown.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

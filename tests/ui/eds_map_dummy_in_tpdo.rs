@@ -1,6 +1,6 @@
 //! A dummy in a PDO that is sent.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

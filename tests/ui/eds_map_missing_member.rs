@@ -1,6 +1,6 @@
 //! A mapped sub-index that does not exist.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

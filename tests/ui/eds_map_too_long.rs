@@ -1,6 +1,6 @@
 //! A mapping past the 64 bits of a frame.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

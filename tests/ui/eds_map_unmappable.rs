@@ -1,6 +1,6 @@
 //! A mapping of an object that no PDO can carry.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

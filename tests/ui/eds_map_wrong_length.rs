@@ -1,6 +1,6 @@
 //! An object that is mapped with another length.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

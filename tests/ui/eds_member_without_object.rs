@@ -1,6 +1,6 @@
 //! A member whose object has no section.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

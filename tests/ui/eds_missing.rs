@@ -1,6 +1,6 @@
 //! A file that is not there.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A file with a name that is nearly right.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

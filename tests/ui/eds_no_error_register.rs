@@ -1,6 +1,6 @@
 //! No 1001h.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

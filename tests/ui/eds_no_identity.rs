@@ -1,6 +1,6 @@
 //! A file without 1018h.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

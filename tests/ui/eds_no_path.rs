@@ -1,6 +1,6 @@
 //! A path that is no text.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

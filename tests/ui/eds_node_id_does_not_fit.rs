@@ -1,6 +1,6 @@
 //! A formula that is too large for some node IDs.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! An ObjectType that is no object code.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

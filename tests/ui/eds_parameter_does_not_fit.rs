@@ -1,6 +1,6 @@
 //! A configured value that is none of its type.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A transmission type of another data type.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

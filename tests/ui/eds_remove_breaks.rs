@@ -1,6 +1,6 @@
 //! A removal that makes a sound file unsound.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! What is sound is made in spite of the fault: its use is no second error.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Two files for one family.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A value with the type of a whole object.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

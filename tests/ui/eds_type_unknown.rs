@@ -1,6 +1,6 @@
 //! An object with a data type that there is not.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

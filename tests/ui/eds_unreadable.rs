@@ -1,6 +1,6 @@
 //! A folder instead of a file.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! The overlay's name is nearly right.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! What is not there cannot be removed.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A mistake in an overlay is told in the overlay.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Several mistakes are told together.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

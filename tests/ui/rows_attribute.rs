@@ -1,6 +1,6 @@
 //! A doc comment on a row.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A text as the default of a number.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

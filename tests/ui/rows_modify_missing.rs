@@ -1,6 +1,6 @@
 //! A change of what no row adds.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A name that is a word.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A call that begins with something else than a module.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     pub struct Device;

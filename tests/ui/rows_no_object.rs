@@ -1,6 +1,6 @@
 //! A member of an object that is not there.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A statement without its end.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

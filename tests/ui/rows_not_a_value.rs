@@ -1,6 +1,6 @@
 //! An expression as a default.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

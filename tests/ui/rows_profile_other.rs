@@ -1,6 +1,6 @@
 //! A profile that the device does not claim.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A profile that is none.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A module called like a keyword.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A new name for a member that is not there.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

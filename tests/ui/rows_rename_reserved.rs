@@ -1,6 +1,6 @@
 //! A new name that the module needs itself.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Two new names for one object.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Two modules in one call.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod a {

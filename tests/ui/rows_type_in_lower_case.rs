@@ -1,6 +1,6 @@
 //! A data type of the standard in the wrong case.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

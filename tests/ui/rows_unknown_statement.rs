@@ -1,6 +1,6 @@
 //! A statement that there is not.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

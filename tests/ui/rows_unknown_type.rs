@@ -1,6 +1,6 @@
 //! A data type of another language.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A TPDO of an object that only a master writes.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A value read as another type.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_runtime::Store;
 
 object_dictionary! {

@@ -1,6 +1,6 @@
 //! A handle where its mapping is wanted.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_model::typed::{Mapping, pdo};
 
 object_dictionary! {

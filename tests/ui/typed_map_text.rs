@@ -1,6 +1,6 @@
 //! A mapping of a text.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_model::typed::{Mapping, pdo};
 
 object_dictionary! {

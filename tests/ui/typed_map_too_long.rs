@@ -1,6 +1,6 @@
 //! A mapping past the 64 bits of a frame.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_model::typed::{Mapping, pdo};
 
 object_dictionary! {

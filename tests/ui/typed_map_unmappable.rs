@@ -1,6 +1,6 @@
 //! A mapping of an object that no PDO can carry.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_model::typed::{Mapping, pdo};
 
 object_dictionary! {

@@ -1,6 +1,6 @@
 //! A change of a `const` text.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_runtime::Store;
 
 object_dictionary! {

@@ -1,6 +1,6 @@
 //! A whole record where one value is wanted.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_runtime::Store;
 
 object_dictionary! {

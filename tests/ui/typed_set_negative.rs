@@ -1,6 +1,6 @@
 //! A negative number for an unsigned object.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 use od_runtime::Store;
 
 object_dictionary! {

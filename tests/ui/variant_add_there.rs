@@ -1,6 +1,6 @@
 //! An addition of what is there.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

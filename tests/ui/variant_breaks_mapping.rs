@@ -1,6 +1,6 @@
 //! A removal of what a PDO maps.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! An object code on a member.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Sub-index 0 that promises more than there is.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

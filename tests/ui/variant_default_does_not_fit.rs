@@ -1,6 +1,6 @@
 //! A default that does not fit the base's type.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A file of its own in a variant.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

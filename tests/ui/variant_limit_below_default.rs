@@ -1,6 +1,6 @@
 //! A limit that excludes the base's default.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

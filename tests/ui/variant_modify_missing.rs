@@ -1,6 +1,6 @@
 //! A change of an object that the base lacks.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A removal of what is not there.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

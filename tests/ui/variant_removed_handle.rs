@@ -1,6 +1,6 @@
 //! Use of an object that the variant removed.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A variant without an object that every device has.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! A type that the base's default does not fit.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

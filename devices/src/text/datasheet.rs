@@ -12,9 +12,9 @@ mod table;
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::{Dictionary, Literal};
+use odkit::{Dictionary, Literal};
 
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 pub use table::{Cells, HEAD, literal, rows};
 
 /// The datasheet of a built-in device, in Markdown.
@@ -49,7 +49,7 @@ pub fn objects_page(title: &str, dictionary: Dictionary<'_>) -> String {
     page
 }
 
-fn objects(dictionary: Dictionary<'_>, note: impl Fn(od_model::Address) -> String) -> String {
+fn objects(dictionary: Dictionary<'_>, note: impl Fn(odkit::Address) -> String) -> String {
     let mut head: Vec<&str> = HEAD.to_vec();
     head.push("Notes");
     let body: Vec<Vec<String>> = rows(dictionary)

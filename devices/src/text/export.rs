@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
 /// The day of the facts; the texts of a device do not change by being written.
 const DATE: &str = "11-21-2026";

@@ -2,10 +2,10 @@
 
 use od_bench::shaft::{self, Shaft};
 use od_devices::find;
-use od_runtime::DeviceKind;
-use od_runtime::encoder::Encoder;
-use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
+use odkit::DeviceKind;
+use odkit::encoder::Encoder;
+use odkit::storage::{Memory, image};
+use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
 
 /// A device on a bench of its own.
 pub(crate) struct Bench {

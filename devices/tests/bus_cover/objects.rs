@@ -1,7 +1,7 @@
 //! The tables of manual 000, chapters 4.4.1 and 4.4.2, against the dictionaries.
 
 use od_devices::{DEVICES, find};
-use od_model::{Access, DataType, Group, Literal};
+use odkit::{Access, DataType, Group, Literal};
 
 use crate::models::{MODELS, Model};
 

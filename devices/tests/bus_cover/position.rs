@@ -1,8 +1,8 @@
 //! The position of each device where its range ends (manual 000, objects 6000h to 6004h,
 //! 6501h, 6502h, 6509h), in frames.
 
-use od_runtime::Frame;
-use od_runtime::encoder::{Angle, Fault};
+use odkit::Frame;
+use odkit::encoder::{Angle, Fault};
 
 use crate::bench::Bench;
 use crate::models::{MODELS, Model};

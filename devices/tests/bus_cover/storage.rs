@@ -3,8 +3,8 @@
 
 use od_bench::shaft;
 use od_devices::find;
-use od_runtime::Frame;
-use od_runtime::encoder::{Fault, Switches};
+use odkit::Frame;
+use odkit::encoder::{Fault, Switches};
 
 use crate::bench::Bench;
 

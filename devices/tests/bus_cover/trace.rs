@@ -4,8 +4,8 @@
 
 use od_bench::shaft;
 use od_devices::find;
-use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
+use odkit::storage::{Memory, image};
+use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
 
 /// Frames of the bus in their order: identifier, data, and `<` where the encoder sends it.
 const TRACE: &str = "

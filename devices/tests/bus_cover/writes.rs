@@ -1,7 +1,7 @@
 //! What may be written where: the edges of every value, every length, every command byte.
 
 use od_devices::find;
-use od_model::Access;
+use odkit::Access;
 
 use crate::bench::Bench;
 use crate::models::{MODELS, Model};

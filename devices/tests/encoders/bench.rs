@@ -2,11 +2,11 @@
 
 use od_bench::shaft::Shaft;
 use od_devices::find;
-use od_runtime::DeviceKind;
-use od_runtime::encoder::{Angle, Encoder, Motion};
-use od_runtime::storage::{Memory, image};
-use od_runtime::{CanId, Frame, Instant, Lent, Node, NodeId};
-use od_wire::nmt::State;
+use odkit::DeviceKind;
+use odkit::encoder::{Angle, Encoder, Motion};
+use odkit::nmt::State;
+use odkit::storage::{Memory, image};
+use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// U-05.

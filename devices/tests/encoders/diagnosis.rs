@@ -1,7 +1,7 @@
 //! The diagnostic sources of manual 001, chapter 9.5, injected and real.
 
-use od_runtime::encoder::Fault;
-use od_wire::nmt::State;
+use odkit::encoder::Fault;
+use odkit::nmt::State;
 
 use crate::bench::{Bench, OUT_OF_RANGE, SAVE};
 

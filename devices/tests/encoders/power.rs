@@ -1,6 +1,6 @@
 //! Time and starts: manual 001 objects 2120h and 6508h, manual 003 chapter 5.1.12.
 
-use od_runtime::encoder::Switches;
+use odkit::encoder::Switches;
 
 use crate::bench::Bench;
 

@@ -1,7 +1,7 @@
 //! Positions and speeds against a second calculation in 128 bits that shares nothing with the
 //! first: it keeps the whole way of the shaft and divides once.
 
-use od_runtime::encoder::Angle;
+use odkit::encoder::Angle;
 
 use crate::bench::{Bench, SAVE};
 

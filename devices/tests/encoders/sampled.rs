@@ -2,9 +2,9 @@
 
 use od_bench::VirtualDevice;
 use od_devices::DEVICES;
-use od_model::Address;
-use od_runtime::encoder::{Angle, Fault, PositionSource, Sampled};
-use od_runtime::{DeviceKind, Duration, Instant, NodeId};
+use odkit::Address;
+use odkit::encoder::{Angle, Fault, PositionSource, Sampled};
+use odkit::{DeviceKind, Duration, Instant, NodeId};
 
 use crate::bench::Bench;
 

@@ -19,7 +19,7 @@ pub(super) struct Project<'p> {
 }
 
 /// Words that cannot name a crate, or stand for something else where one is used.
-const TAKEN: [&str; 15] = [
+const TAKEN: [&str; 13] = [
     "test",
     "core",
     "std",
@@ -29,8 +29,7 @@ const TAKEN: [&str; 15] = [
     "super",
     "crate",
     "od_model",
-    "od_macros",
-    "od_runtime",
+    "odkit",
     "od_bench",
     "dictionary",
     "build",
@@ -138,9 +137,7 @@ impl Project<'_> {
     fn dependencies(&self) -> String {
         let crates = [
             ("od-bench", "od-bench", ", features = [\"serve\"]"),
-            ("od-macros", "od-macros", ""),
-            ("od-model", "od-model", ""),
-            ("od-runtime", "od-runtime", ""),
+            ("odkit", "odkit", ""),
         ];
         let version = env!("CARGO_PKG_VERSION");
         let lines = crates.map(|(name, folder, features)| match &self.odkit {

@@ -1,7 +1,7 @@
 //! Modules in modules and in functions.
 
 mod inner {
-    od_macros::object_dictionary! {
+    odkit::object_dictionary! {
         pub(super) mod device {
             eds = "../eds/sound.eds";
             variant same {}
@@ -10,7 +10,7 @@ mod inner {
 }
 
 fn main() {
-    od_macros::object_dictionary! {
+    odkit::object_dictionary! {
         mod local {
             eds = "../eds/sound.eds";
         }

@@ -1,7 +1,7 @@
 //! A file beside this one, edited, with two variants and lints that deny everything.
 #![deny(warnings, missing_docs, unreachable_pub)]
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     /// A device.

@@ -1,6 +1,6 @@
 //! The call as part of another macro, where `$` is not to be had.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 macro_rules! device {
     ($name:ident, $offset:literal) => {

@@ -1,6 +1,6 @@
 //! A file with five faults that its owner may not change, mended in the call.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {

@@ -1,6 +1,6 @@
 //! Names that Rust cannot take as they are.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     pub mod device {

@@ -1,6 +1,6 @@
 //! Warnings do not stop a build, and neither does an error that the file allows.
 
-use od_macros::object_dictionary;
+use odkit::object_dictionary;
 
 object_dictionary! {
     mod warned {

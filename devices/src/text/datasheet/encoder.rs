@@ -3,12 +3,12 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::encoder::{
+use odkit::encoder::{
     Appears, Counter, GearKind, OperatingTime, Quantity, RangeRule, Report, Source, Total, Until,
 };
 
 use super::fact;
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
 /// The columns of [`faults`].
 pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {

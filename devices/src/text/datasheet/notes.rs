@@ -3,10 +3,10 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::Address;
+use odkit::Address;
 
 use super::services;
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
 /// The note on a value, empty where there is none.
 pub(super) fn note(kind: &DeviceKind, address: Address) -> String {

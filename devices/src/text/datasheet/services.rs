@@ -3,10 +3,10 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{CommunicationReset, CutSave, Restore, SaveAnswer, SavedCobIds};
+use odkit::{CommunicationReset, CutSave, Restore, SaveAnswer, SavedCobIds};
 
 use super::fact;
-use od_runtime::DeviceKind;
+use odkit::DeviceKind;
 
 pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     let mut facts = Vec::new();

@@ -3,7 +3,7 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::{Address, Dictionary, Entry, Group, Kind, Literal};
+use odkit::{Address, Dictionary, Entry, Group, Kind, Literal};
 
 use od_model::values;
 

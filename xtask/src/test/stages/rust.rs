@@ -6,11 +6,12 @@ use crate::setup::target::{self, Compiler};
 use crate::test::Context;
 
 /// The crates that must do without the standard library.
-const NO_STD: [&str; 5] = [
+const NO_STD: [&str; 6] = [
     "od-model",
     "od-wire",
     "od-client",
     "od-runtime",
+    "odkit",
     "od-devices",
 ];
 

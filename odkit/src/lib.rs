@@ -1,0 +1,69 @@
+//! One dependency for a CANopen device: dictionary, macro, node.
+//!
+//! [`object_dictionary!`] makes a typed, `const` [`Dictionary`] of an EDS file or of rows in the
+//! source; a [`Node`] runs it, sans-io: frames and virtual time go in, frames, the next deadline
+//! and events come out.
+//!
+//! ```
+//! use odkit::storage::Memory;
+//! use odkit::{Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
+//!
+//! odkit::object_dictionary! {
+//!     /// A thermometer.
+//!     mod thermometer {
+//!         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+//!         add 0x1001 { name = "Error register"; type = u8 }
+//!         add 0x1018 { code = record; name = "Identity object" }
+//!         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+//!         add 0x2000 { name = "Temperature"; type = i16; default = 215 }
+//!     }
+//! }
+//!
+//! let mut values = [0; thermometer::STORE_LEN];
+//! let mut application = NoApplication;
+//! let mut storage = Memory::new([0xFF; 256]);
+//! let mut device = Lent {
+//!     dictionary: thermometer::DICTIONARY,
+//!     values: &mut values,
+//!     application: &mut application,
+//!     storage: &mut storage,
+//!     profile: &Profile::CIA301,
+//! };
+//! let mut node: Node = Node::new(NodeId::ONE);
+//! let now = Instant::ZERO;
+//! node.power_on(&mut device, now)?;
+//! assert_eq!(node.poll_transmit(&mut device, now).unwrap().to_string(), "701#00");
+//!
+//! let request = Frame::standard(0x601, &[0x40, 0x00, 0x20, 0, 0, 0, 0, 0]);
+//! node.handle_frame(&mut device, now, &request);
+//! let response = node.poll_transmit(&mut device, now).unwrap();
+//! assert_eq!(response.to_string(), "581#4B002000D7000000");
+//! # Ok::<(), odkit::StoreTooSmall>(())
+//! ```
+//!
+//! The crates behind this one are public, too: `od-model` (dictionary), `od-wire` (frames and
+//! their bytes), `od-runtime` (node and encoder). Whoever makes a device needs this one alone.
+#![no_std]
+#![forbid(unsafe_code)]
+
+pub use od_macros::object_dictionary;
+pub use od_model::{
+    Access, Address, DataType, Dictionary, Entry, Group, Kind, Literal, Missing, Object,
+    ObjectCode, Slot, typed,
+};
+pub use od_runtime::{
+    AbortCode, Application, BusEvent, BusOffProfile, CanId, CobId, CommunicationReset, Context,
+    CutSave, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event, Frame, Instant,
+    LengthRule, Lent, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile,
+    Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile, Signals, Store, StoreProfile,
+    StoreTooSmall, TextTooLong, encoder, storage,
+};
+pub use od_wire::{emcy, lss, nmt, pdo, sdo};
+
+/// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
+/// what is emitted, so that a macro and a crate that do not belong together fail at this name.
+#[doc(hidden)]
+pub mod __private1 {
+    pub use od_model::Dictionary;
+    pub use od_model::typed::emit::*;
+}
