@@ -10,8 +10,9 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 
 use crate::files::Files;
-use crate::input::{At, Statement};
+use crate::input::Statement;
 use crate::report::Report;
+use crate::target::At;
 use crate::{docs, names};
 
 /// What stands for one object in the module.

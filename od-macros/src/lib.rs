@@ -112,6 +112,7 @@ mod names;
 mod profile;
 mod report;
 mod source;
+mod target;
 mod words;
 
 use proc_macro2::TokenStream;
