@@ -6,7 +6,7 @@
 use od_eds::patch::Action;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
-use syn::{Attribute, LitStr, Path, Token, Visibility, braced, ext::IdentExt};
+use syn::{Attribute, LitInt, LitStr, Path, Token, Visibility, braced, ext::IdentExt};
 
 use crate::fields::{self, Field};
 use crate::report::Report;
