@@ -19,7 +19,7 @@ pub(super) struct Project<'p> {
 }
 
 /// Words that cannot name a crate, or stand for something else where one is used.
-const TAKEN: [&str; 13] = [
+const TAKEN: [&str; 14] = [
     "test",
     "core",
     "std",
