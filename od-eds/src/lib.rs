@@ -1,5 +1,7 @@
 //! CANopen device descriptions as text (CiA 306-1, CiA 311): read, check, fix, patch, compare, write.
 //!
+//! Needs `alloc`, not `std`: text in, text out, no files.
+//!
 //! [`parse`] never fails: it returns what it understood, and a diagnostic for
 //! everything else, each with its place in the text. What it cannot make a value
 //! of, it keeps as text in `extra`, so that [`write()`] loses nothing.
@@ -19,6 +21,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
+#[cfg(test)]
 extern crate std;
 
 mod catalogue;

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 
 use super::{Document, Edit, EditError, one_line};
 use crate::scan::lines;
-use crate::scan::lines::{RawPair, RawSection};
 use crate::scan::number;
 use crate::scan::number::Note;
+use crate::scan::placed::{Placed, Text};
 use crate::span::Span;
 
 impl Document {
@@ -16,8 +16,9 @@ impl Document {
     /// twice the first counts. With what is behind it on its line, if that is a comment.
     pub fn get(&self, section: &str, key: &str) -> Option<&str> {
         let scan = lines::scan(&self.text);
-        let value = pairs(&scan.sections, section, key).next()?.value;
-        Some(value.value)
+        let (_, value) = pairs(&scan.sections, section, key).next()?;
+        let Span { start, end, .. } = value.span;
+        self.text.get(start as usize..end as usize)
     }
 
     /// Gives a key its value: in its place where there is one, else as the last key of its section.
@@ -44,12 +45,12 @@ impl Document {
             return Err(EditError::NotOneLine(key.to_string()));
         }
         let scan = lines::scan(&self.text);
-        if let Some(pair) = pairs(&scan.sections, section, key).next() {
-            let before = number::before_comment(pair.value.value);
-            let start = pair.value.span.start as usize;
-            let len = match holds_comment(pair.key.value, before) {
+        if let Some((key, old)) = pairs(&scan.sections, section, key).next() {
+            let before = number::before_comment(old);
+            let start = old.span.start as usize;
+            let len = match holds_comment(key, before) {
                 true => before.len(),
-                false => pair.value.value.len(),
+                false => old.len(),
             };
             return Ok(Edit {
                 range: start..start + len,
@@ -59,10 +60,7 @@ impl Document {
         let Some(found) = named(&scan.sections, section).next() else {
             return Err(EditError::NoSection(section.into()));
         };
-        let last = found
-            .pairs
-            .last()
-            .map_or(found.header, |pair| pair.key.span);
+        let last = found.pairs.last().map_or(found.header, |(key, _)| key.span);
         Ok(self.lines_behind(last.start as usize, &[format!("{key}={value}")]))
     }
 
@@ -70,7 +68,7 @@ impl Document {
     pub fn remove(&mut self, section: &str, key: &str) -> bool {
         let scan = lines::scan(&self.text);
         let edits: Vec<Edit> = pairs(&scan.sections, section, key)
-            .map(|pair| self.without_line(pair.key.span))
+            .map(|(key, _)| self.without_line(key.span))
             .collect();
         !edits.is_empty() && self.apply(&edits).is_ok()
     }
@@ -130,11 +128,11 @@ impl Document {
     }
 
     /// The deletion of a section: its lines up to a blank one behind its last key, and blank lines then.
-    pub(super) fn without_section(&self, section: &RawSection<'_>) -> Edit {
+    pub(super) fn without_section(&self, section: &Placed<'_>) -> Edit {
         let last = section
             .pairs
             .last()
-            .map_or(section.header, |pair| pair.key.span);
+            .map_or(section.header, |(key, _)| key.span);
         let mut end = self.next_line(last.start as usize);
         let mut blank = false;
         while end < self.text.len() {
@@ -159,22 +157,22 @@ impl Document {
 
 /// The sections of a name in any case.
 pub(super) fn named<'s, 'a>(
-    sections: &'s [RawSection<'a>],
+    sections: &'s [Placed<'a>],
     name: &'s str,
-) -> impl Iterator<Item = &'s RawSection<'a>> {
+) -> impl Iterator<Item = &'s Placed<'a>> {
     sections
         .iter()
         .filter(move |section| section.name.eq_ignore_ascii_case(name))
 }
 
 fn pairs<'s, 'a>(
-    sections: &'s [RawSection<'a>],
+    sections: &'s [Placed<'a>],
     section: &'s str,
     key: &'s str,
-) -> impl Iterator<Item = &'s RawPair<'a>> {
+) -> impl Iterator<Item = &'s (Text<'a>, Text<'a>)> {
     named(sections, section)
         .flat_map(|section| &section.pairs)
-        .filter(move |pair| pair.key.eq_ignore_ascii_case(key))
+        .filter(move |(own, _)| own.eq_ignore_ascii_case(key))
 }
 
 /// Is what follows the value a comment? Behind a number or a word of CiA 306 it is.

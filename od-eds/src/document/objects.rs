@@ -8,9 +8,9 @@ use super::keys::named;
 use super::{Document, Edit, EditError};
 use crate::description::ObjectDescription;
 use crate::scan::lines;
-use crate::scan::lines::RawSection;
 use crate::scan::names::{List, Place, place};
 use crate::scan::number;
+use crate::scan::placed::Placed;
 use crate::write::eds;
 
 impl Document {
@@ -50,7 +50,7 @@ impl Document {
         for section in &scan.sections {
             if is_of(section, index) {
                 edits.push(self.without_section(section));
-            } else if let Place::List(_) = place(section.name.value) {
+            } else if let Place::List(_) = place(&section.name) {
                 self.unlist_edits(section, index, &mut edits);
             }
         }
@@ -58,17 +58,17 @@ impl Document {
     }
 
     /// A new last entry of a list.
-    fn entry_edits(&self, section: &RawSection<'_>, index: u16, edits: &mut Vec<Edit>) {
+    fn entry_edits(&self, section: &Placed<'_>, index: u16, edits: &mut Vec<Edit>) {
         let mut number = 0;
         let mut count = 0;
         let mut last = section.header;
-        for pair in &section.pairs {
-            if let Some(n) = read(pair.key.value) {
+        for (key, _) in &section.pairs {
+            if let Some(n) = read(key) {
                 number = number.max(n);
                 count += 1;
-                last = pair.key.span;
+                last = key.span;
             } else if count == 0 {
-                last = pair.key.span;
+                last = key.span;
             }
         }
         let entry = format!("{}=0x{index:04X}", number.saturating_add(1));
@@ -76,24 +76,24 @@ impl Document {
         count_edit(section, count + 1, edits);
     }
 
-    fn unlist_edits(&self, section: &RawSection<'_>, index: u16, edits: &mut Vec<Edit>) {
+    fn unlist_edits(&self, section: &Placed<'_>, index: u16, edits: &mut Vec<Edit>) {
         let entries = section
             .pairs
             .iter()
-            .filter_map(|pair| Some((read(pair.key.value)?, pair)));
+            .filter_map(|(key, value)| Some((read(key)?, key, value)));
         let mut removed = 0;
         let mut count = 0;
-        for (number, pair) in entries {
-            let value = number::before_comment(pair.value.value);
+        for (number, key, value) in entries {
+            let value = number::before_comment(value);
             if read(value) == Some(i128::from(index)) {
                 removed += 1;
-                edits.push(self.without_line(pair.key.span));
+                edits.push(self.without_line(key.span));
                 continue;
             }
             count += 1;
             if removed > 0 {
                 let number = (number - removed).to_string();
-                edits.push(Edit::replace(pair.key.span, number));
+                edits.push(Edit::replace(key.span, number));
             }
         }
         if removed > 0 {
@@ -102,8 +102,8 @@ impl Document {
     }
 }
 
-fn is_of(section: &RawSection<'_>, index: u16) -> bool {
-    match place(section.name.value) {
+fn is_of(section: &Placed<'_>, index: u16) -> bool {
+    match place(&section.name) {
         Place::Object(of) | Place::Member(of, _) | Place::Compact(of, _) => of == index,
         Place::List(_) | Place::Other => false,
     }
@@ -114,14 +114,14 @@ fn read(text: &str) -> Option<i128> {
 }
 
 /// SupportedObjects as it must be, written as it was.
-fn count_edit(section: &RawSection<'_>, count: usize, edits: &mut Vec<Edit>) {
+fn count_edit(section: &Placed<'_>, count: usize, edits: &mut Vec<Edit>) {
     let found = section
         .pairs
         .iter()
-        .find(|pair| pair.key.eq_ignore_ascii_case("SupportedObjects"));
-    let Some(pair) = found else { return };
-    let value = number::before_comment(pair.value.value);
-    let start = pair.value.span.start as usize;
+        .find(|(key, _)| key.eq_ignore_ascii_case("SupportedObjects"));
+    let Some((_, given)) = found else { return };
+    let value = number::before_comment(given);
+    let start = given.span.start as usize;
     edits.push(Edit {
         range: start..start + value.len(),
         text: match value.starts_with("0x") || value.starts_with("0X") {

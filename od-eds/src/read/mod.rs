@@ -8,6 +8,7 @@ use crate::finding::Finding;
 mod compact;
 mod compact_pdo;
 mod entry;
+mod faults;
 pub(crate) mod fields;
 mod lists;
 pub(crate) mod modules;

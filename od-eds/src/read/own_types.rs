@@ -101,8 +101,8 @@ fn own_type<'a>(sections: &Sections<'a>) -> Option<OwnType<'a>> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::description::Value;
-    use od_model::{Address, DataType};
 
     #[test]
     fn a_type_of_the_file_is_the_type_it_stands_for() {
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(entry.data_type.map(|t| t.value), Some(DataType::Integer8));
         assert_eq!(entry.low.as_deref(), Some(&Value::Signed(-10)));
         assert_eq!(entry.high.as_deref(), Some(&Value::Signed(5)));
-        let codes: std::vec::Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
+        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
         assert!(codes.contains(&"I0425") && codes.contains(&"E0402"));
     }
 }

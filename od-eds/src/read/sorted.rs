@@ -6,18 +6,18 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::description::Section;
 use crate::document::Document;
 use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
-use crate::read::{Parsed, compact, compact_pdo, lists, modules, other, own_types};
+use crate::read::{Parsed, compact, compact_pdo, faults, lists, modules, other, own_types};
 use crate::rules;
 use crate::scan::encoding::Encoding;
 use crate::scan::names::{List, Place, intended, place};
-use crate::scan::placed;
-use crate::scan::placed::Placed;
+use crate::scan::placed::{Placed, owned};
 use crate::scan::{lines, number::number};
 use crate::span::Span;
 use od_model::Address;
@@ -32,9 +32,9 @@ pub fn parse(text: &str) -> Parsed {
     if crate::xdd::is_xml(text) {
         return crate::xdd::parse(text);
     }
-    let mut diagnostics = Vec::new();
-    let sections = placed::read(text, &mut diagnostics);
-    let mut sorted = sorted(sections, diagnostics);
+    let scan = lines::scan(text);
+    let log = scan.faults.iter().map(faults::finding).collect();
+    let mut sorted = sorted(scan.sections, log);
     sorted.has_lists = true;
     sorted.parsed()
 }
@@ -215,7 +215,7 @@ impl<'a> Sorted<'a> {
             }
         }
         self.others.sort_by_key(|section| section.header.start);
-        parsed.description.sections = self.others.into_iter().map(Placed::into_section).collect();
+        parsed.description.sections = self.others.into_iter().map(kept).collect();
         modules::check(&parsed.description.sections, &mut self.log);
         let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
         if self.has_lists {
@@ -225,6 +225,17 @@ impl<'a> Sorted<'a> {
         parsed.diagnostics = self.log;
         crate::finding::sort(&mut parsed.diagnostics);
         parsed
+    }
+}
+
+/// A section as a description keeps it.
+fn kept(section: Placed<'_>) -> Section {
+    let pairs = section.pairs.into_iter();
+    Section {
+        name: owned(section.name),
+        pairs: pairs
+            .map(|(key, value)| (owned(key), owned(value)))
+            .collect(),
     }
 }
 

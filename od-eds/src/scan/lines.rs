@@ -1,43 +1,46 @@
-//! Where everything stands: sections, keys and values line by line.
+//! Lines to sections: where every section, key and value is.
 //!
-//! INI readers report no places, and give up at the first line they do not know. This
-//! scanner finds the places and names the lines that are neither section, key nor
-//! comment; what it makes of all others is compared with rust-ini in a test.
+//! INI parsers report no places, and stop at the first line that they do not know. This scanner
+//! goes on: what is not plain INI is a [`Fault`], plain data that the reader makes a finding of.
 
-use alloc::format;
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
-use crate::finding::Finding;
-use crate::fix::Fix;
-use crate::rules;
+use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
-
-/// A section as it stands in the text.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct RawSection<'a> {
-    /// The trimmed text between the brackets; empty for the keys before the first section.
-    pub(crate) name: Spanned<&'a str>,
-    /// The brackets with what is between them.
-    pub(crate) header: Span,
-    /// Keys and values, trimmed.
-    pub(crate) pairs: Vec<RawPair<'a>>,
-    /// The first `;StorageLocation=` comment.
-    pub(crate) storage: Option<Spanned<&'a str>>,
-}
-
-/// A line `key=value`.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct RawPair<'a> {
-    pub(crate) key: Spanned<&'a str>,
-    pub(crate) value: Spanned<&'a str>,
-}
 
 /// What the scanner makes of a text.
 pub(crate) struct Scan<'a> {
     /// Sections in file order, duplicates and all.
-    pub(crate) sections: Vec<RawSection<'a>>,
-    /// What was left out, or amended.
-    pub(crate) diagnostics: Vec<Finding>,
+    pub(crate) sections: Vec<Placed<'a>>,
+    /// What was ignored, or read otherwise than it is written, in file order.
+    pub(crate) faults: Vec<Fault<'a>>,
+}
+
+/// A line that is not plain INI.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Fault<'a> {
+    /// Not a section, a `key=value` line or a comment; ignored.
+    NoPair(Spanned<&'a str>),
+    /// A line with nothing before its `=`; ignored.
+    NoKey(Spanned<&'a str>),
+    /// A header without a closing bracket; its name ends before a comment, or with the line.
+    Open { line: Span, name: Spanned<&'a str> },
+    /// Text behind a header; ignored.
+    Behind {
+        name: &'a str,
+        text: Spanned<&'a str>,
+    },
+    /// A header with nothing between its brackets.
+    NoName(Span),
+    /// A key before the first section, with its line.
+    NoSection { line: Span, key: &'a str },
+    /// A line with `:` instead of `=`.
+    Colon {
+        at: Span,
+        key: &'a str,
+        value: &'a str,
+    },
 }
 
 /// One line, and where it is.
@@ -66,6 +69,10 @@ impl<'a> Line<'a> {
 
     fn spanned(&self, part: &'a str) -> Spanned<&'a str> {
         Spanned::new(part, self.span(part))
+    }
+
+    fn text(&self, part: &'a str) -> Text<'a> {
+        Spanned::new(Cow::Borrowed(part), self.span(part))
     }
 }
 
@@ -118,7 +125,7 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
 pub(crate) fn scan(text: &str) -> Scan<'_> {
     let mut scan = Scan {
         sections: Vec::new(),
-        diagnostics: Vec::new(),
+        faults: Vec::new(),
     };
     for line in lines(text) {
         scan.line(&line);
@@ -149,7 +156,7 @@ impl<'a> Scan<'a> {
         if let Some(section) = self.sections.last_mut()
             && section.storage.is_none()
         {
-            section.storage = Some(line.spanned(value.trim()));
+            section.storage = Some(line.text(value.trim()));
         }
     }
 
@@ -159,42 +166,23 @@ impl<'a> Scan<'a> {
             Some((name, behind)) => (name.trim(), behind.trim()),
             None => {
                 let name = inside.split([';', '#']).next().unwrap_or(inside).trim();
-                self.diagnostics.push(
-                    rules::W0103
-                        .told(
-                            line.span(trimmed),
-                            format!("the section `{name}` has no closing bracket"),
-                        )
-                        .with_help(format!("write `[{name}]`"))
-                        .fix(Fix::safe().replace(line.span(name), format!("{name}]"))),
-                );
+                self.faults.push(Fault::Open {
+                    line: line.span(trimmed),
+                    name: line.spanned(name),
+                });
                 (name, "")
             }
         };
         if !behind.is_empty() {
-            self.diagnostics.push(
-                rules::W0104
-                    .told(
-                        line.span(behind),
-                        format!("`{behind}` stands behind the section `[{name}]`"),
-                    )
-                    .with_help("give a comment a line of its own that begins with `;`")
-                    .fix(Fix::safe().replace(
-                        line.span(behind),
-                        format!("\n;{}", behind.trim_start_matches([';', '#'])),
-                    )),
-            );
+            let text = line.spanned(behind);
+            self.faults.push(Fault::Behind { name, text });
         }
         if name.is_empty() {
-            self.diagnostics.push(
-                rules::W0110
-                    .told(line.span(trimmed), "the section has no name")
-                    .with_help("write the name between the brackets"),
-            );
+            self.faults.push(Fault::NoName(line.span(trimmed)));
         }
         let whole = &trimmed[..trimmed.len() - behind.len()];
-        self.sections.push(RawSection {
-            name: line.spanned(name),
+        self.sections.push(Placed {
+            name: line.text(name),
             header: line.span(whole.trim_end()),
             pairs: Vec::new(),
             storage: None,
@@ -203,59 +191,28 @@ impl<'a> Scan<'a> {
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
         let Some(at) = trimmed.find(['=', ':']) else {
-            self.diagnostics.push(
-                rules::W0101
-                    .told(
-                        line.span(trimmed),
-                        format!("`{trimmed}` is no section, no `key=value` and no comment"),
-                    )
-                    .with_help("the line is ignored; begin it with `;` to make it a comment")
-                    .fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
-            );
+            self.faults.push(Fault::NoPair(line.spanned(trimmed)));
             return;
         };
         let (key, value) = (trimmed[..at].trim_end(), trimmed[at + 1..].trim_start());
         if key.is_empty() {
-            self.diagnostics.push(
-                rules::W0102
-                    .told(
-                        line.span(trimmed),
-                        format!("`{trimmed}` has no key before the `=`"),
-                    )
-                    .with_help("the line is ignored; remove it, or name the key")
-                    .fix(Fix::safe().replace(line.span(&trimmed[..0]), ";")),
-            );
+            self.faults.push(Fault::NoKey(line.spanned(trimmed)));
             return;
         }
         if trimmed[at..].starts_with(':') {
-            self.diagnostics.push(
-                rules::W0108
-                    .told(
-                        line.span(&trimmed[at..=at]),
-                        format!("`{key}` is separated from its value by `:`"),
-                    )
-                    .with_help(format!("write `{key}={value}`"))
-                    .fix(Fix::safe().replace(line.span(&trimmed[at..=at]), "=")),
-            );
+            let at = line.span(&trimmed[at..=at]);
+            self.faults.push(Fault::Colon { at, key, value });
         }
-        let pair = RawPair {
-            key: line.spanned(key),
-            value: line.spanned(value),
-        };
+        let pair = (line.text(key), line.text(value));
         match self.sections.last_mut() {
             Some(section) => section.pairs.push(pair),
             None => {
-                self.diagnostics.push(
-                    rules::W0105
-                        .told(
-                            line.span(trimmed),
-                            format!("`{key}` stands before the first section"),
-                        )
-                        .with_help("write the section's name above it, for example `[FileInfo]`"),
-                );
-                self.sections.push(RawSection {
-                    name: Spanned::new("", line.span(&trimmed[..0])),
-                    header: line.span(&trimmed[..0]),
+                let start = line.span(&trimmed[..0]);
+                let line = line.span(trimmed);
+                self.faults.push(Fault::NoSection { line, key });
+                self.sections.push(Placed {
+                    name: Spanned::new(Cow::Borrowed(""), start),
+                    header: start,
                     pairs: alloc::vec![pair],
                     storage: None,
                 });
@@ -270,27 +227,27 @@ mod tests {
 
     /// Every key and value is where its span says.
     #[track_caller]
-    fn check(text: &str, expected: &[(&str, &[(&str, &str)])]) -> Vec<&'static str> {
+    fn check<'a>(text: &'a str, expected: &[(&str, &[(&str, &str)])]) -> Vec<Fault<'a>> {
         let scan = scan(text);
         let found: Vec<_> = scan
             .sections
             .iter()
             .map(|s| {
-                let pairs: Vec<_> = s.pairs.iter().map(|p| (*p.key, *p.value)).collect();
-                (*s.name, pairs)
+                let pairs = s.pairs.iter().map(|(key, value)| (&***key, &***value));
+                (&**s.name, pairs.collect::<Vec<_>>())
             })
             .collect();
         let expected: Vec<_> = expected.iter().map(|(n, p)| (*n, p.to_vec())).collect();
         assert_eq!(found, expected);
         for section in &scan.sections {
             for part in core::iter::once(&section.name)
-                .chain(section.pairs.iter().flat_map(|p| [&p.key, &p.value]))
+                .chain(section.pairs.iter().flat_map(|(key, value)| [key, value]))
             {
                 let Span { start, end, .. } = part.span;
                 assert_eq!(&text[start as usize..end as usize], **part);
             }
         }
-        scan.diagnostics.iter().map(|d| d.code()).collect()
+        scan.faults
     }
 
     #[test]
@@ -313,17 +270,28 @@ mod tests {
                 ("z\\", &[("q\\", "1")]),
             ],
         );
-        assert_eq!(
-            faults,
-            ["W0105", "W0103", "W0101", "W0102", "W0104", "W0108"]
-        );
+        assert!(matches!(
+            faults[..],
+            [
+                Fault::NoSection { key: "a", .. },
+                Fault::Open { .. },
+                Fault::NoPair(Spanned { value: "foo", .. }),
+                Fault::NoKey(_),
+                Fault::Behind { name: "y", .. },
+                Fault::Colon {
+                    key: "b",
+                    value: "2",
+                    ..
+                },
+            ]
+        ));
     }
 
     #[test]
     fn columns_count_characters() {
         let text = "[a]\nGröße = µ\r[b]";
         let scan = scan(text);
-        let value = &scan.sections[0].pairs[0].value;
+        let value = &scan.sections[0].pairs[0].1;
         assert_eq!((value.span.line, value.span.column), (2, 9));
         assert_eq!(scan.sections[1].header.line, 3);
     }
@@ -332,7 +300,8 @@ mod tests {
     fn the_storage_comment_belongs_to_its_section() {
         let scan =
             scan("; StorageLocation=X\n[a]\n;StorageLocation = RAM\n;StorageLocation=ROM\n[b]");
-        assert_eq!(scan.sections[0].storage, Some(Spanned::from("RAM")));
+        let storage = scan.sections[0].storage.as_ref();
+        assert_eq!(storage.map(|text| &*text.value), Some("RAM"));
         assert_eq!(scan.sections[1].storage, None);
     }
 }

@@ -1,0 +1,225 @@
+//! An independent reader against ours: rust-ini reads every section of every case file, and of
+//! the corpus if there is one, and finds the same keys and values.
+//!
+//! A section is read by rust-ini as it is written. Where a line of it is not plain INI the two may
+//! differ, but then one of our findings is about that section; nothing else is passed over.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::{env, fs, thread};
+
+use ini::{Ini, ParseOption};
+use od_eds::{Document, parse};
+
+/// What we report about lines that are not plain INI.
+const NOT_PLAIN: [&str; 7] = [
+    "W0101", "W0102", "W0103", "W0104", "W0105", "W0108", "W0110",
+];
+
+/// Before every name: what no section of CiA 306 is called, nor nearly.
+const MARK: &str = "a section that describes no object, whatever it is called: ";
+
+/// Keys and values in their order.
+type Pairs = Vec<(String, String)>;
+
+/// A section as it is written.
+struct Chunk {
+    /// Its first line, counted from 1, and the one behind its last.
+    lines: std::ops::Range<u32>,
+    text: String,
+}
+
+#[derive(Default, Debug)]
+struct Sums {
+    sections: usize,
+    pairs: usize,
+    not_plain: usize,
+}
+
+#[test]
+fn rust_ini_reads_the_same_in_every_case() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    collect(&here.join("../tests/cases"), &mut files);
+    collect(&here.join("../devices/eds"), &mut files);
+    let mut sums = Sums::default();
+    for file in &files {
+        compare_file(file, &mut sums);
+    }
+    assert!(sums.sections > 5_000 && sums.pairs > 20_000, "{sums:?}");
+    assert!(sums.not_plain * 100 < sums.sections, "{sums:?}");
+}
+
+#[test]
+fn rust_ini_reads_the_same_in_the_corpus() {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
+    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
+    let mut files = Vec::new();
+    collect(&folder, &mut files);
+    if files.is_empty() {
+        println!("no corpus: set ODKIT_CORPUS to a folder of EDS files");
+        return;
+    }
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for files in files.chunks(files.len().div_ceil(workers)) {
+            scope.spawn(move || {
+                let mut sums = Sums::default();
+                for file in files {
+                    compare_file(file, &mut sums);
+                }
+                assert!(sums.not_plain * 100 < sums.sections, "{sums:?}");
+            });
+        }
+    });
+}
+
+#[test]
+fn rust_ini_reads_the_same_of_all_kinds_of_lines() {
+    let plain = [
+        "[a]",
+        "[]",
+        "[b c]",
+        "k=v",
+        "k = v ",
+        "k=",
+        ";c",
+        " ;c",
+        " k=v",
+        "\tk=v",
+        "\t[c]",
+        "k=;v",
+        "k=[v]",
+        "k=v=w",
+        "k=\"v",
+        "k='v' x",
+        "",
+        " ",
+        "#c",
+        "é=µ",
+        "k==",
+        "k\u{B}=\u{B}v",
+        "k=\0",
+        "k=a\\b",
+    ];
+    let odd = ["[a", "=v", "k", "k:v", "[d] ;x", "[a]]", "\\"];
+    let mut sums = Sums::default();
+    for a in plain.iter().chain(&odd) {
+        for b in plain.iter().chain(&odd) {
+            for text in [[a, b, "k=v"].join("\n"), ["[s]", a, b].join("\r\n")] {
+                compare(&format!("{text:?}"), &text, &mut sums);
+            }
+        }
+    }
+    assert!(sums.not_plain > 500 && sums.sections > 2_000, "{sums:?}");
+}
+
+fn compare_file(file: &Path, sums: &mut Sums) {
+    let document = Document::new(fs::read(file).unwrap());
+    compare(&file.display().to_string(), document.text(), sums);
+}
+
+/// Compares both readings of a text, section by section.
+fn compare(name: &str, text: &str, sums: &mut Sums) {
+    if text.trim_start().starts_with('<') {
+        return;
+    }
+    let chunks = chunks(text);
+    // No section of this name describes an object, so a description keeps all of it.
+    let marked: Vec<&str> = chunks.iter().map(|chunk| chunk.text.as_str()).collect();
+    let parsed = parse(&marked.concat());
+    let mut ours: BTreeMap<u32, (String, Pairs)> = BTreeMap::new();
+    for section in parsed.description.sections {
+        let pairs = section.pairs.into_iter();
+        let pairs = pairs.map(|(key, value)| (key.value, value.value)).collect();
+        ours.insert(section.name.span.line, (section.name.value, pairs));
+    }
+    let findings = parsed.diagnostics.iter();
+    let odd: BTreeSet<u32> = findings
+        .filter(|finding| NOT_PLAIN.contains(&finding.code()))
+        .filter_map(|finding| Some(finding.span()?.line))
+        .collect();
+    for chunk in &chunks {
+        let own = ours.range(chunk.lines.clone()).next();
+        let own = own.map(|(_, section)| section.clone());
+        let is_plain = odd.range(chunk.lines.clone()).next().is_none();
+        let theirs = by_rust_ini(&chunk.text);
+        if theirs == Ok(own.clone()) {
+            sums.sections += 1;
+            sums.pairs += own.map_or(0, |(_, pairs)| pairs.len());
+        } else if is_plain {
+            let line = chunk.lines.start;
+            panic!("{name}: section at line {line}\nours:   {own:?}\ntheirs: {theirs:?}");
+        } else {
+            sums.not_plain += 1;
+        }
+    }
+}
+
+/// The sections of a text, each with a mark in its name. What is before the first comes first.
+fn chunks(text: &str) -> Vec<Chunk> {
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut chunks = Vec::new();
+    let mut chunk = Chunk {
+        lines: 1..1,
+        text: String::new(),
+    };
+    for (number, line) in (1..).zip(text.split('\n')) {
+        let line = line.trim();
+        if let Some(name) = line.strip_prefix('[') {
+            chunks.push(std::mem::replace(
+                &mut chunk,
+                Chunk {
+                    lines: number..number,
+                    text: String::new(),
+                },
+            ));
+            chunk.text = format!("[{MARK}{name}\n");
+        } else {
+            chunk.text.push_str(line);
+            chunk.text.push('\n');
+        }
+        chunk.lines.end = number + 1;
+    }
+    chunks.push(chunk);
+    chunks
+}
+
+/// What rust-ini reads of one section; `None` if there is none.
+fn by_rust_ini(text: &str) -> Result<Option<(String, Pairs)>, String> {
+    // Quotes and backslashes mean nothing in an EDS.
+    let option = ParseOption {
+        enabled_quote: false,
+        enabled_escape: false,
+        ..ParseOption::default()
+    };
+    let ini = Ini::load_from_str_opt(text, option).map_err(|error| error.to_string())?;
+    let sections = ini.into_iter().map(|(name, pairs)| {
+        let pairs: Pairs = pairs.into_iter().collect();
+        (name, pairs)
+    });
+    let mut sections = sections.filter(|(name, pairs)| name.is_some() || !pairs.is_empty());
+    let first = sections
+        .next()
+        .map(|(name, pairs)| (name.unwrap_or_default(), pairs));
+    match sections.next() {
+        None => Ok(first),
+        Some(more) => Err(format!("{first:?} and {more:?}")),
+    }
+}
+
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries {
+        let path = entry.unwrap().path();
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let ending = ending.unwrap_or_default().to_ascii_lowercase();
+        if path.is_dir() {
+            collect(&path, files);
+        } else if matches!(ending.as_str(), "eds" | "dcf" | "xdd" | "xdc" | "xpd") {
+            files.push(path);
+        }
+    }
+}
