@@ -82,7 +82,7 @@ fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
         ("device gxmn", "`gxmn` is no built-in device (gxmm, gxam"),
         ("wait 1s\nat 500ms sync", "time runs forward only"),
         ("use left", "no `device … as left` line stands above"),
-        ("expect value 2000h = 1", "there is no object 2000h"),
+        ("expect value 2000h = 1", "object 2000h does not exist"),
         ("expect value \"Speed\" = 1", "no object is called `Speed`"),
         ("sdo write 2101h = 256", "UNSIGNED8 goes from 0 to 255"),
     ] {

@@ -13,12 +13,12 @@ use crate::report::Report;
 use crate::source::Source;
 use crate::{findings, layout, lower};
 
-/// What a call describes.
+/// The devices that a call describes.
 pub(crate) struct Family {
     pub(crate) base: Device,
     /// In the order of the call's variants.
     pub(crate) variants: Vec<Device>,
-    /// Findings about the file that are no errors.
+    /// Number of findings about the file that are not errors.
     pub(crate) remarks: usize,
 }
 
@@ -145,7 +145,7 @@ fn devices(
     family
 }
 
-/// Where findings go.
+/// Receiver of findings.
 struct Findings<'a> {
     home: Span,
     files: Option<&'a Files>,

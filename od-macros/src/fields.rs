@@ -20,7 +20,7 @@ const NAMES: [&str; 9] = [
 const KEYS: &str =
     "`name`, `type`, `access`, `default`, `low`, `high`, `mappable`, `save` or `code`";
 
-/// Reads the fields up to the closing brace; faulty ones are told and left out.
+/// Reads the fields up to the closing brace; reports and leaves out invalid ones.
 pub(crate) fn read(body: ParseStream, report: &mut Report) -> Vec<Field> {
     let mut fields: Vec<Field> = Vec::new();
     while !body.is_empty() {
@@ -66,8 +66,8 @@ fn field(body: ParseStream) -> syn::Result<(Ident, Field)> {
         return Err(syn::Error::new(
             key.span(),
             match words::near(&name, NAMES.into_iter()) {
-                Some(meant) => format!("there is no field `{key}`\nhelp: did you mean `{meant}`?"),
-                None => format!("there is no field `{key}`\nhelp: a field is {KEYS}"),
+                Some(meant) => format!("`{key}` is not a field\nhelp: did you mean `{meant}`?"),
+                None => format!("`{key}` is not a field\nhelp: a field is {KEYS}"),
             },
         ));
     }

@@ -1,4 +1,4 @@
-//! The EDS file of a call, perhaps with an overlay: which of the two a place stands in.
+//! The EDS file of a call, perhaps with an overlay: maps a place to one of the two.
 
 use od_eds::Span;
 use od_eds::{Origin, Overlaid};

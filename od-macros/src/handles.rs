@@ -15,7 +15,7 @@ use crate::report::Report;
 use crate::target::At;
 use crate::{docs, names};
 
-/// What stands for one object in the module.
+/// The item of one object in the module.
 #[derive(Clone, PartialEq)]
 pub(crate) struct Item {
     pub(crate) index: u16,
@@ -49,7 +49,7 @@ pub(crate) struct Handle {
 /// Names that the module needs for itself.
 const CONSTANTS: [&str; 2] = ["DICTIONARY", "STORE_LEN"];
 
-/// What bears on names besides the description.
+/// Input for names besides the description.
 pub(crate) struct Naming<'a> {
     /// The EDS file, for the docs.
     pub(crate) files: Option<&'a Files>,

@@ -1,7 +1,7 @@
 //! Tokens to AST: the grammar of `object_dictionary!`, and nothing that it means.
 //!
 //! Parsing goes on after a fault at the next statement, so that all faults of a
-//! call are told at once.
+//! call are reported at once.
 
 use od_eds::patch::Action;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -18,10 +18,10 @@ pub(crate) struct Input {
     pub(crate) attrs: Vec<Attribute>,
     pub(crate) visibility: Visibility,
     pub(crate) name: Ident,
-    /// Where the crate `odkit` is, if not at `::odkit`.
+    /// Path of the crate `odkit`; `None` for `::odkit`.
     pub(crate) root: Option<Path>,
     pub(crate) eds: Option<LitStr>,
-    /// What is laid over it.
+    /// Path of the overlay.
     pub(crate) overlay: Option<LitStr>,
     pub(crate) profile: Option<Ident>,
     /// `add`, `modify`, `remove` and `rename` outside of the variants, in their order.
@@ -235,16 +235,16 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             return Err(syn::Error::new(
                 word.span(),
                 format!(
-                    "`{word}` stands in the module, not in a variant\nhelp: a variant takes {allowed}"
+                    "`{word}` belongs in the module, not in a variant\nhelp: a variant takes {allowed}"
                 ),
             ));
         }
         other => {
             let message = match words::near(other, STATEMENTS.into_iter()) {
                 Some(meant) => {
-                    format!("there is no statement `{other}`\nhelp: did you mean `{meant}`?")
+                    format!("`{other}` is not a statement\nhelp: did you mean `{meant}`?")
                 }
-                None => format!("there is no statement `{other}`\nhelp: {}", expected()),
+                None => format!("`{other}` is not a statement\nhelp: {}", expected()),
             };
             return Err(syn::Error::new(word.span(), message));
         }

@@ -61,13 +61,13 @@
 //!
 //! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
 //! mappable unless it says so. A RECORD or an ARRAY is added first and its members
-//! after it; sub-index 0 comes by itself where no `add` gives it, and follows where a
+//! after it; sub-index 0 is added automatically unless an `add` gives it, and follows where a
 //! patch adds or removes members. `none` takes a
 //! default or a limit away.
 //!
 //! The statements of the module make the base; each variant starts from it. They
 //! are strict: to edit what is not there is an error, and to add what is, too. What is
-//! checked is the result, so a file with faults that cannot be changed is mended here:
+//! checked is the result, so faults of a file that cannot be changed are corrected here:
 //! `modify 0x2300 { default = 1 }` where its default is nonsense.
 //!
 //! # What is made
@@ -79,11 +79,11 @@
 //! repeat all get their index or sub-index behind**, `RESERVED_2110`, `RESERVED_2111`
 //! or `RESERVED_05`; `rename` gives better ones, and two renames that meet are an
 //! error. A module that is called like a variant gets its index too. Every item's documentation says index, type, access, default, limits and
-//! where it stands in the EDS.
+//! its place in the EDS.
 //!
 //! A variant is a module inside: `thermometer::outdoor` has its own `DICTIONARY` and
 //! hands on those handles that it keeps, so that one which it removed is not found.
-//! It stands inside because it is written inside, takes the family's visibility with
+//! It is inside because it is written inside, takes the family's visibility with
 //! it and can reach what it hands on. The family has one storage layout: **a handle
 //! of the family is good for the store of every variant that keeps the object and
 //! its type**, so code for all variants is written once, with the family's handles.
@@ -123,7 +123,7 @@ pub fn object_dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStr
     expand(input.into()).into()
 }
 
-/// Parse, build, emit; whatever was wrong is told beside what could be made.
+/// Parse, build, emit; faults are reported beside what could be made.
 fn expand(tokens: TokenStream) -> TokenStream {
     let mut report = report::Report::default();
     let made = input::Input::read(tokens, &mut report).map(|input| {
@@ -176,7 +176,7 @@ mod tests {
         assert!(!made.contains("compile_error"), "{made}");
     }
 
-    /// What an IDE keeps, and the compiler reads again for each build: it grows with the
+    /// The output that an IDE keeps and the compiler reads for each build: it grows with the
     /// dictionary by this much and no more.
     #[test]
     fn an_entry_costs_few_tokens() {

@@ -71,7 +71,7 @@ fn ascii(c: char) -> Vec<char> {
         'µ' | 'μ' => "u",
         '°' => " deg ",
         '%' => " percent ",
-        // An apostrophe stands inside a word.
+        // An apostrophe is part of a word.
         '\'' | '’' => "",
         other => return vec![other],
     };
@@ -138,7 +138,7 @@ pub(crate) fn distinct<K: Ord + Copy>(
     made
 }
 
-/// How many letters differ: inserted, left out, or another (ignoring case).
+/// Number of letters that differ: inserted, left out, or another (ignoring case).
 pub(crate) fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().map(|c| c.to_ascii_lowercase()).collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -22,7 +22,7 @@ pub(crate) fn check(profile: &Ident, description: &Description, report: &mut Rep
     let entry = description.entry(Address::new(0x1000, 0));
     let default = entry.and_then(|e| e.parameter.as_ref().or(e.default.as_ref()));
     let Some(Value::Unsigned(device_type)) = default.map(|d| &d.value) else {
-        // The missing 1000h is told already.
+        // The missing 1000h is reported already.
         return;
     };
     let says = device_type & 0xFFFF;

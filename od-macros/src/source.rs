@@ -9,7 +9,7 @@ use crate::files::Files;
 use crate::input::Input;
 use crate::report::Report;
 
-/// What was read.
+/// The file of a call, as it was read.
 #[derive(Default)]
 pub(crate) struct Source {
     /// The files as they are written in the call, for messages.
@@ -18,9 +18,9 @@ pub(crate) struct Source {
     pub(crate) paths: Vec<PathBuf>,
     /// The findings of the reader.
     pub(crate) findings: Vec<od_eds::Finding>,
-    /// What the file says is as it should be.
+    /// The file has no errors.
     pub(crate) allows: od_eds::check::Allows,
-    /// What the file describes; empty without one.
+    /// The description in the file; empty without a file.
     pub(crate) description: Description,
 }
 
@@ -85,9 +85,9 @@ fn file(literal: &LitStr, report: &mut Report) -> Option<(PathBuf, String)> {
     }
 }
 
-/// The path, relative to the source file that the literal stands in.
+/// The path, relative to the source file of the literal.
 ///
-/// Where the compiler does not say which that is (rust-analyzer; sources under a
+/// If the compiler does not say which file that is (rust-analyzer; sources under a
 /// remapped prefix), it is looked for from the package's usual folders.
 fn locate(literal: &LitStr) -> PathBuf {
     let written = PathBuf::from(literal.value());
@@ -123,7 +123,7 @@ fn unreadable(shown: &str, path: &Path, error: &std::io::Error) -> String {
         Ok(None) => relative.to_string(),
         Err(()) => format!("the folder does not exist; {relative}"),
     };
-    format!("there is no file `{shown}`\nhelp: {help}")
+    format!("file `{shown}` does not exist\nhelp: {help}")
 }
 
 /// The EDS file in the same folder whose name is nearest; an error without that folder.

@@ -10,10 +10,10 @@ use crate::names::distance;
 /// One field's vocabulary.
 pub(crate) struct Words<T: 'static> {
     what: &'static str,
-    /// What is shown to somebody who needs it.
+    /// Words that a help text lists.
     shown: &'static [&'static str],
     of: fn(&str) -> Option<T>,
-    /// What people write who know another language.
+    /// Words of other languages, and what they mean here.
     foreign: &'static [(&'static str, &'static str)],
 }
 

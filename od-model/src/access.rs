@@ -1,4 +1,4 @@
-//! Who may read and write a value, and what saves it (CiA 306-1; CiA 301, object 1010h).
+//! Access to a value from the bus, and the parameter group that saves it (CiA 306-1; CiA 301, object 1010h).
 
 use core::fmt;
 
@@ -21,7 +21,7 @@ pub enum Access {
 }
 
 impl Access {
-    /// The spelling in an EDS: `ro`, `wo`, `rw`, `rwr`, `rww`, `const`.
+    /// Returns the spelling in an EDS: `ro`, `wo`, `rw`, `rwr`, `rww`, `const`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Ro => "ro",
@@ -33,22 +33,22 @@ impl Access {
         }
     }
 
-    /// May a master read it?
+    /// Returns whether a master may read the value.
     pub const fn readable(self) -> bool {
         !matches!(self, Self::Wo)
     }
 
-    /// May a master write it?
+    /// Returns whether a master may write the value.
     pub const fn writable(self) -> bool {
         !matches!(self, Self::Ro | Self::Const)
     }
 
-    /// Could it stand in a TPDO, given that the object is mappable at all?
+    /// Returns whether the value may be mapped into a TPDO if its object is mappable (CiA 306-1).
     pub const fn maps_to_tpdo(self) -> bool {
         matches!(self, Self::Ro | Self::Rw | Self::Rwr | Self::Const)
     }
 
-    /// Could it stand in an RPDO, given that the object is mappable at all?
+    /// Returns whether the value may be mapped into an RPDO if its object is mappable (CiA 306-1).
     pub const fn maps_to_rpdo(self) -> bool {
         matches!(self, Self::Wo | Self::Rw | Self::Rww)
     }

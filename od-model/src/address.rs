@@ -1,4 +1,4 @@
-//! Where a value lives: index and sub-index.
+//! The address of a value: index and sub-index.
 
 use core::fmt;
 

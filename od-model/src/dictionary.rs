@@ -3,7 +3,7 @@
 use crate::index::{self, Place};
 use crate::{Access, Address, DataType, Group, Kind, Literal, ObjectCode, Range};
 
-/// One object: an index with its name, and where its values stand.
+/// One object: its index, its name and the range of its entries.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Object {
     /// Index.
@@ -18,7 +18,7 @@ pub struct Object {
     pub count: u16,
 }
 
-/// One value: what the standard calls the data behind a multiplexer.
+/// One value of an object: the data behind one multiplexer (CiA 301, chapter 7.4).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Entry {
     /// Index and sub-index.
@@ -27,23 +27,23 @@ pub struct Entry {
     pub data_type: DataType,
     /// Access from the bus.
     pub access: Access,
-    /// PDOMapping of the EDS: may stand in a PDO, in the direction the access allows.
+    /// PDOMapping of the EDS: the value may be mapped into PDOs in the direction that the access allows.
     pub mappable: bool,
-    /// Saved by which sub-index of 1010h.
+    /// The sub-index of 1010h that saves the value.
     pub group: Group,
     /// The entry's name, in [`Dictionary::text`].
     pub name: Range,
     /// Value after reset without a saved one.
     pub default: Literal,
-    /// Smallest value, if there is one besides the type's.
+    /// LowLimit; `Literal::None` if only the data type limits the value.
     pub low: Literal,
-    /// Largest value, if there is one besides the type's.
+    /// HighLimit; `Literal::None` if only the data type limits the value.
     pub high: Literal,
-    /// Where the value stands in the store.
+    /// Place of the value in the store.
     pub slot: Slot,
 }
 
-/// Where a value stands in the caller's store.
+/// Place of a value in the caller's store.
 ///
 /// A fixed-size value takes `len` bytes, little-endian. A string takes `len`
 /// bytes too: two for the current length, the rest is capacity. `len` 0 means
@@ -62,7 +62,7 @@ impl Slot {
     pub const NONE: Self = Self { offset: 0, len: 0 };
 }
 
-/// Why there is no entry at an address.
+/// Reason why an address has no entry.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Missing {
     /// No object with this index: SDO abort 06020000h.
@@ -72,17 +72,17 @@ pub enum Missing {
 }
 
 impl Entry {
-    /// May it stand in a TPDO?
+    /// Returns whether the value may be mapped into a TPDO.
     pub const fn maps_to_tpdo(&self) -> bool {
         self.mappable && self.access.maps_to_tpdo()
     }
 
-    /// May it stand in an RPDO?
+    /// Returns whether the value may be mapped into an RPDO.
     pub const fn maps_to_rpdo(&self) -> bool {
         self.mappable && self.access.maps_to_rpdo()
     }
 
-    /// Is its length its own (strings, domains), not the type's?
+    /// Returns whether the length varies (strings, domains) instead of following from the type.
     pub const fn is_variable(&self) -> bool {
         matches!(self.data_type.kind(), Kind::Text | Kind::Bytes)
     }
@@ -91,7 +91,7 @@ impl Entry {
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
 /// Copied freely: it is six slices. The tables are sorted by address, and each object's
-/// entries stand together.
+/// entries are adjacent.
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
     buckets: &'a [u16],
@@ -109,8 +109,7 @@ impl<'a> Dictionary<'a> {
     /// come from the functions of these names.
     ///
     /// # Panics
-    /// Where the tables are not sorted, an object names entries that are not its
-    /// own, or buckets and places are not those of the entries. In a `const` that is a compile error.
+    /// If the tables are not sorted, an object names entries of another object, or buckets and places are not those of the entries. In a `const` that is a compile error.
     pub const fn new(
         buckets: &'a [u16],
         places: &'a [Place],
@@ -131,7 +130,7 @@ impl<'a> Dictionary<'a> {
             );
             assert!(
                 object.first as usize == next,
-                "entries stand in the objects' order"
+                "entries are in the objects' order"
             );
             let mut sub = 0;
             while sub < object.count as usize {
@@ -223,9 +222,9 @@ impl<'a> Dictionary<'a> {
         Ok(entry)
     }
 
-    /// The entry at an address, and where its value stands if it is one that a master may
-    /// read and whose length is its type's; a slot without length for any other. To read
-    /// such a value, nothing of the entry is needed.
+    /// The entry at an address, and the slot of its value if a master may read it and its
+    /// type gives the length; a slot of length 0 otherwise. Reading such a value needs
+    /// nothing else of the entry.
     ///
     /// # Errors
     /// As for [`find`](Self::find).
@@ -277,8 +276,8 @@ impl<'a> Dictionary<'a> {
 }
 
 impl PartialEq for Dictionary<'_> {
-    /// Object by object: names, types, access, limits, defaults, groups. Where a
-    /// text stands in the arena does not matter, nor where a value stands in the store.
+    /// Object by object: names, types, access, limits, defaults, groups. The
+    /// places of texts in the arena and of values in the store do not matter.
     fn eq(&self, other: &Self) -> bool {
         let literal = |a: Literal, b: Literal| match (a, b) {
             (Literal::Text(a), Literal::Text(b)) => self.text(a) == other.text(b),

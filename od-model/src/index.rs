@@ -1,4 +1,4 @@
-//! How an entry is found by its address.
+//! The search for an entry by its address.
 //!
 //! A hash table leads to a place of twelve bytes, and that to the value: reading one
 //! takes as long in a large dictionary as in a small one, and most of a dictionary stays
@@ -6,12 +6,12 @@
 
 use crate::{Address, Entry, Slot};
 
-/// What most reads need to know of an entry; stands where the entry stands.
+/// The part of an entry that most reads need; has the same position as the entry.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Place {
     pub(crate) key: u32,
-    /// Where a value stands that a master may read and whose length is its type's;
-    /// without length for any other, of which the entry knows more.
+    /// Slot of a value that a master may read and whose type gives its length;
+    /// length 0 for any other value.
     pub(crate) plain: Slot,
 }
 
@@ -25,7 +25,7 @@ impl Place {
         Self { key, plain }
     }
 
-    /// Is it the place of this entry?
+    /// Returns whether this is the place of the entry.
     pub(crate) const fn is(&self, entry: &Entry) -> bool {
         let Self { key, plain } = Self::of(entry);
         self.key == key && self.plain.offset == plain.offset && self.plain.len == plain.len
@@ -49,11 +49,11 @@ pub const fn places<const N: usize>(entries: &[Entry; N]) -> [Place; N] {
     places
 }
 
-/// Stands in a bucket that is empty: no position of an entry.
+/// Content of an empty bucket: not the position of an entry.
 pub const EMPTY: u16 = u16::MAX;
 
-/// How many buckets [`buckets`] makes of so many places: two to four times as many,
-/// a power of two. None where their positions do not fit 16 bits.
+/// Number of buckets that [`buckets`] makes for this number of places: two to four times as many,
+/// a power of two; 0 if their positions do not fit 16 bits.
 #[must_use]
 pub const fn bucket_count(places: usize) -> usize {
     if places > EMPTY as usize {
@@ -65,7 +65,7 @@ pub const fn bucket_count(places: usize) -> usize {
 /// A hash table of the places' positions; `N` is their [`bucket_count`].
 ///
 /// # Panics
-/// Where `N` is not their bucket count. In a `const` that is a compile error.
+/// If `N` is not their bucket count. In a `const` that is a compile error.
 #[must_use]
 pub const fn buckets<const N: usize>(places: &[Place]) -> [u16; N] {
     assert!(N == bucket_count(places.len()), "the places' bucket count");
@@ -129,7 +129,7 @@ pub(crate) const fn are_filled(buckets: &[u16], places: &[Place]) -> bool {
     true
 }
 
-/// Where the search for a key begins; modulo the number of buckets, which is 2¹⁷ at most.
+/// Bucket at which the search for a key begins; modulo the number of buckets, which is 2¹⁷ at most.
 #[inline]
 const fn own_bucket(key: u32) -> usize {
     (key.wrapping_mul(0x9E37_79B1) >> 15) as usize

@@ -174,7 +174,7 @@ impl<T, A, M> Var<T, A, M> {
         self.address
     }
 
-    /// Where the value stands in the store.
+    /// Place of the value in the store.
     pub const fn slot(self) -> Slot {
         self.slot
     }
@@ -237,7 +237,7 @@ impl<A> Text<A> {
         }
     }
 
-    /// Where the string stands in the store; two bytes of it are its length.
+    /// Place of the string in the store; two bytes of it are the length.
     pub const fn slot(self) -> Slot {
         self.slot
     }
@@ -246,9 +246,9 @@ impl<A> Text<A> {
 /// One line of a PDO mapping (CiA 301, objects 1600h and 1A00h).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MapEntry {
-    /// What is mapped.
+    /// Address of the mapped value.
     pub address: Address,
-    /// How many bits of it: its whole length.
+    /// Length in bits, 1 to 64: the whole value.
     pub bits: u8,
 }
 
@@ -275,7 +275,7 @@ impl<const N: usize> Mapping<N> {
 /// A PDO mapping; as a `const`, one past 64 bits does not compile.
 ///
 /// # Panics
-/// Where the entries together are longer than the 64 bits of a CAN frame
+/// If the entries together are longer than the 64 bits of a CAN frame
 /// (CiA 301, chapter 7.5.2.36: abort 06040042h).
 #[must_use]
 #[track_caller]

@@ -39,7 +39,7 @@ pub enum DataType {
     Identity = 0x23,
 }
 
-/// What the bytes of a value mean.
+/// Meaning of the bytes of a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// One bit in a PDO, one byte in an SDO: 0 or 1.
@@ -50,9 +50,9 @@ pub enum Kind {
     Signed,
     /// IEEE 754.
     Real,
-    /// ISO 646 text, as long as it is.
+    /// ISO 646 text of any length.
     Text,
-    /// Bytes without further meaning, as long as they are.
+    /// Bytes without further meaning, of any length.
     Bytes,
     /// A record; its members carry the values.
     Record,
@@ -174,7 +174,7 @@ impl DataType {
         }
     }
 
-    /// What the bytes mean.
+    /// Returns the meaning of the bytes.
     pub const fn kind(self) -> Kind {
         use DataType::*;
         match self {

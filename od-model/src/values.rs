@@ -44,14 +44,14 @@ pub fn hex(bytes: &[u8]) -> String {
 /// `"text"`, or `[01 02 03]` for bytes of any type.
 ///
 /// # Errors
-/// What would have been right, in words.
+/// A sentence that says what to write instead.
 pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     let text = text.trim();
     if let Some(inner) = text
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'))
     {
-        return parse_hex(inner).ok_or_else(|| format!("`{text}` is no list of hex bytes"));
+        return parse_hex(inner).ok_or_else(|| format!("`{text}` is not a list of hex bytes"));
     }
     let quoted = text
         .strip_prefix('"')
@@ -70,7 +70,9 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
         _ => {}
     }
     if data_type.kind() == Kind::Real {
-        let value: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+        let value: f64 = text
+            .parse()
+            .map_err(|_| format!("`{text}` is not a number"))?;
         return Ok(match data_type.size() {
             Some(4) => (value as f32).to_le_bytes().to_vec(),
             _ => value.to_le_bytes().to_vec(),
@@ -79,7 +81,7 @@ pub fn parse(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     let value = match text {
         "true" => 1,
         "false" => 0,
-        _ => integer(text).ok_or_else(|| format!("`{text}` is no number"))?,
+        _ => integer(text).ok_or_else(|| format!("`{text}` is not a number"))?,
     };
     let (low, high) = data_type.integer_range().unwrap_or((0, 0));
     if value < low || value > high {
@@ -143,13 +145,13 @@ pub fn address(text: &str) -> Option<Address> {
 /// by its own name if there is only one such, else as `object.member`.
 ///
 /// # Errors
-/// What is the matter, in words.
+/// A sentence that says why no entry matches.
 pub fn find<'a>(dictionary: Dictionary<'a>, text: &str) -> Result<&'a Entry, String> {
     let text = text.trim();
     if let Some(address) = address(text) {
         return dictionary.find(address).map_err(|missing| match missing {
-            Missing::Object => format!("there is no object {:04X}h", address.index),
-            Missing::SubIndex => format!("there is no sub-index {address}"),
+            Missing::Object => format!("object {:04X}h does not exist", address.index),
+            Missing::SubIndex => format!("sub-index {address} does not exist"),
         });
     }
     let wanted = text.trim_matches('"');

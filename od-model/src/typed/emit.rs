@@ -1,4 +1,4 @@
-//! What generated code is written with; not an API.
+//! Helpers of generated code; not an API.
 
 pub use super::{Const, NoPdo, Pdo, Ro, Rw, Rwr, Rww, Text, Var, Wo};
 use crate::{Address, Slot};

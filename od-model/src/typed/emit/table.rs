@@ -70,7 +70,7 @@ pub const fn object_row(object: &Object) -> [u8; OBJECT] {
 /// The objects of these rows.
 ///
 /// # Panics
-/// Where there are not `N` of them. In a `const` that is a compile error.
+/// If there are not `N` of them. In a `const` that is a compile error.
 #[rustfmt::skip]
 pub const fn objects<const N: usize>(rows: &[u8]) -> [Object; N] {
     let rows = rows.as_chunks::<OBJECT>().0;
@@ -136,7 +136,7 @@ const fn literal_row(literal: Literal) -> (u8, [u8; 8]) {
 /// The entries of these rows.
 ///
 /// # Panics
-/// Where there are not `N` of them. In a `const` that is a compile error.
+/// If there are not `N` of them. In a `const` that is a compile error.
 #[rustfmt::skip]
 pub const fn entries<const N: usize>(rows: &[u8]) -> [Entry; N] {
     let rows = rows.as_chunks::<ENTRY>().0;
@@ -179,7 +179,7 @@ pub const fn entries<const N: usize>(rows: &[u8]) -> [Entry; N] {
     entries
 }
 
-/// What stands in a table before its rows are read.
+/// Initial content of a table.
 const NOTHING: Entry = Entry {
     address: Address::new(0, 0),
     data_type: DataType::Unsigned8,
