@@ -116,6 +116,27 @@ fn options_rule_every_transfer() {
 }
 
 #[test]
+fn a_node_that_boots_is_asked_again_for_block_transfers() {
+    let mut client = Client::new();
+    let value = pattern(100);
+    let refuse = |client: &mut Client| {
+        client.write(node(1), OBJECT, &value);
+        let sent = out(client, 0);
+        client.handle_frame(at(0), &frame("581#8003200001000405"));
+        client.handle_frame(at(0), &frame("581#8003200000000008"));
+        sent
+    };
+    assert_eq!(refuse(&mut client), ["601#C603200064000000"]);
+    assert_eq!(refuse(&mut client), ["601#2103200064000000"]);
+    for other in [Frame::standard(0x701, &[5]), Frame::standard(0x702, &[0])] {
+        client.handle_frame(at(0), &other);
+        assert_eq!(refuse(&mut client), ["601#2103200064000000"], "{other}");
+    }
+    client.handle_frame(at(0), &Frame::standard(0x701, &[0]));
+    assert_eq!(refuse(&mut client), ["601#C603200064000000"]);
+}
+
+#[test]
 fn cancelled_jobs_have_no_event() {
     let mut client = Client::new();
     let active = client.write(node(1), OBJECT, &[1]);

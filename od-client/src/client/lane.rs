@@ -31,7 +31,7 @@ pub(super) struct Lane {
     node: NodeId,
     active: Option<(Job, Transfer)>,
     waiting: VecDeque<Waiting>,
-    /// The node does not know block transfers; it is not asked again.
+    /// The node does not know block transfers; it is not asked again before its next boot-up.
     has_no_block: bool,
 }
 
@@ -47,6 +47,11 @@ impl Lane {
 
     pub(super) const fn node(&self) -> NodeId {
         self.node
+    }
+
+    /// The node starts anew, perhaps as another device.
+    pub(super) fn forget(&mut self) {
+        self.has_no_block = false;
     }
 
     pub(super) fn read(&mut self, job: Job, object: Address, options: Options) {

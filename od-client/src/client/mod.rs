@@ -135,9 +135,13 @@ impl Client {
             lane.handle_frame(now, frame, &mut self.out, &mut self.events);
         }
         self.tasks.handle_frame(now, frame, &mut self.events);
-        if let Some((node, _)) = watch::parse(frame) {
+        if let Some((node, state)) = watch::parse(frame) {
             if !self.watch.contains(node) {
                 self.unwatch(node);
+            }
+            let lane = self.lanes.iter_mut().find(|lane| lane.node() == node);
+            if let Some(lane) = lane.filter(|_| state == State::Initialising) {
+                lane.forget();
             }
             self.watch.handle_frame(now, frame);
             self.take_news();
