@@ -16,8 +16,8 @@ const SCALING: u64 = 1 << 2;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Factor {
     is_on: bool,
-    numerator: u64,
-    denominator: u64,
+    numerator: u32,
+    denominator: u32,
 }
 
 impl Factor {
@@ -28,15 +28,15 @@ impl Factor {
         };
         Self {
             is_on: number(1) == gear.on.into(),
-            numerator: number(2),
-            denominator: number(3),
+            numerator: number(2) as u32,
+            denominator: number(3) as u32,
         }
     }
 
     /// The factor, if it is on and one can divide by it.
     fn ratio(self) -> Option<(u64, u64)> {
         let is_ratio = self.is_on && self.numerator > 0 && self.denominator > 0;
-        is_ratio.then_some((self.numerator, self.denominator))
+        is_ratio.then_some((self.numerator.into(), self.denominator.into()))
     }
 }
 
@@ -98,14 +98,14 @@ impl<M: Motion> Encoder<M> {
         let output = self.output_gear(store);
         self.output = output;
         if let Some((numerator, denominator)) = output {
-            let steps = u128::from(range) * u128::from(denominator) / u128::from(numerator);
+            let steps = range.saturating_mul(denominator) / numerator.max(1);
             // The object takes nothing less than 1.
             let steps = steps.clamp(1, u32::MAX.into()) as u64;
             store.set_unsigned(Address::new(0x6001, 0), steps);
         }
         let steps = self.resolution(store);
         if self.profile.total == Total::Shown {
-            let turns = range / u64::from(steps);
+            let turns = range / u64::from(steps.max(1));
             store.set_unsigned(Address::new(0x6502, 0), turns);
         }
         let scale = if operating & SCALING == 0 {
@@ -230,8 +230,8 @@ impl<M: Motion> Encoder<M> {
 
     /// 6001h as an output gear makes it is one that the sensor has.
     fn check_output(&self, range: u64, numerator: u64, denominator: u64) -> Result<(), AbortCode> {
-        let steps = u128::from(range) * u128::from(denominator);
-        if range > 0 && steps <= u128::from(self.sensor.steps) * u128::from(numerator) {
+        let steps = range.saturating_mul(denominator);
+        if range > 0 && steps <= u64::from(self.sensor.steps).saturating_mul(numerator) {
             Ok(())
         } else {
             Err(AbortCode::Incompatible)

@@ -5,7 +5,10 @@
 //!           6501h   6001h          2001h    6002h     6000h bit 0           6509h
 //! ```
 
-use super::Angle;
+mod ratio;
+
+use super::angle::Angle;
+use ratio::{Ratio, at_least_1};
 
 /// What the sensor tells apart.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -26,11 +29,7 @@ impl Sensor {
     #[inline]
     pub const fn raw(self, angle: Angle) -> u64 {
         let (turns, fraction) = angle.split();
-        let turn = turns.rem_euclid(if self.turns == 0 {
-            1
-        } else {
-            self.turns as i64
-        });
+        let turn = turns.wrapping_rem_euclid(at_least_1(self.turns as u64) as i64);
         turn as u64 * self.steps as u64 + self.step(fraction)
     }
 
@@ -73,13 +72,6 @@ pub struct Scale {
     offset: u64,
 }
 
-/// An exact fraction; numerator at most 2⁶⁴, denominator 1 to 2⁶⁴.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Ratio {
-    numerator: i128,
-    denominator: i128,
-}
-
 /// How a step of the sensor becomes one that is shown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Step {
@@ -105,13 +97,12 @@ impl Scale {
     /// Both are brought into what can be computed with: 1 or more, `range` at most 2³².
     pub const fn new(sensor: Sensor, steps: u32, range: u64) -> Self {
         let sensor = Sensor {
-            steps: if sensor.steps == 0 { 1 } else { sensor.steps },
-            turns: if sensor.turns == 0 { 1 } else { sensor.turns },
+            steps: at_least_1(sensor.steps as u64) as u32,
+            turns: at_least_1(sensor.turns as u64) as u32,
         };
-        let steps = if steps == 0 { 1 } else { steps as u64 };
-        let range = match range {
-            0 => 1,
-            1..=0x1_0000_0000 => range,
+        let steps = at_least_1(steps as u64);
+        let range = match at_least_1(range) {
+            range @ ..=0x1_0000_0000 => range,
             _ => 0x1_0000_0000,
         };
         let most = steps.saturating_mul(sensor.turns as u64);
@@ -157,14 +148,7 @@ impl Scale {
     pub const fn with_gear(self, numerator: u64, denominator: u64) -> Self {
         let mut scale = self.counting_on();
         scale.mask = 0;
-        scale.gear = Some(Ratio {
-            numerator: numerator as i128,
-            denominator: if denominator == 0 {
-                1
-            } else {
-                denominator as i128
-            },
-        });
+        scale.gear = Some(Ratio::new(numerator, denominator));
         scale
     }
 
@@ -178,7 +162,7 @@ impl Scale {
     /// With an offset in steps of this scale; any number, taken modulo the range.
     #[must_use]
     pub const fn with_offset(mut self, offset: i64) -> Self {
-        self.offset = offset.rem_euclid(self.range as i64) as u64;
+        self.offset = self.in_range(offset);
         self
     }
 
@@ -216,7 +200,7 @@ impl Scale {
         let step = match self.step {
             Step::Same => step,
             Step::Shift(bits) => (step * self.steps) >> bits,
-            Step::Divide => step * self.steps / self.sensor.steps as u64,
+            Step::Divide => step * self.steps / at_least_1(self.sensor.steps as u64),
         };
         let total = if self.counts {
             // At most 2³¹ revolutions of less than 2³² steps.
@@ -227,9 +211,9 @@ impl Scale {
         let position = if self.mask != 0 {
             total as u64 & self.mask
         } else if let Some(gear) = self.gear {
-            gear.of(total).rem_euclid(self.range as i128) as u64
+            gear.of(total, self.range)
         } else {
-            total.rem_euclid(self.wrap as i64) as u64
+            total.wrapping_rem_euclid(at_least_1(self.wrap) as i64) as u64
         };
         if self.reversed && position != 0 {
             self.range - position
@@ -241,16 +225,12 @@ impl Scale {
     /// The offset that makes the position at `angle` this one, 0 to range − 1.
     pub const fn offset_for(&self, angle: Angle, position: u32) -> u32 {
         let difference = position as i64 - self.without_offset(angle) as i64;
-        difference.rem_euclid(self.range as i64) as u32
+        self.in_range(difference) as u32
     }
-}
 
-impl Ratio {
-    /// So many times `number`, rounded down.
-    #[inline(never)]
-    const fn of(self, number: i64) -> i128 {
-        // A number is less than 2⁶³, so the product is less than 2¹²⁷.
-        (number as i128 * self.numerator).div_euclid(self.denominator)
+    /// A number modulo the range.
+    const fn in_range(&self, number: i64) -> u64 {
+        number.wrapping_rem_euclid(at_least_1(self.range) as i64) as u64
     }
 }
 
