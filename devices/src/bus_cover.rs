@@ -6,7 +6,7 @@
 //! the family do differently from CiA 301 and CiA 406. What the eight devices do
 //! differently from each other is in their dictionaries alone.
 
-use odkit::encoder::{EncoderProfile, Fault, OperatingTime, Options, Report, Total};
+use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
     LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
@@ -242,9 +242,15 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     zero_is_full: false,
     // 6000h: sense of rotation and scaling.
     operating_bits: 0x0005,
+    objects: &[
+        // What happens after a communication error (C-GX-23).
+        (Address::new(0x1029, 1), Role::OneOf(&[0, 1, 2, 3])),
+        (Address::new(0x2100, 0), Role::BitRate),
+        (Address::new(0x2101, 0), Role::NodeId),
+        (Address::new(0x2201, 2), Role::Seconds),
+        (Address::new(0x6508, 0), Role::TenthHoursSinceStart),
+    ],
     below_limit: AbortCode::ValueRange,
-    // What happens after a communication error (C-GX-23).
-    lists: &[(Address::new(0x1029, 1), &[0, 1, 2, 3])],
     options: Some(Options {
         index: 0x2110,
         keep_offset: 1 << 9,
@@ -252,13 +258,9 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         delay_ms: 2,
         ..Options::NONE
     }),
-    node_id: Some(0x2101),
-    bit_rate: Some(0x2100),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     // Chapter 7.2.2: not the codes of 2100h, there is no 100 kbit/s (C-GX-35).
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
-    seconds: Some(Address::new(0x2201, 2)),
-    operating_time: OperatingTime::SinceStart,
     // Bits of 1001h: U-08.
     reports: &[
         Report {

@@ -8,8 +8,8 @@
 //! with electronics, battery, memory and serial number of its own (chapter 4.5).
 
 use odkit::encoder::{
-    Counter, EncoderProfile, Gear, GearKind, Injection, Movement, OperatingTime, Options, Quantity,
-    RangeRule, Sensor, Source, Total,
+    Counter, EncoderProfile, Gear, GearKind, Movement, Options, Quantity, RangeRule, Role, Sensor,
+    Source, Total,
 };
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
@@ -207,34 +207,36 @@ const BASE: EncoderProfile = EncoderProfile {
         on: 2,
         kind: GearKind::Position,
     }),
-    raw_position: None,
-    movements: &[
+    objects: &[
+        // C-X-16.
+        (Address::new(0x1029, 1), Role::OneOf(&[0, 1, 2])),
+        (Address::new(0x1029, 2), Role::OneOf(&[0, 1, 2])),
+        (Address::new(0x1029, 3), Role::OneOf(&[0, 1, 2])),
+        // C-EAM-34.
+        (Address::new(0x1F80, 0), Role::OneOf(&[0, 8])),
+        (Address::new(0x2001, 1), Role::OneOf(&[1, 2])),
+        (Address::new(0x2100, 0), Role::BitRate),
+        (Address::new(0x2101, 0), Role::NodeId),
+        // Chapter 9.4; C-EAM-12.
+        (Address::new(0x2116, 1), Role::InjectedError),
+        (Address::new(0x2116, 2), Role::InjectedOffset),
+        (Address::new(0x2117, 0), eam_diagnosis::DIAGNOSIS),
+        // U-27.
+        (Address::new(0x2120, 0), Role::TimeStamp),
         // Chapter 4.4.4.
-        Movement {
-            value: Address::new(0x6030, 1),
-            quantity: Quantity::Speed,
-            selector: None,
-            sources: &[(1, Source::Position)],
-            interval: Address::new(0x4001, 0),
-            factor: None,
-        },
-        Movement {
-            value: Address::new(0x2118, 0),
-            quantity: Quantity::Speed,
-            selector: None,
-            sources: &[(1, Source::Revolutions)],
-            interval: Address::new(0x4001, 0),
-            factor: None,
-        },
-        // Chapter 4.4.5; C-EAM-07.
-        Movement {
-            value: Address::new(0x6040, 1),
-            quantity: Quantity::Acceleration,
-            selector: Some(Address::new(0x6041, 1)),
-            sources: &[(1, Source::Position), (2, Source::Fixed(0x1_0000))],
-            interval: Address::new(0x6041, 2),
-            factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
-        },
+        (Address::new(0x6030, 1), speed(&[(1, Source::Position)])),
+        (Address::new(0x2118, 0), speed(&[(1, Source::Revolutions)])),
+        // Chapter 4.4.5; C-EAM-07. 6508h is constant (C-EAM-11).
+        (
+            Address::new(0x6040, 1),
+            Role::Movement(Movement {
+                quantity: Quantity::Acceleration,
+                selector: Some(Address::new(0x6041, 1)),
+                sources: &[(1, Source::Position), (2, Source::Fixed(0x1_0000))],
+                interval: Address::new(0x6041, 2),
+                factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
+            }),
+        ),
     ],
     // C-EAM-04, C-EAM-28.
     links: &[
@@ -242,43 +244,30 @@ const BASE: EncoderProfile = EncoderProfile {
         (Address::new(0x6509, 0), Address::new(0x650C, 1)),
     ],
     below_limit: AbortCode::ValueRange,
-    lists: &[
-        // C-X-16.
-        (Address::new(0x1029, 1), &[0, 1, 2]),
-        (Address::new(0x1029, 2), &[0, 1, 2]),
-        (Address::new(0x1029, 3), &[0, 1, 2]),
-        // C-EAM-34.
-        (Address::new(0x1F80, 0), &[0, 8]),
-        (Address::new(0x2001, 1), &[1, 2]),
-    ],
     // C-EAM-33.
     options: Some(Options {
         index: 0x2110,
         ignore_sense: 1 << 0,
         ..Options::NONE
     }),
-    node_id: Some(0x2101),
-    bit_rate: Some(0x2100),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     // There are no switches.
     switch_rates: &[],
-    seconds: None,
-    seconds_since_start: None,
-    cycles: None,
-    // C-EAM-11: not supported.
-    operating_time: OperatingTime::Constant,
-    // U-27.
-    time_stamp: Some(Address::new(0x2120, 0)),
     reports: eam_diagnosis::SINGLE,
     // 6504h and 6506h do not have all the bits that chapter 9.5 sets (C-EAM-09, C-EAM-10).
     by_support: false,
-    diagnosis: Some(eam_diagnosis::DIAGNOSIS),
-    // Chapter 9.4; C-EAM-12.
-    injection: Some(Injection {
-        code: Address::new(0x2116, 1),
-        offset: Address::new(0x2116, 2),
-    }),
 };
+
+/// A speed that is the mean over 4001h.
+const fn speed(sources: &'static [(u8, Source)]) -> Role {
+    Role::Movement(Movement {
+        quantity: Quantity::Speed,
+        selector: None,
+        sources,
+        interval: Address::new(0x4001, 0),
+        factor: None,
+    })
+}
 
 /// How the multiturn encoder works: chapters 4.4, 9 and 12.3.
 pub static ENCODER: EncoderProfile = BASE;

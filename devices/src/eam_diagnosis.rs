@@ -4,29 +4,25 @@
 //! more closely, and looks at its battery only while power is off (chapter 4.5). The codes
 //! are those of object 2116h:01; the rows stand in the order of the manual's table.
 
-use odkit::Address;
-use odkit::encoder::{Appears, Fault, Mirror, Report, Until};
+use odkit::encoder::{Appears, Fault, Mirror, Report, Role, Until};
 
 /// 2117h: the warnings and alarms once more, with what else 1001h tells.
-pub(crate) const DIAGNOSIS: (Address, &[Mirror]) = (
-    Address::new(0x2117, 0),
-    &[
-        shows(0x6505, 0, 0),
-        shows(0x6505, 2, 1),
-        shows(0x6505, 3, 2),
-        shows(0x6505, 4, 3),
-        shows(0x6505, 12, 4),
-        shows(0x6505, 13, 5),
-        shows(0x6505, 14, 6),
-        shows(0x6505, 15, 7),
-        shows(0x6503, 0, 10),
-        shows(0x6503, 1, 11),
-        shows(0x1001, 4, 12),
-        shows(0x1001, 3, 13),
-        shows(0x6503, 12, 14),
-        shows(0x6503, 15, 15),
-    ],
-);
+pub(crate) const DIAGNOSIS: Role = Role::Diagnosis(&[
+    shows(0x6505, 0, 0),
+    shows(0x6505, 2, 1),
+    shows(0x6505, 3, 2),
+    shows(0x6505, 4, 3),
+    shows(0x6505, 12, 4),
+    shows(0x6505, 13, 5),
+    shows(0x6505, 14, 6),
+    shows(0x6505, 15, 7),
+    shows(0x6503, 0, 10),
+    shows(0x6503, 1, 11),
+    shows(0x1001, 4, 12),
+    shows(0x1001, 3, 13),
+    shows(0x6503, 12, 14),
+    shows(0x6503, 15, 15),
+]);
 
 const fn shows(from: u16, bit: u8, shown: u8) -> Mirror {
     Mirror { from, bit, shown }

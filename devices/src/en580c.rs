@@ -6,8 +6,8 @@
 
 use odkit::Address;
 use odkit::encoder::{
-    Counter, EncoderProfile, Fault, Gear, GearKind, Movement, OperatingTime, Quantity, RangeRule,
-    Report, Sensor, Source, Total,
+    Counter, EncoderProfile, Fault, Gear, GearKind, Movement, Quantity, RangeRule, Report, Role,
+    Sensor, Source, Total,
 };
 use odkit::{
     AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
@@ -164,46 +164,48 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         on: 1,
         kind: GearKind::Output,
     }),
-    raw_position: Some(Address::new(0x600C, 0)),
-    // Chapters 6.2 to 6.5.
-    movements: &[
-        Movement {
-            value: Address::new(0x6030, 1),
-            quantity: Quantity::Speed,
-            selector: Some(Address::new(0x6031, 1)),
-            sources: SOURCES,
-            interval: Address::new(0x6031, 2),
-            factor: Some((Address::new(0x6031, 3), Address::new(0x6031, 4))),
-        },
-        Movement {
-            value: Address::new(0x6040, 1),
-            quantity: Quantity::Acceleration,
-            selector: Some(Address::new(0x6041, 1)),
-            sources: SOURCES,
-            interval: Address::new(0x6041, 2),
-            factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
-        },
+    objects: &[
+        // C-X-16.
+        (Address::new(0x1029, 1), Role::OneOf(&[0, 1, 2])),
+        (Address::new(0x1029, 2), Role::OneOf(&[0, 1, 2])),
+        (Address::new(0x1029, 3), Role::OneOf(&[0, 1, 2])),
+        (Address::new(0x1F80, 0), Role::OneOf(&[0, 8])),
+        (Address::new(0x2001, 1), Role::OneOf(&[0, 1])),
+        (Address::new(0x2100, 0), Role::BitRate),
+        (Address::new(0x2101, 0), Role::NodeId),
+        (Address::new(0x2A00, 1), Role::SecondsSinceStart),
+        (Address::new(0x2A00, 2), Role::Seconds),
+        (Address::new(0x2A01, 0), Role::Cycles),
+        (Address::new(0x600C, 0), Role::RawPosition),
+        // Chapters 6.2 to 6.5.
+        (
+            Address::new(0x6030, 1),
+            Role::Movement(Movement {
+                quantity: Quantity::Speed,
+                selector: Some(Address::new(0x6031, 1)),
+                sources: SOURCES,
+                interval: Address::new(0x6031, 2),
+                factor: Some((Address::new(0x6031, 3), Address::new(0x6031, 4))),
+            }),
+        ),
+        (
+            Address::new(0x6040, 1),
+            Role::Movement(Movement {
+                quantity: Quantity::Acceleration,
+                selector: Some(Address::new(0x6041, 1)),
+                sources: SOURCES,
+                interval: Address::new(0x6041, 2),
+                factor: Some((Address::new(0x6041, 3), Address::new(0x6041, 4))),
+            }),
+        ),
+        // The scope is not said (C-X-09); CiA 406 has it count over the life of the encoder.
+        (Address::new(0x6508, 0), Role::TenthHours),
     ],
     below_limit: AbortCode::ValueTooLow,
-    lists: &[
-        // C-X-16.
-        (Address::new(0x1029, 1), &[0, 1, 2]),
-        (Address::new(0x1029, 2), &[0, 1, 2]),
-        (Address::new(0x1029, 3), &[0, 1, 2]),
-        (Address::new(0x1F80, 0), &[0, 8]),
-        (Address::new(0x2001, 1), &[0, 1]),
-    ],
     options: None,
-    node_id: Some(0x2101),
-    bit_rate: Some(0x2100),
     bit_rates: &[0, 0, 50, 100, 125, 250, 500, 800, 1000],
     // C-EN-29: the table of the bus cover, without what the device does not have.
     switch_rates: &[0, 0, 50, 125, 250, 500, 800, 1000],
-    seconds: Some(Address::new(0x2A00, 2)),
-    seconds_since_start: Some(Address::new(0x2A00, 1)),
-    cycles: Some(Address::new(0x2A01, 0)),
-    // The scope is not said (C-X-09); CiA 406 has it count over the life of the encoder.
-    operating_time: OperatingTime::Total,
     // Codes and bits of the bus cover (U-09, U-08).
     reports: &[
         Report {

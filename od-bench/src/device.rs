@@ -6,8 +6,8 @@ use std::vec;
 
 #[cfg(feature = "eds")]
 use od_eds::{Finding, Tables};
-use od_model::{Address, Dictionary, Entry};
-use od_runtime::encoder::{Encoder, Fault};
+use od_model::{Dictionary, Entry};
+use od_runtime::encoder::{Encoder, Fault, Role};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
     Application, BusEvent, Event, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
@@ -376,11 +376,11 @@ impl VirtualDevice {
         } = self;
         let code = wanted_rate.and_then(|rate| {
             let code = family.bit_rates.iter().position(|known| *known == rate)?;
-            Some((family.bit_rate?, code as u64))
+            Some((family.object(Role::BitRate)?, code as u64))
         });
         let id = family
-            .node_id
-            .map(|index| (index, u64::from(wanted_id.raw())));
+            .object(Role::NodeId)
+            .map(|at| (at, u64::from(wanted_id.raw())));
         let wanted = [id, code];
         let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
             return;
@@ -391,9 +391,9 @@ impl VirtualDevice {
             return;
         }
         let mut differs = false;
-        for (index, value) in wanted.into_iter().flatten() {
-            differs |= store.unsigned(index, 0) != value;
-            store.set_unsigned(Address::new(index, 0), value);
+        for (at, value) in wanted.into_iter().flatten() {
+            differs |= store.unsigned(at.index, at.sub) != value;
+            store.set_unsigned(at, value);
         }
         if differs {
             // Only the group of the object; a storage that fails keeps the default.

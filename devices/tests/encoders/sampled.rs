@@ -3,7 +3,7 @@
 use od_bench::VirtualDevice;
 use od_devices::DEVICES;
 use odkit::Address;
-use odkit::encoder::{Angle, Fault, PositionSource, Sampled};
+use odkit::encoder::{Angle, Fault, PositionSource, Role, Sampled};
 use odkit::{DeviceKind, Duration, Instant, NodeId};
 
 use crate::bench::Bench;
@@ -34,9 +34,10 @@ fn bench(kind: &DeviceKind) -> Bench<Shaft> {
 fn with_speed() -> impl Iterator<Item = (&'static DeviceKind, u64)> {
     let speed = Address::new(0x6030, 1);
     DEVICES.iter().filter_map(move |kind| {
-        let mut movements = kind.encoder.movements.iter();
-        let interval = movements.find(|movement| movement.value == speed)?.interval;
-        let entry = kind.dictionary.find(interval).ok()?;
+        let Role::Movement(movement) = kind.encoder.role(speed)? else {
+            return None;
+        };
+        let entry = kind.dictionary.find(movement.interval).ok()?;
         Some((kind, entry.default.integer(1)? as u64))
     })
 }
@@ -48,7 +49,7 @@ impl Bench<Shaft> {
 
     /// 6030h:01, 16 or 32 bits.
     fn speed(&mut self) -> i32 {
-        match self.encoder.profile().raw_position {
+        match self.encoder.profile().object(Role::RawPosition) {
             // The EN580C.
             Some(_) => self.read16(0x6030, 1).into(),
             None => self.read(0x6030, 1) as i32,

@@ -1,12 +1,15 @@
 //! The encoder as the [`Application`] behind a node.
 
-use od_model::typed::{Scalar, Var};
+use od_model::typed::{Ro, Scalar, Var};
 use od_model::{Address, Entry, Kind};
 
-use super::faults::Faults;
-use super::power::OPERATING_TIME;
+use super::angle::Angle;
+use super::faults::{self, Faults};
+use super::motion::Motion;
+use super::object::Role;
+use super::profile::{EncoderProfile, Options};
+use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
-use super::{Angle, Encoder, EncoderProfile, Motion};
 use crate::application::{Application, Context, Reset};
 use crate::store::Store;
 use od_wire::{AbortCode, Instant, NodeId};
@@ -32,16 +35,16 @@ impl<M: Motion> Application for Encoder<M> {
             self.shaft.start(cx.now, self.profile.counter, self.sensor);
         }
         self.agree_on_timer(cx, starts);
-        self.show_time(cx.store, cx.now);
+        self.show_time(cx);
     }
 
     fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
-        let index = self.profile.node_id?;
+        let at = self.profile.object(Role::NodeId)?;
         let switches = match self.profile.switch_rates {
             [] => None,
             _ => NodeId::new(self.switches.node_id),
         };
-        switches.or_else(|| NodeId::new(u8::try_from(store.unsigned(index, 0)).ok()?))
+        switches.or_else(|| NodeId::new(u8::try_from(store.unsigned(at.index, at.sub)).ok()?))
     }
 
     #[inline]
@@ -51,8 +54,10 @@ impl<M: Motion> Application for Encoder<M> {
                 let angle = self.sense(cx);
                 cx.store.set(handle, self.scale.position(angle));
             }
-        } else if self.live & live_bit(address.index) != 0 {
-            self.refresh_other(cx, address);
+        } else if self.live & live_bit(address.index) != 0
+            && let Some(role) = self.profile.role(address)
+        {
+            self.show(cx, address, role);
         }
         Ok(())
     }
@@ -70,40 +75,26 @@ impl<M: Motion> Application for Encoder<M> {
             _ => return Ok(()),
         };
         let profile = self.profile;
-        if Some(address.index) == profile.bit_rate {
-            let code = usize::try_from(number).unwrap_or(usize::MAX);
-            return match profile.bit_rates.get(code) {
-                Some(1..) => Ok(()),
-                _ => Err(AbortCode::ValueRange),
-            };
+        match profile.role(address) {
+            Some(Role::OneOf(list)) => in_list(list.iter().copied(), number)?,
+            Some(Role::NodeId) => self.between(number, 1, 127)?,
+            Some(Role::BitRate) => {
+                let code = usize::try_from(number).unwrap_or(usize::MAX);
+                let rate = profile.bit_rates.get(code);
+                only(rate.is_some_and(|rate| *rate != 0))?;
+            }
+            Some(Role::InjectedError) => only(Faults::knows(profile.reports, number as u32))?,
+            _ => {}
         }
-        if let Some((_, list)) = profile.lists.iter().find(|(at, _)| *at == address) {
-            in_list(list.iter().copied(), number)?;
-        }
-        for movement in profile.movements {
+        for (_, movement) in profile.movements() {
             if movement.selector == Some(address) {
                 in_list(movement.sources.iter().map(|(value, _)| *value), number)?;
             }
-            if movement
-                .factor
-                .is_some_and(|(_, divider)| divider == address)
-            {
+            if movement.factor.is_some_and(|(_, at)| at == address) {
                 self.between(number, 1, u64::MAX)?;
             }
         }
-        if profile
-            .injection
-            .is_some_and(|injection| injection.code == address)
-        {
-            let known = Faults::knows(profile.reports, number as u32);
-            return if known {
-                Ok(())
-            } else {
-                Err(AbortCode::ValueRange)
-            };
-        }
         match self.link(address).index {
-            _ if Some(address.index) == profile.node_id => self.between(number, 1, 127),
             0x6001 => self.between(number, 1, self.sensor.steps.into()),
             0x6002 => self.check_range(cx.store, number),
             0x6003 => self.between(number, 0, self.scale.range() - 1),
@@ -145,7 +136,7 @@ impl<M: Motion> Application for Encoder<M> {
     }
 
     fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
-        super::faults::info(store)
+        faults::info(store)
     }
 
     fn storage_is(&mut self, sound: bool) {
@@ -181,25 +172,23 @@ impl<M: Motion> Encoder<M> {
 
     /// Brings a live value that is not the position up to date.
     #[inline(never)]
-    fn refresh_other(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        let (at, profile) = (Some(address), self.profile);
-        if self.is_time(address) {
-            self.show_time(cx.store, cx.now);
-        } else if at == profile.raw_position {
+    pub(super) fn show(&mut self, cx: &mut Context<'_, '_>, address: Address, role: &Role) {
+        let value = match role {
+            Role::Seconds => self.seconds_at(cx.now).into(),
+            Role::TenthHours => (self.seconds_at(cx.now) / 360).into(),
+            Role::SecondsSinceStart => self.seconds_since_start(cx.now).into(),
+            Role::TenthHoursSinceStart => (self.seconds_since_start(cx.now) / 360).into(),
+            Role::TimeStamp => self.micros(cx.now),
             // Modulo 2³², as the object holds it.
-            let angle = self.sense(cx);
-            cx.store.set_unsigned(address, self.sensor.raw(angle));
-        } else if at == profile.time_stamp {
-            cx.store.set_unsigned(address, self.micros(cx.now));
-        } else if let Some((_, mirrors)) = profile.diagnosis.filter(|(at, _)| *at == address) {
-            let bits = mirrors.iter().fold(0, |bits, mirror| {
+            Role::RawPosition => self.sensor.raw(self.sense(cx)),
+            Role::Diagnosis(mirrors) => mirrors.iter().fold(0, |bits, mirror| {
                 let of = cx.store.unsigned(mirror.from, 0);
                 bits | (of >> mirror.bit & 1) << mirror.shown
-            });
-            cx.store.set_unsigned(address, bits);
-        } else {
-            self.show_movement(cx.store, cx.now, address);
-        }
+            }),
+            Role::Movement(movement) => self.shown_movement(cx, address, movement) as u64,
+            _ => return,
+        };
+        cx.store.set_unsigned(address, value);
     }
 
     /// The resolution or the range is a new one, and with it the offset means nothing.
@@ -212,24 +201,19 @@ impl<M: Motion> Encoder<M> {
 
     /// A test fakes something.
     fn take_injection(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        let Some(injection) = self.profile.injection else {
-            return;
-        };
-        if address == injection.code {
-            let code = cx.store.unsigned(address.index, address.sub) as u32;
-            self.faults.inject(self.profile.reports, code);
-            self.faults.report(cx, self.profile);
-        } else if address == injection.offset {
-            self.configure(cx.store);
+        match self.profile.role(address) {
+            Some(Role::InjectedError) => {
+                let code = cx.store.unsigned(address.index, address.sub) as u32;
+                self.faults.inject(self.profile.reports, code);
+                self.faults.report(cx, self.profile);
+            }
+            Some(Role::InjectedOffset) => self.configure(cx.store),
+            _ => {}
         }
     }
 
     /// Is one of these bits of the manufacturer options set?
-    pub(super) fn has_option(
-        &self,
-        store: &Store<'_>,
-        bits: impl Fn(&super::Options) -> u32,
-    ) -> bool {
+    pub(super) fn has_option(&self, store: &Store<'_>, bits: impl Fn(&Options) -> u32) -> bool {
         let Some(options) = &self.profile.options else {
             return false;
         };
@@ -239,7 +223,12 @@ impl<M: Motion> Encoder<M> {
 
 /// A value of a list, else 06090030h.
 fn in_list(mut list: impl Iterator<Item = u8>, number: u64) -> Result<(), AbortCode> {
-    if list.any(|known| u64::from(known) == number) {
+    only(list.any(|known| u64::from(known) == number))
+}
+
+/// A value that is known, else 06090030h.
+fn only(is_known: bool) -> Result<(), AbortCode> {
+    if is_known {
         Ok(())
     } else {
         Err(AbortCode::ValueRange)
@@ -249,17 +238,8 @@ fn in_list(mut list: impl Iterator<Item = u8>, number: u64) -> Result<(), AbortC
 /// The indices of live objects as a set that may name a few others, too: most reads are of
 /// objects that are not live, and one look tells.
 fn live_bits(profile: &EncoderProfile) -> u64 {
-    let others = [
-        Some(OPERATING_TIME),
-        profile.seconds,
-        profile.seconds_since_start,
-        profile.raw_position,
-        profile.time_stamp,
-        profile.diagnosis.map(|(at, _)| at),
-    ];
-    let movements = profile.movements.iter().map(|movement| movement.value);
-    let all = others.into_iter().flatten().chain(movements);
-    all.fold(0, |bits, at| bits | live_bit(at.index))
+    let live = profile.objects.iter().filter(|(_, role)| role.is_live());
+    live.fold(0, |bits, (at, _)| bits | live_bit(at.index))
 }
 
 /// An index as one of 64 bits.
@@ -269,7 +249,7 @@ const fn live_bit(index: u16) -> u64 {
 }
 
 /// The handle of 6004h, whatever its width; it lies in the store where it lies.
-fn position_handle(store: &Store<'_>) -> Option<Var<u32, od_model::typed::Ro>> {
+fn position_handle(store: &Store<'_>) -> Option<Var<u32, Ro>> {
     let entry = store.dictionary().entry(POSITION, 0)?;
     let is_integer = matches!(entry.data_type.kind(), Kind::Unsigned | Kind::Signed);
     is_integer.then(|| {

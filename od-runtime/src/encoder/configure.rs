@@ -2,7 +2,12 @@
 
 use od_model::{Address, Group};
 
-use super::{Angle, Counter, Encoder, Gain, Gear, GearKind, Motion, RangeRule, Scale, Total};
+use super::angle::Angle;
+use super::motion::{Gain, Motion};
+use super::object::Role;
+use super::position::Scale;
+use super::profile::{Counter, Gear, GearKind, RangeRule, Total};
+use super::state::Encoder;
 use crate::store::Store;
 use od_wire::AbortCode;
 
@@ -100,7 +105,7 @@ impl<M: Motion> Encoder<M> {
         if let Some((numerator, denominator)) = output {
             let steps = range.saturating_mul(denominator) / numerator.max(1);
             // The object takes nothing less than 1.
-            let steps = steps.clamp(1, u32::MAX.into()) as u64;
+            let steps = steps.clamp(1, u32::MAX.into());
             store.set_unsigned(Address::new(0x6001, 0), steps);
         }
         let steps = self.resolution(store);
@@ -157,7 +162,7 @@ impl<M: Motion> Encoder<M> {
 
     /// What a test adds to the position.
     fn injected_offset(&self, store: &Store<'_>) -> i64 {
-        let at = self.profile.injection.map(|injection| injection.offset);
+        let at = self.profile.object(Role::InjectedOffset);
         at.map_or(0, |at| i64::from(store.unsigned(at.index, at.sub) as u32))
     }
 

@@ -2,7 +2,8 @@
 
 use od_model::Address;
 
-use super::{Appears, EncoderProfile, Fault, Report, Until};
+use super::fault::{Appears, Fault, Report, Until};
+use super::profile::EncoderProfile;
 use crate::application::Context;
 use crate::emcy::Emcy;
 use crate::store::Store;

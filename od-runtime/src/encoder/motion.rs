@@ -1,6 +1,9 @@
 //! What an encoder has to know of the shaft that it sits on.
 
-use super::{Angle, Counter, Fault, Sensor};
+use super::angle::Angle;
+use super::fault::Fault;
+use super::position::Sensor;
+use super::profile::Counter;
 use od_wire::Instant;
 
 /// Angle, speed and acceleration of a shaft.

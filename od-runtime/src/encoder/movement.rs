@@ -2,13 +2,12 @@
 
 use od_model::Address;
 
-use super::{Encoder, Gain, Motion, Movement, Quantity, Source};
+use super::motion::{Gain, Motion};
+use super::object::{Movement, Quantity, Source};
+use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
 use od_wire::Instant;
-
-/// How many movements of a profile are told apart.
-pub(super) const MOVEMENTS: usize = 4;
 
 impl<M: Motion> Encoder<M> {
     /// The source or the interval of a movement changed, or all began anew: a whole interval
@@ -18,13 +17,15 @@ impl<M: Motion> Encoder<M> {
         cx: &Context<'_, '_>,
         which: impl Fn(&Movement) -> bool,
     ) {
-        let movements = self.profile.movements;
-        let known = self.measured_since.iter_mut().zip(movements);
-        for (since, _) in known.filter(|(_, movement)| which(movement)) {
-            *since = cx.now;
+        let mut longest = 0;
+        let movements = self.profile.movements();
+        for (since, (_, movement)) in self.measured_since.iter_mut().zip(movements) {
+            if which(movement) {
+                *since = cx.now;
+            }
+            longest = longest.max(interval(movement, cx.store));
         }
-        let intervals = movements.iter().map(|of| interval(of, cx.store));
-        self.shaft.look_back(intervals.max().unwrap_or(0));
+        self.shaft.look_back(longest);
     }
 
     /// Does the object have a part in a movement: as selector or interval?
@@ -32,27 +33,23 @@ impl<M: Motion> Encoder<M> {
         movement.selector == Some(address) || movement.interval == address
     }
 
-    /// Brings the movement at an address up to date; answers whether there is one.
-    pub(super) fn show_movement(
+    /// Returns the movement at an address, within the limits of its object; 0 while it is not
+    /// known.
+    pub(super) fn shown_movement(
         &self,
-        store: &mut Store<'_>,
-        now: Instant,
+        cx: &Context<'_, '_>,
         address: Address,
-    ) -> bool {
-        let mut movements = self.profile.movements.iter().zip(self.measured_since);
-        let Some((movement, since)) = movements.find(|(movement, _)| movement.value == address)
-        else {
-            return false;
+        movement: &Movement,
+    ) -> i64 {
+        let mut known = self.measured_since.iter().zip(self.profile.movements());
+        let since = known.find(|(_, (at, _))| *at == address);
+        let bits = match cx.store.dictionary().find(address) {
+            Ok(entry) => entry.data_type.bits().unwrap_or(32).clamp(8, 32),
+            Err(_) => return 0,
         };
-        let Ok(entry) = store.dictionary().find(address) else {
-            return false;
-        };
-        let bits = entry.data_type.bits().unwrap_or(32).clamp(8, 32);
         let most = (1i64 << (bits - 1)) - 1;
-        let value = self.movement(store, now, movement, since);
-        let value = value.unwrap_or(0).clamp(-most - 1, most);
-        store.set_unsigned(address, value as u64);
-        true
+        let value = since.and_then(|(since, _)| self.movement(cx.store, cx.now, movement, *since));
+        value.unwrap_or(0).clamp(-most - 1, most)
     }
 
     /// Returns a movement in the units of its object; `None` while it is not known.

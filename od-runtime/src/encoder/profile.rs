@@ -1,8 +1,12 @@
 //! What one encoder family does differently from another, as const data.
 
+use core::mem::discriminant;
+
 use od_model::{Address, DataType, Dictionary};
 
-use super::{Fault, Report, Sensor};
+use super::fault::{Fault, Report};
+use super::object::{Movement, Role};
+use super::position::Sensor;
 use od_wire::AbortCode;
 
 /// What object 6502h counts.
@@ -67,84 +71,6 @@ pub enum GearKind {
     Output,
 }
 
-/// What a speed or an acceleration is made of.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Source {
-    /// Whole revolutions: a speed is per minute.
-    Revolutions,
-    /// Steps of 6004h; sense of rotation and resolution count, offset and range do not. A
-    /// [`GearKind::Output`] counts, a [`GearKind::Position`] does not.
-    Position,
-    /// So many steps per revolution, whatever the scaling; the sense of rotation counts.
-    Fixed(u32),
-    /// Steps of the sensor, without the sense of rotation.
-    Raw,
-}
-
-/// What is derived from the movement of the shaft.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Quantity {
-    /// Steps per second, or revolutions per minute.
-    Speed,
-    /// Steps per second squared.
-    Acceleration,
-}
-
-/// A speed or an acceleration that can be read: the mean over an interval, times a
-/// multiplier, by a divider, rounded towards zero, held in the limits of its object.
-///
-/// It is 0 until a whole interval has passed since the start, or since the interval or the
-/// source was changed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Movement {
-    /// Where it is read; 8, 16 or 32 bits, signed.
-    pub value: Address,
-    /// What it is.
-    pub quantity: Quantity,
-    /// Object that selects the source; values that `sources` has not are answered with
-    /// 06090030h.
-    pub selector: Option<Address>,
-    /// The sources by the selector's value; the first stands where there is no selector.
-    pub sources: &'static [(u8, Source)],
-    /// Object with the interval in milliseconds; 0 counts as 1.
-    pub interval: Address,
-    /// Objects with multiplier and divider. A divider of 0 cannot be written.
-    pub factor: Option<(Address, Address)>,
-}
-
-/// Objects that fake something for a test; what they do is lost at a start.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Injection {
-    /// Takes the codes of [`Report::injection`] one after another; 0 ends them all, what is
-    /// no code of the table is answered with 06090030h. A report that nothing ends
-    /// ([`Until::Ever`](super::Until::Ever)) outlasts a start here, too.
-    pub code: Address,
-    /// Steps that are added to the position.
-    pub offset: Address,
-}
-
-/// A bit that shows a bit of another object.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Mirror {
-    /// Index of the object with the bit, sub-index 0.
-    pub from: u16,
-    /// The bit there.
-    pub bit: u8,
-    /// The bit here.
-    pub shown: u8,
-}
-
-/// What 6508h says.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum OperatingTime {
-    /// What the dictionary has.
-    Constant,
-    /// Six minutes each, since the last start.
-    SinceStart,
-    /// Six minutes each, over the device's life.
-    Total,
-}
-
 /// An object of manufacturer options whose bits change the encoder (2110h).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Options {
@@ -171,6 +97,9 @@ impl Options {
     };
 }
 
+/// How many movements of a profile are told apart.
+pub(super) const MOVEMENTS: usize = 4;
+
 /// What the encoder needs to know of its family besides the dictionary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct EncoderProfile {
@@ -192,47 +121,26 @@ pub struct EncoderProfile {
     pub operating_bits: u16,
     /// The electronic gear.
     pub gear: Option<Gear>,
-    /// Object with the sensor's position modulo 2³² (600Ch); no scaling, sense or offset.
-    pub raw_position: Option<Address>,
-    /// Speeds and accelerations; at most 4.
-    pub movements: &'static [Movement],
+    /// Objects that the encoder does something for; at most 4 of them are a movement.
+    pub objects: &'static [(Address, Role)],
     /// Objects that are one value: whatever is written to one stands in the other. After a
     /// start the one that storage held rules, the first if both.
     pub links: &'static [(Address, Address)],
     /// Answer to a value below its lower limit.
     pub below_limit: AbortCode,
-    /// Objects that take these values and no others; the answer else is 06090030h.
-    pub lists: &'static [(Address, &'static [u8])],
     /// Manufacturer options.
     pub options: Option<Options>,
-    /// Object with the node ID for the next start.
-    pub node_id: Option<u16>,
-    /// Object with the code of the bit rate for the next start.
-    pub bit_rate: Option<u16>,
-    /// Bit rates by that code, in kbit/s; 0 where a code has none.
+    /// Bit rates by the codes of the object for the bit rate ([`Role::BitRate`]), in kbit/s; 0
+    /// where a code has none.
     pub bit_rates: &'static [u16],
-    /// Bit rates by the DIP switches, in kbit/s; at 0 `bit_rate` decides. A device without
+    /// Bit rates by the DIP switches, in kbit/s; at 0 the object decides. A device without
     /// any has no switches for the node ID either.
     pub switch_rates: &'static [u16],
-    /// Object with the operating time since the first power-on, in seconds.
-    pub seconds: Option<Address>,
-    /// Object with the seconds since the last start.
-    pub seconds_since_start: Option<Address>,
-    /// Object that counts how often power came.
-    pub cycles: Option<Address>,
-    /// What 6508h says.
-    pub operating_time: OperatingTime,
-    /// Object with the moment of the position, in microseconds modulo 65,536.
-    pub time_stamp: Option<Address>,
     /// How faults are reported; at most 31.
     pub reports: &'static [Report],
     /// A report exists only where 6504h and 6506h have its bits (by them, variants differ);
     /// else all do.
     pub by_support: bool,
-    /// The object with diagnostic bits, and whose bits it shows.
-    pub diagnosis: Option<(Address, &'static [Mirror])>,
-    /// Objects for tests.
-    pub injection: Option<Injection>,
 }
 
 impl EncoderProfile {
@@ -265,6 +173,30 @@ impl EncoderProfile {
         }
         let in_steps = number(0x6502).is_some_and(|total| number(0x6002) == Some(total));
         Some(if in_steps { &STEPS } else { &Self::CIA406 })
+    }
+
+    /// Returns what the encoder does for an object.
+    pub fn role(&self, address: Address) -> Option<&'static Role> {
+        let mut objects = self.objects.iter();
+        let found = objects.find(|(at, _)| *at == address);
+        found.map(|(_, role)| role)
+    }
+
+    /// Returns the first object with a role, whatever that holds.
+    pub fn object(&self, role: Role) -> Option<Address> {
+        let kind = discriminant(&role);
+        let mut objects = self.objects.iter();
+        let found = objects.find(|(_, role)| discriminant(role) == kind);
+        found.map(|(at, _)| *at)
+    }
+
+    /// Returns the speeds and accelerations, and where they are read.
+    pub fn movements(&self) -> impl Iterator<Item = (Address, &'static Movement)> + use<> {
+        let objects = self.objects.iter();
+        objects.filter_map(|(at, role)| match role {
+            Role::Movement(movement) => Some((*at, movement)),
+            _ => None,
+        })
     }
 
     /// Returns the sensor that the profile or, by its default values, a dictionary describes.
@@ -301,21 +233,12 @@ impl EncoderProfile {
         zero_is_full: false,
         operating_bits: 0x0005,
         gear: None,
-        raw_position: None,
-        movements: &[],
+        objects: &[(Address::new(0x6508, 0), Role::TenthHoursSinceStart)],
         links: &[],
         below_limit: AbortCode::ValueTooLow,
-        lists: &[],
         options: None,
-        node_id: None,
-        bit_rate: None,
         bit_rates: &[],
         switch_rates: &[],
-        seconds: None,
-        seconds_since_start: None,
-        cycles: None,
-        operating_time: OperatingTime::SinceStart,
-        time_stamp: None,
         reports: &[
             Self::NO_ANGLE,
             Report {
@@ -340,8 +263,6 @@ impl EncoderProfile {
             },
         ],
         by_support: true,
-        diagnosis: None,
-        injection: None,
     };
 }
 

@@ -1,9 +1,14 @@
 //! Speed and acceleration of a shaft whose angle a sensor tells, a sample at a time.
 
+mod float;
 mod track;
 
-use super::float::Float;
-use super::{Angle, Counter, Fault, Gain, Motion, Sensor};
+use super::angle::Angle;
+use super::fault::Fault;
+use super::motion::{Gain, Motion};
+use super::position::Sensor;
+use super::profile::Counter;
+use float::Float;
 use od_wire::{Duration, Instant};
 use track::Track;
 

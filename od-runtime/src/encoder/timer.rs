@@ -2,7 +2,8 @@
 
 use od_model::Address;
 
-use super::{Encoder, Motion};
+use super::motion::Motion;
+use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
 

@@ -4,11 +4,11 @@ use std::format;
 use std::prelude::v1::*;
 
 use odkit::encoder::{
-    Appears, Counter, GearKind, OperatingTime, Quantity, RangeRule, Report, Source, Total, Until,
+    Appears, Counter, GearKind, Quantity, RangeRule, Report, Role, Source, Total, Until,
 };
 
 use super::fact;
-use odkit::DeviceKind;
+use odkit::{Address, DeviceKind};
 
 /// The columns of [`faults`].
 pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
@@ -16,7 +16,7 @@ pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
         "`fault`", "EMCY", "1001h", "6503h", "6505h", "seen", "until",
     ]
     .to_vec();
-    if kind.encoder.injection.is_some() {
+    if kind.encoder.object(Role::InjectedError).is_some() {
         head.push("injected by");
     }
     head
@@ -86,22 +86,22 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
         );
         facts.push(fact("Electronic gear", text));
     }
-    for movement in profile.movements {
+    for (address, movement) in profile.movements() {
         let (name, unit) = match (movement.quantity, movement.sources) {
             (Quantity::Speed, [(_, Source::Revolutions), ..]) => ("Speed", "rpm"),
             (Quantity::Speed, _) => ("Speed", "steps/s"),
             (Quantity::Acceleration, _) => ("Acceleration", "steps/s²"),
         };
         let text = format!(
-            "{}, {unit}, mean of {} milliseconds",
-            movement.value, movement.interval
+            "{address}, {unit}, mean of {} milliseconds",
+            movement.interval
         );
         facts.push(fact(name, text));
     }
-    let time = match profile.operating_time {
-        OperatingTime::Constant => "not counted",
-        OperatingTime::SinceStart => "0.1 h since the last start",
-        OperatingTime::Total => "0.1 h over the device's life",
+    let time = match profile.role(Address::new(0x6508, 0)) {
+        Some(Role::TenthHoursSinceStart) => "0.1 h since the last start",
+        Some(Role::TenthHours) => "0.1 h over the device's life",
+        _ => "not counted",
     };
     facts.push(fact("6508h", time));
     facts

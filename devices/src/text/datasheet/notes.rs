@@ -2,8 +2,10 @@
 
 use std::format;
 use std::prelude::v1::*;
+use std::string::ToString;
 
 use odkit::Address;
+use odkit::encoder::{EncoderProfile, Role};
 
 use super::services;
 use odkit::DeviceKind;
@@ -11,10 +13,11 @@ use odkit::DeviceKind;
 /// The note on a value, empty where there is none.
 pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
     let encoder = kind.encoder;
-    let is = |wanted: Option<Address>| wanted == Some(address);
-    if let Some((_, list)) = encoder.lists.iter().find(|(at, _)| *at == address) {
-        let numbers: Vec<String> = list.iter().map(u8::to_string).collect();
-        return format!("takes {}", numbers.join(", "));
+    if let Some(note) = encoder
+        .role(address)
+        .and_then(|role| note_of(role, encoder))
+    {
+        return note;
     }
     if let Some((one, other)) = encoder
         .links
@@ -24,30 +27,12 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
         let twin = if *one == address { other } else { one };
         return format!("one value with {twin}");
     }
-    let movement = encoder
-        .movements
-        .iter()
-        .find(|movement| movement.selector == Some(address));
-    if let Some(movement) = movement {
-        let numbers = movement
-            .sources
-            .iter()
-            .map(|(number, _)| number.to_string());
-        return format!("takes {}", numbers.collect::<Vec<_>>().join(", "));
-    }
-    if is(encoder.injection.map(|injection| injection.code)) {
-        return "takes the codes of the table above; 0 ends them".into();
+    let mut movements = encoder.movements();
+    if let Some((_, movement)) = movements.find(|(_, movement)| movement.selector == Some(address))
+    {
+        return takes(movement.sources.iter().map(|(number, _)| number));
     }
     match (address.index, address.sub) {
-        (index, 0) if Some(index) == encoder.node_id => "acts at the next start".into(),
-        (index, 0) if Some(index) == encoder.bit_rate => {
-            let rates = encoder.bit_rates;
-            let known: Vec<String> = (0..rates.len())
-                .filter(|code| rates[*code] != 0)
-                .map(|code| code.to_string())
-                .collect();
-            format!("takes {}; acts at the next start", known.join(", "))
-        }
         (0x1010, 1..) => "\"save\": 65766173h".into(),
         (0x1011, 1..) => "\"load\": 64616F6Ch".into(),
         (0x1800 | 0x1801, 2) => format!("takes {}", services::types(kind.profile.pdo.tpdo_types)),
@@ -59,11 +44,33 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
             };
             format!("one value with {twin}")
         }
-        _ if is(encoder.seconds) => "seconds over the device's life".into(),
-        _ if is(encoder.seconds_since_start) => "seconds since the last start".into(),
-        _ if is(encoder.cycles) => "how often power came".into(),
-        _ if is(encoder.time_stamp) => "microseconds, modulo 65536".into(),
-        _ if is(encoder.raw_position) => "of the sensor, modulo 2^32".into(),
         _ => String::new(),
     }
+}
+
+/// The note on what the encoder does for an object.
+fn note_of(role: &Role, encoder: &EncoderProfile) -> Option<String> {
+    Some(match role {
+        Role::OneOf(list) => takes(list.iter()),
+        Role::NodeId => "acts at the next start".into(),
+        Role::BitRate => {
+            let codes = encoder.bit_rates.iter().enumerate();
+            let known = codes.filter(|(_, rate)| **rate != 0);
+            let takes = takes(known.map(|(code, _)| code));
+            format!("{takes}; acts at the next start")
+        }
+        Role::InjectedError => "takes the codes of the table above; 0 ends them".into(),
+        Role::Seconds => "seconds over the device's life".into(),
+        Role::SecondsSinceStart => "seconds since the last start".into(),
+        Role::Cycles => "how often power came".into(),
+        Role::TimeStamp => "microseconds, modulo 65536".into(),
+        Role::RawPosition => "of the sensor, modulo 2^32".into(),
+        _ => return None,
+    })
+}
+
+/// The values that an object takes.
+fn takes(numbers: impl Iterator<Item = impl ToString>) -> String {
+    let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
+    format!("takes {}", numbers.join(", "))
 }

@@ -7,6 +7,7 @@ use odkit::{CommunicationReset, CutSave, Restore, SaveAnswer, SavedCobIds};
 
 use super::fact;
 use odkit::DeviceKind;
+use odkit::encoder::Role;
 
 pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     let mut facts = Vec::new();
@@ -161,11 +162,11 @@ fn bit_rates(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         pairs.collect::<Vec<_>>().join(", ")
     };
     let encoder = kind.encoder;
-    if let Some(index) = encoder.bit_rate {
+    if let Some(address) = encoder.object(Role::BitRate) {
         let rates = list(encoder.bit_rates);
         facts.push(fact(
             "Bit rates",
-            format!("{index:04X}h, in kbit/s: {rates}"),
+            format!("{:04X}h, in kbit/s: {rates}", address.index),
         ));
     }
     if !encoder.switch_rates.is_empty() {

@@ -15,14 +15,20 @@ use super::*;
 use crate::application::{Application, Context, Reset, Signals};
 use crate::emcy::Change;
 use crate::store::Store;
-use od_wire::{AbortCode, NodeId};
+use od_wire::{AbortCode, Instant, NodeId};
 
 /// A family like that of the bus covers.
 static PROFILE: EncoderProfile = EncoderProfile {
     total: Total::Steps,
     signed_offset: false,
     below_limit: AbortCode::ValueRange,
-    lists: &[(Address::new(0x1029, 1), &[0, 1, 2, 3])],
+    objects: &[
+        (Address::new(0x1029, 1), Role::OneOf(&[0, 1, 2, 3])),
+        (Address::new(0x2100, 0), Role::BitRate),
+        (Address::new(0x2101, 0), Role::NodeId),
+        (Address::new(0x2201, 2), Role::Seconds),
+        (Address::new(0x6508, 0), Role::TenthHoursSinceStart),
+    ],
     options: Some(Options {
         index: 0x2110,
         keep_offset: 1 << 9,
@@ -30,11 +36,8 @@ static PROFILE: EncoderProfile = EncoderProfile {
         delay_ms: 2,
         ..Options::NONE
     }),
-    node_id: Some(0x2101),
-    bit_rate: Some(0x2100),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
-    seconds: Some(Address::new(0x2201, 2)),
     reports: &[
         Report {
             counter: Some(Address::new(0x2201, 1)),

@@ -1,5 +1,7 @@
 //! Positions at the edges, and against big integers.
 
+mod ratio;
+
 use super::*;
 
 const MULTIVO: Sensor = Sensor {

@@ -1,5 +1,8 @@
 //! A shaft that is only known by its samples.
 
+mod float;
+mod track;
+
 use super::*;
 
 const MS: u64 = 1_000;

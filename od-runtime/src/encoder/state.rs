@@ -1,0 +1,156 @@
+//! The encoder: its state and what a host can do to it.
+
+use od_model::Dictionary;
+use od_model::typed::{Ro, Var};
+
+use super::angle::Angle;
+use super::fault::Fault;
+use super::faults::Faults;
+use super::motion::{Gain, Motion};
+use super::position::{Scale, Sensor};
+use super::profile::{EncoderProfile, MOVEMENTS};
+use od_wire::Instant;
+
+/// Rotary and DIP switches in the cover.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Switches {
+    /// Node ID, 1–99; 0 leaves node ID and bit rate to the objects.
+    pub node_id: u8,
+    /// Position of the DIP switches for the bit rate, 0–7.
+    pub bit_rate: u8,
+}
+
+/// The device behind an encoder's dictionary.
+///
+/// The host sets switches and reports faults between calls of the node; after a change of
+/// faults it calls [`Node::handle_change`](crate::Node::handle_change).
+#[derive(Clone, Debug)]
+pub struct Encoder<M> {
+    pub(super) profile: &'static EncoderProfile,
+    /// The shaft that it sits on.
+    pub shaft: M,
+    pub(super) switches: Switches,
+    pub(super) serial_number: Option<u32>,
+    pub(super) faults: Faults,
+    pub(super) sensor: Sensor,
+    pub(super) scale: Scale,
+    /// 6004h, where it stands in the store.
+    pub(super) position: Option<Var<u32, Ro>>,
+    /// Steps of 6004h per revolution, without a gear that divides the position.
+    pub(super) gain: Gain,
+    /// Numerator and denominator of the gear that the last start found.
+    pub(super) gear: Option<(u64, u64)>,
+    /// The same of the gear that acts at once, as it acts.
+    pub(super) output: Option<(u64, u64)>,
+    /// Which objects are live, see `application`.
+    pub(super) live: u64,
+    /// The last angle that the sensor told.
+    pub(super) angle: Angle,
+    /// When power went.
+    pub(super) off: Option<Instant>,
+    /// The last reset; `None` without power.
+    pub(super) started: Option<Instant>,
+    /// When the record of the device's life is saved next, where there is one.
+    pub(super) keep_at: Option<Instant>,
+    /// Seconds of operation before `started`.
+    pub(super) seconds: u32,
+    /// How often power came.
+    pub(super) cycles: u32,
+    /// Since when a movement of the profile can be measured.
+    pub(super) measured_since: [Instant; MOVEMENTS],
+    /// 6200h as it was when it last agreed with 1800h:05.
+    pub(super) timer: u64,
+    pub(super) bit_rate: Option<u16>,
+}
+
+impl<M: Motion> Encoder<M> {
+    /// An encoder on a shaft: nothing broken, switches at 0.
+    pub const fn new(profile: &'static EncoderProfile, shaft: M) -> Self {
+        let sensor = match profile.sensor {
+            Some(sensor) => sensor,
+            None => Sensor { steps: 1, turns: 1 },
+        };
+        Self {
+            profile,
+            shaft,
+            switches: Switches {
+                node_id: 0,
+                bit_rate: 0,
+            },
+            serial_number: None,
+            faults: Faults::new(),
+            sensor,
+            scale: Scale::unscaled(sensor),
+            gain: Gain::steps(0),
+            gear: None,
+            output: None,
+            position: None,
+            live: 0,
+            angle: Angle::ZERO,
+            off: None,
+            started: None,
+            keep_at: None,
+            seconds: 0,
+            cycles: 0,
+            measured_since: [Instant::ZERO; MOVEMENTS],
+            timer: 0,
+            bit_rate: None,
+        }
+    }
+
+    /// With the sensor that a dictionary's defaults describe, where the profile has none:
+    /// [`sensor`](Self::sensor) is known before the first power-on then.
+    #[must_use]
+    pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
+        self.sensor = self.profile.sensor_of(dictionary);
+        self
+    }
+
+    /// What its family does differently.
+    pub const fn profile(&self) -> &'static EncoderProfile {
+        self.profile
+    }
+
+    /// With this serial number in 1018h:04 and 650Bh from the next reset on.
+    #[must_use]
+    pub const fn with_serial_number(mut self, serial_number: u32) -> Self {
+        self.serial_number = Some(serial_number);
+        self
+    }
+
+    /// What its sensor tells apart; known after [`with_sensor_of`](Self::with_sensor_of) or the
+    /// first power-on.
+    pub const fn sensor(&self) -> Sensor {
+        self.sensor
+    }
+
+    /// How its position is made at present.
+    pub const fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// The switches; a family that has none ignores them.
+    pub const fn switches(&self) -> Switches {
+        self.switches
+    }
+
+    /// Sets the switches; they are read at power-on and at reset node.
+    pub fn set_switches(&mut self, switches: Switches) {
+        self.switches = switches;
+    }
+
+    /// Breaks something, or repairs it. [`Fault::Watchdog`] is seen after the next reset.
+    pub fn set_fault(&mut self, fault: Fault, broken: bool) {
+        self.faults.set(fault, broken);
+    }
+
+    /// Is it broken?
+    pub fn is_broken(&self, fault: Fault) -> bool {
+        self.faults.is_set(fault)
+    }
+
+    /// The bit rate since the last start, in kbit/s, if the device has one of its own.
+    pub const fn bit_rate(&self) -> Option<u16> {
+        self.bit_rate
+    }
+}
