@@ -1,0 +1,161 @@
+//! pcapng with frames of SocketCAN, read and written.
+
+use std::prelude::v1::*;
+
+use od_wire::Instant;
+
+use super::pcap::{File, LINK, OTHER_LINK, socketcan};
+use super::record::{ERROR, EXTENDED, REMOTE, Record, What};
+
+const SECTION: u32 = 0x0A0D_0D0A;
+const INTERFACE: u32 = 1;
+const PACKET: u32 = 6;
+/// Says that a section is little endian.
+const LITTLE: u32 = 0x1A2B_3C4D;
+
+/// An interface of a section.
+struct Interface {
+    link: u16,
+    /// Ticks per second.
+    resolution: f64,
+}
+
+/// The records of a pcapng file; `None` if it is not one.
+pub(super) fn read(bytes: &[u8]) -> Option<Result<Vec<Record>, String>> {
+    let file = File {
+        bytes,
+        is_little: true,
+    };
+    (file.word(0)? == SECTION).then(|| records(file))
+}
+
+fn records(mut file: File<'_>) -> Result<Vec<Record>, String> {
+    let mut interfaces: Vec<Interface> = Vec::new();
+    let mut records = Vec::new();
+    let mut others = 0;
+    let mut at = 0;
+    while at + 12 <= file.bytes.len() {
+        let cut = || format!("it ends in the middle of a block, at byte {at}");
+        if file.word(at) == Some(SECTION) {
+            file.is_little = true;
+            file.is_little = file.word(at + 8) == Some(LITTLE);
+            interfaces.clear();
+        }
+        let kind = file.word(at).ok_or_else(cut)?;
+        let size = file.word(at + 4).ok_or_else(cut)? as usize;
+        let end = at.saturating_add(size);
+        if size < 12 || !size.is_multiple_of(4) || end > file.bytes.len() {
+            return Err(cut());
+        }
+        match kind {
+            INTERFACE => interfaces.push(Interface {
+                link: file.half(at + 8).ok_or_else(cut)?,
+                resolution: resolution(file, at + 16, end - 4),
+            }),
+            PACKET => {
+                let owner = file.word(at + 8).ok_or_else(cut)? as usize;
+                match interfaces.get(owner).filter(|one| one.link == LINK) {
+                    Some(owner) => records.extend(packet(file, at, end, owner)),
+                    None => others += 1,
+                }
+            }
+            _ => {}
+        }
+        at = end;
+    }
+    match records.is_empty() && others > 0 {
+        true => Err(OTHER_LINK.into()),
+        false => Ok(records),
+    }
+}
+
+fn packet(file: File<'_>, at: usize, end: usize, owner: &Interface) -> Option<Record> {
+    let (high, low) = (file.word(at + 12)?, file.word(at + 16)?);
+    let ticks = u64::from(high) << 32 | u64::from(low);
+    let micros = ticks as f64 / owner.resolution * 1e6;
+    let length = file.word(at + 20)? as usize;
+    let bytes = file.bytes.get(at + 28..end.checked_sub(4)?)?;
+    let bytes = bytes.get(..length).unwrap_or(bytes);
+    socketcan(Instant::from_micros(micros.round() as u64), bytes)
+}
+
+/// Ticks per second of an interface: its option `if_tsresol`, else a million.
+fn resolution(file: File<'_>, from: usize, to: usize) -> f64 {
+    let mut at = from;
+    while at + 4 <= to {
+        let (Some(code), Some(length)) = (file.half(at), file.half(at + 2)) else {
+            break;
+        };
+        match (code, file.bytes.get(at + 4)) {
+            (9, Some(value)) if length > 0 => {
+                let power = i32::from(value & 0x7F);
+                return if value & 0x80 != 0 {
+                    2f64.powi(power)
+                } else {
+                    10f64.powi(power)
+                };
+            }
+            (0, _) => break,
+            _ => at += 4 + usize::from(length).next_multiple_of(4),
+        }
+    }
+    1e6
+}
+
+/// A section with one interface, times in microseconds.
+pub(super) fn write(records: &[Record]) -> Vec<u8> {
+    let mut out = Vec::new();
+    block(&mut out, SECTION, |out| {
+        words(out, &[LITTLE, 1, u32::MAX, u32::MAX]);
+    });
+    block(&mut out, INTERFACE, |out| words(out, &[LINK.into(), 0]));
+    for record in records {
+        block(&mut out, PACKET, |out| packet_body(out, record));
+    }
+    out
+}
+
+fn packet_body(out: &mut Vec<u8>, record: &Record) {
+    let (id, dlc, data) = match &record.what {
+        What::Error => (ERROR | 8, 8, &[0, 0, 4, 0, 0, 0, 0, 0][..]),
+        What::Frame(frame) => {
+            let extended = if frame.id().is_extended() {
+                EXTENDED
+            } else {
+                0
+            };
+            let remote = if frame.is_remote() { REMOTE } else { 0 };
+            (
+                frame.id().raw() | extended | remote,
+                frame.dlc(),
+                frame.data(),
+            )
+        }
+    };
+    let micros = record.at.as_micros();
+    let length = 8 + data.len() as u32;
+    words(
+        out,
+        &[0, (micros >> 32) as u32, micros as u32, length, length],
+    );
+    out.extend_from_slice(&id.to_be_bytes());
+    out.extend_from_slice(&[dlc, 0, 0, 0]);
+    out.extend_from_slice(data);
+    out.resize(out.len().next_multiple_of(4), 0);
+}
+
+fn words(out: &mut Vec<u8>, words: &[u32]) {
+    for word in words {
+        out.extend_from_slice(&word.to_le_bytes());
+    }
+}
+
+/// A block: its type, its length before and after what is in it.
+fn block(out: &mut Vec<u8>, kind: u32, body: impl FnOnce(&mut Vec<u8>)) {
+    let mut inner = Vec::new();
+    body(&mut inner);
+    let size = 12 + inner.len() as u32;
+    words(out, &[kind, size]);
+    out.extend_from_slice(&inner);
+    words(out, &[size]);
+}

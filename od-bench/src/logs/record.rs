@@ -1,0 +1,96 @@
+//! One line of a log.
+
+use od_wire::{CanId, Frame, Instant};
+
+/// What a log says of one moment.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Record {
+    /// When, from the beginning of the log.
+    pub at: Instant,
+    /// Sent by whoever wrote the log (Tx); else received.
+    pub sent: bool,
+    /// What was on the bus.
+    pub what: What,
+}
+
+/// What was on the bus.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum What {
+    /// A frame.
+    Frame(Frame),
+    /// An error frame.
+    Error,
+}
+
+impl Record {
+    /// A frame that came in.
+    pub(super) const fn received(at: Instant, frame: Frame) -> Self {
+        Self {
+            at,
+            sent: false,
+            what: What::Frame(frame),
+        }
+    }
+
+    /// An error frame.
+    pub(super) const fn error(at: Instant) -> Self {
+        Self {
+            at,
+            sent: false,
+            what: What::Error,
+        }
+    }
+
+    pub(super) const fn sent(mut self, sent: bool) -> Self {
+        self.sent = sent;
+        self
+    }
+}
+
+/// Bit 29 of an identifier of SocketCAN: an error frame.
+pub(super) const ERROR: u32 = 1 << 29;
+/// Bit 30: a remote frame.
+pub(super) const REMOTE: u32 = 1 << 30;
+/// Bit 31: 29 bits.
+pub(super) const EXTENDED: u32 = 1 << 31;
+
+/// An identifier in these digits, if it fits into 11 or 29 bits.
+pub(super) fn id(digits: &str, radix: u32, extended: bool) -> Result<CanId, String> {
+    let raw = u32::from_str_radix(digits, radix)
+        .map_err(|_| format!("`{digits}` is not a valid CAN-ID"))?;
+    match extended {
+        true if raw <= 0x1FFF_FFFF => Ok(CanId::extended(raw)),
+        false if raw <= 0x7FF => Ok(CanId::standard(raw as u16)),
+        _ => Err(format!("the CAN-ID {digits} is too large")),
+    }
+}
+
+/// A frame of bytes in words, `radix` 10 or 16; a remote one has none.
+pub(super) fn frame<'w>(
+    id: CanId,
+    dlc: u8,
+    remote: bool,
+    words: impl Iterator<Item = &'w str>,
+    radix: u32,
+) -> Result<Frame, String> {
+    if remote {
+        return Frame::remote(id, dlc).ok_or_else(|| too_long(dlc));
+    }
+    let mut data = [0; 8];
+    let room = data
+        .get_mut(..usize::from(dlc))
+        .ok_or_else(|| too_long(dlc))?;
+    let mut words = words;
+    for byte in room {
+        let word = words.next().unwrap_or_default();
+        *byte = u8::from_str_radix(word, radix)
+            .ok()
+            .filter(|_| word.len() <= 3)
+            .ok_or_else(|| format!("the data is not {dlc} bytes"))?;
+    }
+    Ok(Frame::with_dlc(id, data, dlc))
+}
+
+fn too_long(dlc: u8) -> String {
+    format!("the length {dlc} is more than 8")
+}

@@ -1,0 +1,164 @@
+//! PEAK TRC, versions 1.0 to 1.3, 2.0 and 2.1.
+
+use std::prelude::v1::*;
+
+use od_wire::Instant;
+
+use super::read::Reader;
+use super::record::{Record, frame, id};
+
+/// Does a text with this line look like one?
+pub(super) fn is_one(line: &str) -> bool {
+    header(line, "FILEVERSION").is_some()
+        || header(line, "STARTTIME").is_some()
+        || numbered(line).is_some()
+}
+
+/// The value of `;$NAME=value`.
+fn header<'t>(line: &'t str, name: &str) -> Option<&'t str> {
+    let rest = line.trim_start().strip_prefix(";$")?;
+    let (found, value) = rest.split_once('=')?;
+    found.eq_ignore_ascii_case(name).then_some(value.trim())
+}
+
+/// The time in milliseconds of `1)  1059.9  …`, as microseconds, and what follows it.
+fn numbered(line: &str) -> Option<(Instant, impl Iterator<Item = &str>)> {
+    let mut words = line.split_whitespace();
+    let number = words.next()?.strip_suffix(')')?;
+    number.parse::<u64>().ok()?;
+    Some((millis(words.next()?)?, words))
+}
+
+fn millis(word: &str) -> Option<Instant> {
+    let millis = word
+        .parse::<f64>()
+        .ok()
+        .filter(|at| at.is_finite() && *at >= 0.0)?;
+    Some(Instant::from_micros((millis * 1000.0).round() as u64))
+}
+
+pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
+    let version = lines.iter().find_map(|line| header(line, "FILEVERSION"));
+    let (major, minor) = version
+        .and_then(|text| text.split_once('.'))
+        .unwrap_or_default();
+    if major == "2" {
+        return second(lines);
+    }
+    let has_bus = minor.starts_with(['2', '3']);
+    let has_reserved = minor.starts_with('3');
+    let has_version = version.is_some();
+    Box::new(move |line| {
+        if line.trim_start().starts_with(';') {
+            return Ok(None);
+        }
+        let (at, words) = numbered(line).ok_or("the message number or the time is missing")?;
+        let mut words = words.skip(usize::from(has_bus)).peekable();
+        // Version 1.0 has no direction.
+        let direction = words.next_if(|word| {
+            let word = word.to_ascii_lowercase();
+            ["rx", "tx", "warng", "error"]
+                .iter()
+                .any(|known| word.starts_with(known))
+        });
+        let direction = direction.unwrap_or_default().to_ascii_lowercase();
+        if direction.starts_with("error") {
+            return Ok(Some(Record::error(at)));
+        }
+        if direction.starts_with("warng") {
+            return Ok(None);
+        }
+        let id = words.next().unwrap_or_default();
+        let mut words: Vec<&str> = words.skip(usize::from(has_reserved)).collect();
+        // How version 1.0 writes a change of the bus state.
+        let is_status =
+            !has_version && id.len() >= 4 && id.bytes().all(|c| c.eq_ignore_ascii_case(&b'f'));
+        if is_status
+            && words
+                .first()
+                .is_some_and(|word| word.trim_start_matches('0') == "4")
+        {
+            return Ok(None);
+        }
+        let remote = words
+            .get(1)
+            .is_some_and(|word| word.eq_ignore_ascii_case("RTR"));
+        let length = if words.is_empty() {
+            ""
+        } else {
+            words.remove(0)
+        };
+        let frame = Parts {
+            id,
+            length,
+            remote,
+            data: &words,
+        }
+        .frame()?;
+        Ok(Some(
+            Record::received(at, frame).sent(direction.starts_with("tx")),
+        ))
+    })
+}
+
+/// Columns of version 2 if the log names none.
+const COLUMNS: &str = "N,O,T,I,d,l,D";
+
+fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
+    let columns = lines.iter().find_map(|line| header(line, "COLUMNS"));
+    let columns: Vec<&str> = columns
+        .unwrap_or(COLUMNS)
+        .split(',')
+        .map(str::trim)
+        .collect();
+    let place = move |name: &str| columns.iter().position(|column| *column == name);
+    Box::new(move |line| {
+        if line.trim_start().starts_with(';') {
+            return Ok(None);
+        }
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let field = |name: &str| place(name).and_then(|at| words.get(at).copied());
+        let at = field("O")
+            .and_then(millis)
+            .ok_or("the time offset is missing")?;
+        let remote = match field("T").unwrap_or_default() {
+            "ER" => return Ok(Some(Record::error(at))),
+            "DT" => false,
+            "RR" => true,
+            "ST" | "EC" | "EV" => return Ok(None),
+            "FD" | "FB" | "FE" | "BI" => return Err("CAN FD is not supported".into()),
+            other => return Err(format!("`{other}` is not a valid type of message")),
+        };
+        let data = place("D")
+            .and_then(|at| words.get(at..))
+            .unwrap_or_default();
+        let length = field("L").or_else(|| field("l")).unwrap_or_default();
+        let id = field("I").unwrap_or_default();
+        let frame = Parts {
+            id,
+            length,
+            remote,
+            data,
+        }
+        .frame()?;
+        let sent = field("d").is_some_and(|word| word.to_ascii_lowercase().starts_with("tx"));
+        Ok(Some(Record::received(at, frame).sent(sent)))
+    })
+}
+
+/// What all versions have in common.
+struct Parts<'t> {
+    id: &'t str,
+    length: &'t str,
+    remote: bool,
+    data: &'t [&'t str],
+}
+
+impl Parts<'_> {
+    fn frame(&self) -> Result<od_wire::Frame, String> {
+        let id = id(self.id, 16, self.id.len() > 4)?;
+        let dlc = self.length.parse().ok().filter(|dlc| *dlc <= 8);
+        let dlc = dlc.ok_or_else(|| format!("`{}` is not a valid length", self.length))?;
+        frame(id, dlc, self.remote, self.data.iter().copied(), 16)
+    }
+}

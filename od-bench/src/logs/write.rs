@@ -1,0 +1,128 @@
+//! Records in the formats of other tools.
+
+use std::fmt::Write as _;
+use std::prelude::v1::*;
+
+use super::record::{Record, What};
+use super::{candump, pcapng};
+
+/// What a log is written as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// `candump -L`.
+    Candump,
+    /// Vector ASC.
+    Asc,
+    /// PEAK TRC, version 2.1.
+    Trc,
+    /// pcapng, for Wireshark.
+    Pcapng,
+}
+
+impl Format {
+    /// The format that files with this ending have: `log`, `asc`, `trc`, `pcapng`.
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        Some(match ending {
+            "log" => Self::Candump,
+            "asc" => Self::Asc,
+            "trc" => Self::Trc,
+            "pcapng" => Self::Pcapng,
+            _ => return None,
+        })
+    }
+
+    /// The file.
+    pub fn write(self, records: &[Record]) -> Vec<u8> {
+        let mut text = String::new();
+        // Writing to a text does not fail.
+        let _ = match self {
+            Self::Candump => as_candump(&mut text, records),
+            Self::Asc => as_asc(&mut text, records),
+            Self::Trc => as_trc(&mut text, records),
+            Self::Pcapng => return pcapng::write(records),
+        };
+        text.into_bytes()
+    }
+}
+
+fn as_candump(text: &mut String, records: &[Record]) -> std::fmt::Result {
+    for Record { at, what, .. } in records {
+        match what {
+            What::Frame(frame) => writeln!(text, "{}", candump::format_line(*at, "can0", frame))?,
+            What::Error => writeln!(text, "({at:?}) can0 20000008#0000040000000000")?,
+        }
+    }
+    Ok(())
+}
+
+/// Bytes with a blank before each.
+fn bytes(text: &mut String, data: &[u8]) -> std::fmt::Result {
+    data.iter().try_for_each(|byte| write!(text, " {byte:02X}"))
+}
+
+const ASC_HEAD: &str = "date Thu Jan 1 12:00:00.000 am 1970
+base hex  timestamps absolute
+internal events logged
+Begin Triggerblock Thu Jan 1 12:00:00.000 am 1970
+   0.000000 Start of measurement
+";
+
+fn as_asc(text: &mut String, records: &[Record]) -> std::fmt::Result {
+    text.push_str(ASC_HEAD);
+    for Record { at, sent, what } in records {
+        write!(text, "{:>11} 1  ", format!("{at:?}"))?;
+        let What::Frame(frame) = what else {
+            text.push_str("ErrorFrame\n");
+            continue;
+        };
+        let x = if frame.id().is_extended() { "x" } else { "" };
+        let id = format!("{:X}{x}", frame.id().raw());
+        let direction = if *sent { "Tx" } else { "Rx" };
+        let kind = if frame.is_remote() { 'r' } else { 'd' };
+        write!(text, "{id:<15} {direction:<4} {kind} {}", frame.dlc())?;
+        bytes(text, frame.data())?;
+        text.push('\n');
+    }
+    text.push_str("End TriggerBlock\n");
+    Ok(())
+}
+
+const TRC_HEAD: [&str; 8] = [
+    ";$FILEVERSION=2.1",
+    ";$STARTTIME=25569.0000000000",
+    ";$COLUMNS=N,O,T,B,I,d,R,L,D",
+    ";",
+    ";   Message   Time    Type    ID     Rx/Tx",
+    ";   Number    Offset  |  Bus  [hex]  |  Reserved",
+    ";   |         [ms]    |  |    |      |  |  Data Length",
+    ";---+-- ------+------ +- +- --+----- +- +- +--- +- -- -- -- -- -- -- --",
+];
+
+fn as_trc(text: &mut String, records: &[Record]) -> std::fmt::Result {
+    for line in TRC_HEAD {
+        write!(text, "{line}\r\n")?;
+    }
+    for (number, Record { at, sent, what }) in (1..).zip(records) {
+        let micros = at.as_micros();
+        let millis = format!("{}.{:03}", micros / 1000, micros % 1000);
+        write!(text, "{number:>7} {millis:>13} ")?;
+        let What::Frame(frame) = what else {
+            text.push_str("ER 1         - Rx -  5    04 00 08 00 00\r\n");
+            continue;
+        };
+        let kind = if frame.is_remote() { "RR" } else { "DT" };
+        let direction = if *sent { "Tx" } else { "Rx" };
+        let width = if frame.id().is_extended() { 8 } else { 4 };
+        let id = format!("{:0width$X}", frame.id().raw());
+        write!(text, "{kind} 1 {id:>9} {direction} -  {}", frame.dlc())?;
+        if !frame.data().is_empty() {
+            text.push_str("   ");
+            bytes(text, frame.data())?;
+        }
+        text.push_str("\r\n");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,186 @@
+//! What is written is read again, and what others write.
+
+use std::prelude::v1::*;
+use std::vec;
+
+use od_wire::{CanId, Frame, Instant};
+
+use crate::logs::{Format, Log, Record, What, read};
+
+fn records() -> Vec<Record> {
+    let frame = |at, sent, frame| Record {
+        at: Instant::from_micros(at),
+        sent,
+        what: What::Frame(frame),
+    };
+    let extended = CanId::extended(0x1F33_4455);
+    let remote = Frame::remote(CanId::standard(0x701), 1).expect("one byte");
+    vec![
+        frame(0, false, Frame::standard(0x701, &[0])),
+        frame(
+            100_000,
+            true,
+            Frame::standard(0x601, &[0x40, 4, 0x60, 0, 0, 0, 0, 0]),
+        ),
+        frame(
+            100_137,
+            false,
+            Frame::standard(0x581, &[0x43, 4, 0x60, 0, 1, 2, 3, 4]),
+        ),
+        frame(200_000, true, remote),
+        frame(300_000, false, Frame::standard(0x80, &[])),
+        frame(1_500_001, false, Frame::of(extended, &[0xDE, 0xAD])),
+        Record {
+            at: Instant::from_micros(1_600_000),
+            sent: false,
+            what: What::Error,
+        },
+    ]
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    for format in [Format::Candump, Format::Asc, Format::Trc, Format::Pcapng] {
+        let Log {
+            mut records,
+            skipped,
+        } = read(&format.write(&self::records())).expect("a log");
+        assert_eq!(skipped, [], "{format:?}");
+        let mut expected = self::records();
+        // candump and pcapng have no direction.
+        if matches!(format, Format::Candump | Format::Pcapng) {
+            for record in records.iter_mut().chain(&mut expected) {
+                record.sent = false;
+            }
+        }
+        assert_eq!(records, expected, "{format:?}");
+    }
+}
+
+#[test]
+fn what_is_written_stays_the_same() {
+    let text = |format: Format| String::from_utf8(format.write(&records())).expect("a text");
+    assert_eq!(
+        text(Format::Candump),
+        "(0.000000) can0 701#00
+(0.100000) can0 601#4004600000000000
+(0.100137) can0 581#4304600001020304
+(0.200000) can0 701#R1
+(0.300000) can0 080#
+(1.500001) can0 1F334455#DEAD
+(1.600000) can0 20000008#0000040000000000
+"
+    );
+    let asc = text(Format::Asc);
+    let lines: Vec<_> = asc.lines().skip(5).collect();
+    assert_eq!(
+        lines[1],
+        "   0.100000 1  601             Tx   d 8 40 04 60 00 00 00 00 00"
+    );
+    assert_eq!(lines[3], "   0.200000 1  701             Tx   r 1");
+    assert_eq!(lines[5], "   1.500001 1  1F334455x       Rx   d 2 DE AD");
+    assert_eq!(lines[6], "   1.600000 1  ErrorFrame");
+    let trc = text(Format::Trc);
+    let lines: Vec<_> = trc.lines().skip(8).collect();
+    assert_eq!(
+        lines[1],
+        "      2       100.000 DT 1      0601 Tx -  8    40 04 60 00 00 00 00 00"
+    );
+    assert_eq!(lines[3], "      4       200.000 RR 1      0701 Tx -  1");
+    assert_eq!(
+        lines[5],
+        "      6      1500.001 DT 1  1F334455 Rx -  2    DE AD"
+    );
+}
+
+#[test]
+fn what_other_tools_write() {
+    for (text, expected) in [
+        (
+            "(1436509052.249713) vcan0 044#2A366C2BBA\n",
+            "044#2A366C2BBA",
+        ),
+        (
+            " (003.602976)  can0  181   [4]  01 02 03 04\n",
+            "181#01020304",
+        ),
+        (
+            " (003.602976)  can0  TX - -  181   [2]  41 42   'AB'\n",
+            "181#4142",
+        ),
+        (" (0.1)  can0  701   [1]  remote request\n", "701#R1"),
+        (
+            "date Sam Sep 30 15:06:13.191 2017\nbase hex  timestamps absolute\n\
+             internal events logged\n// version 9.0.0\n   2.501000 1  8               Tx   \
+             d 8 00 00 00 00 00 00 00 00  Length = 0 BitCount = 64\n",
+            "008#0000000000000000",
+        ),
+        (
+            "date x\nbase dec  timestamps absolute\n   1.0 1  100             Rx   d 2 10 255\n",
+            "064#0AFF",
+        ),
+        (
+            "date x\nbase hex  timestamps absolute\n   0.1 1  64x             Rx   r\n",
+            "00000064#R",
+        ),
+        (
+            ";$FILEVERSION=1.1\n;$STARTTIME=43474.0\n     \
+             1)      1059.9  Rx         0300  7  00 00 00 00 04 00 00\n",
+            "300#00000000040000",
+        ),
+        (
+            ";$FILEVERSION=1.1\n     1)      1059.9  Rx         0300  4  RTR\n",
+            "300#R4",
+        ),
+        (
+            ";$FILEVERSION=1.3\n     1)      1059.900 1  Rx        0300 -  2    00 07\n",
+            "300#0007",
+        ),
+        (
+            ";##########\n     1)      1841 0001 8 00 00 00 00 00 00 00 09\n;$STARTTIME=1\n",
+            "001#0000000000000009",
+        ),
+        (
+            ";$FILEVERSION=2.0\n;$STARTTIME=43008.0\n;$COLUMNS=N,O,T,I,d,l,D\n      \
+             1      1059.900 DT     0300 Rx 7  00 00 00 00 04 00 00\n",
+            "300#00000000040000",
+        ),
+    ] {
+        let log = read(text.as_bytes()).expect(text);
+        assert_eq!(log.skipped, [], "{text}");
+        let [
+            Record {
+                what: What::Frame(frame),
+                ..
+            },
+        ] = log.records[..]
+        else {
+            panic!("one frame: {text}");
+        };
+        assert_eq!(frame.to_string(), expected, "{text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    let cut = &Format::Pcapng.write(&records())[..90];
+    for (bytes, why) in [
+        (&b"hello\nworld\n"[..], "it is not a candump log"),
+        (b"(0.1) can0 zzz#00\n", "line 1: "),
+        (cut, "it ends in the middle of a block"),
+    ] {
+        let error = read(bytes).expect_err(why);
+        assert!(error.starts_with(why), "{error}");
+    }
+    let text = "(0.1) can0 601#40\n(0.2) can0 601#4\n(0.3) can0 801#00\n(0.4) can0 123##100\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert_eq!((log.records.len(), log.skipped.len()), (1, 3));
+    assert_eq!(log.skipped[0].line, 2);
+}
+
+#[test]
+fn clocks_of_the_wall_are_taken_off() {
+    let log = read(b"(1436509052.5) can0 080#\n(1436509053.0) can0 080#\n").expect("a log");
+    let times: Vec<_> = log.records.iter().map(|one| one.at.as_micros()).collect();
+    assert_eq!(times, [0, 500_000]);
+}
