@@ -5,9 +5,12 @@
 
 mod control;
 mod emcy;
+mod fields;
+pub mod fold;
 mod lss;
 mod pdo;
 mod sdo;
+mod tag;
 
 use std::collections::BTreeMap;
 use std::format;
@@ -17,7 +20,9 @@ use od_model::Address;
 use od_runtime::Frame;
 
 pub use emcy::code_text;
+pub use fields::{Field, fields};
 pub use pdo::layout;
+pub use tag::{TAGS, Tag, tag};
 
 use crate::device::VirtualDevice;
 
