@@ -13,11 +13,13 @@
 mod client;
 mod console;
 pub(crate) mod expect;
+mod line;
 pub(crate) mod parse;
 pub(crate) mod parse_expect;
 mod pattern;
 mod run;
 mod statement;
+pub mod typed;
 pub(crate) mod words;
 
 use std::prelude::v1::*;
@@ -26,6 +28,7 @@ use std::{fmt, format};
 use od_runtime::{DeviceKind, Frame, Instant, NodeId};
 
 pub use console::Console;
+pub use line::frame_of;
 pub use pattern::Pattern;
 pub use run::{run, run_on};
 
