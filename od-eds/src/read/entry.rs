@@ -18,7 +18,7 @@ use crate::scan::number::Note;
 use crate::scan::placed;
 use crate::scan::placed::Text;
 use crate::span::{Span, Spanned};
-use od_model::{Access, Address, DataType, Kind};
+use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// Where the diagnostics of one section go, and what it is about.
 pub(crate) struct Reader<'a> {
@@ -111,7 +111,11 @@ impl Reader<'_> {
         let known = number
             .and_then(|code| u16::try_from(code).ok())
             .and_then(DataType::from_code);
-        let known = known.or_else(|| words::data_type(self, &given));
+        let known = known.or_else(|| {
+            let data_type = words::data_type(&given)?;
+            self.word("DataType", &given, &format!("0x{:04X}", data_type.code()));
+            Some(data_type)
+        });
         if known.is_none() {
             self.report(
                 rules::E0402
@@ -146,7 +150,11 @@ impl Reader<'_> {
         ]
         .into_iter()
         .find(|access| word.eq_ignore_ascii_case(access.name()))
-        .or_else(|| words::access(self, &given, word));
+        .or_else(|| {
+            let access = words::access(&given)?;
+            self.word("AccessType", &given, access.name());
+            Some(access)
+        });
         match known {
             Some(access) => {
                 self.notes(&notes, "AccessType", &given, || access.name().into());
@@ -173,7 +181,7 @@ impl Reader<'_> {
         let mappable = match self.number("PDOMapping", &given) {
             Some(0) => false,
             Some(1) => true,
-            _ => words::mappable(self, &given).unwrap_or_else(|| {
+            _ => self.mappable_word(&given).unwrap_or_else(|| {
                 self.report(
                     rules::W0406
                         .told(
@@ -188,6 +196,38 @@ impl Reader<'_> {
             }),
         };
         Spanned::new(mappable, given.span)
+    }
+
+    fn mappable_word(&mut self, given: &Text<'_>) -> Option<bool> {
+        let mappable = words::mappable(given)?;
+        self.word("PDOMapping", given, if mappable { "1" } else { "0" });
+        Some(mappable)
+    }
+
+    /// ObjectType, as a number or as a word.
+    pub(crate) fn object_code(&mut self, given: &Text<'_>) -> Option<ObjectCode> {
+        let number = self.number("ObjectType", given);
+        let code = number
+            .and_then(|code| u8::try_from(code).ok())
+            .and_then(ObjectCode::from_code);
+        code.or_else(|| {
+            let code = words::object_code(given)?;
+            self.word("ObjectType", given, &format!("0x{:X}", code.code()));
+            Some(code)
+        })
+    }
+
+    /// Reports a word that is read as this value.
+    fn word(&mut self, key: &str, given: &Text<'_>, right: &str) {
+        self.report(
+            rules::W0424
+                .told(
+                    given.span,
+                    format!("`{}` is read as `{right}`", given.value),
+                )
+                .with_help(format!("write `{key}={right}`"))
+                .fix(Fix::safe().replace(given.span, right)),
+        );
     }
 
     /// ObjFlags; 0 where it is missing.

@@ -12,7 +12,6 @@ use crate::read::compact;
 use crate::read::compact::CompactSections;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
-use crate::read::words;
 use crate::rules;
 use crate::scan::placed::Placed;
 use crate::span::Spanned;
@@ -149,11 +148,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Vec<Finding>) -> Entr
     let mut unread = Vec::new();
     let mut assumed = None;
     if let Some(given) = fields.take("ObjectType") {
-        let code = reader
-            .number("ObjectType", &given)
-            .and_then(|code| u8::try_from(code).ok())
-            .and_then(ObjectCode::from_code);
-        let code = code.or_else(|| words::object_code(&mut reader, &given));
+        let code = reader.object_code(&given);
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
             reader.report(
                 rules::W0322
@@ -225,12 +220,7 @@ fn object_code(
         }
         return Spanned::from(guess);
     };
-    let code = reader
-        .number("ObjectType", &given)
-        .and_then(|code| u8::try_from(code).ok())
-        .and_then(ObjectCode::from_code);
-    let code = code.or_else(|| words::object_code(reader, &given));
-    match code {
+    match reader.object_code(&given) {
         Some(code) => Spanned::new(code, given.span),
         None => {
             reader.report(
