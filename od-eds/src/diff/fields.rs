@@ -4,7 +4,8 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Difference, Field, Impact, impact};
+use super::impact;
+use crate::diff::difference::{Difference, Field, Impact};
 use od_model::{Dictionary, Entry, Group, Literal};
 
 pub(super) fn compare(

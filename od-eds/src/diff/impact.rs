@@ -1,6 +1,6 @@
 //! Which differences break a master that was set up for the first device.
 
-use super::Impact;
+use crate::diff::difference::Impact;
 use od_model::{Access, Address, Dictionary, Entry, Group, Literal, ObjectCode};
 
 const fn breaking(if_so: bool) -> Impact {

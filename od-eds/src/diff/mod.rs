@@ -3,112 +3,16 @@
 //! [`compare`] reads two dictionaries entry by entry, whatever they were made from: a file, a
 //! compiled device, a variant. Order, spelling and comments of a text do not count.
 
+mod difference;
 mod fields;
 mod impact;
 
-use alloc::string::{String, ToString};
+pub use difference::{Difference, Field, Impact};
+
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use od_model::{Address, Dictionary, Entry, Object};
-
-/// Would a master that was set up for the first device work with the second?
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize),
-    serde(rename_all = "lowercase")
-)]
-pub enum Impact {
-    /// Yes.
-    Compatible,
-    /// It may fail, or read something else than it expects.
-    Breaking,
-}
-
-/// What of an object or entry is different.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize),
-    serde(rename_all = "kebab-case")
-)]
-pub enum Field {
-    /// The whole object stands in the second alone.
-    ObjectAdded,
-    /// The whole object stands in the first alone.
-    ObjectRemoved,
-    /// The sub-index stands in the second alone.
-    EntryAdded,
-    /// The sub-index stands in the first alone.
-    EntryRemoved,
-    /// VAR, ARRAY, RECORD …
-    ObjectCode,
-    /// ParameterName.
-    Name,
-    /// DataType.
-    DataType,
-    /// AccessType.
-    Access,
-    /// PDOMapping: in which direction it can be mapped.
-    Mapping,
-    /// DefaultValue.
-    Default,
-    /// LowLimit.
-    LowLimit,
-    /// HighLimit.
-    HighLimit,
-    /// Which group of 1010h saves it.
-    Storage,
-}
-
-impl Field {
-    /// In words, for a table.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::ObjectAdded | Self::EntryAdded => "added",
-            Self::ObjectRemoved | Self::EntryRemoved => "removed",
-            Self::ObjectCode => "object type",
-            Self::Name => "name",
-            Self::DataType => "data type",
-            Self::Access => "access",
-            Self::Mapping => "PDO mapping",
-            Self::Default => "default",
-            Self::LowLimit => "low limit",
-            Self::HighLimit => "high limit",
-            Self::Storage => "storage",
-        }
-    }
-}
-
-/// One thing that is different.
-#[derive(Clone, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Difference {
-    /// Index.
-    pub index: u16,
-    /// Sub-index; `None` where it is about a whole object, as it always is for a VAR.
-    pub sub: Option<u8>,
-    /// Name of the entry or object; the second's, if it has one.
-    pub name: String,
-    /// What.
-    pub field: Field,
-    /// What the first says; empty where it says nothing.
-    pub before: String,
-    /// What the second says; empty where it says nothing.
-    pub after: String,
-    /// What it means for a master.
-    pub impact: Impact,
-}
-
-impl Difference {
-    /// `6001h`, or `1018h:02` where it is about one of several entries.
-    pub fn place(&self) -> String {
-        match self.sub {
-            Some(sub) => Address::new(self.index, sub).to_string(),
-            None => alloc::format!("{:04X}h", self.index),
-        }
-    }
-}
 
 /// Everything that is different, by address.
 pub fn compare(before: Dictionary<'_>, after: Dictionary<'_>) -> Vec<Difference> {
