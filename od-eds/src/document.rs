@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use crate::read::Parsed;
 use crate::scan::encoding::{Encoding, decode, detect};
 use crate::span::Span;
 
@@ -136,22 +135,12 @@ impl Document {
     }
 
     /// The place in the text of the first byte that is no character of the encoding.
-    pub(super) fn first_wrong(&self) -> Option<usize> {
+    pub(crate) fn first_wrong(&self) -> Option<usize> {
         if self.encoding == Encoding::Utf8 {
             let error = core::str::from_utf8(&self.bytes[self.mark..]).err()?;
             return Some(error.valid_up_to());
         }
         self.text.find(char::REPLACEMENT_CHARACTER)
-    }
-
-    /// What the file says; see [`parse`](crate::parse). Names its encoding too.
-    pub fn parse(&self) -> Parsed {
-        crate::read::sorted::document(self)
-    }
-
-    /// What the file says, and the findings of all checks; see [`load`](crate::load).
-    pub fn load(&self) -> Parsed {
-        crate::load::checked(self.parse(), &self.text)
     }
 
     /// Carries out edits of the text as it is now, in any order: all or none.

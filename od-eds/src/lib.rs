@@ -48,15 +48,13 @@ pub use description::tables::Tables;
 pub use description::{
     Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
 };
-
 pub use document::{Document, Edit, EditError};
 pub use fact::{Fact, Key};
 pub use finding::{Finding, Form, Place, Related, Severity};
-pub use load::load;
+pub use load::{is_xml, load, parse};
 pub use overlay::{Origin, Overlaid, overlay};
-pub use read::Parsed;
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
-pub use read::sorted::parse;
+pub use read::parsed::Parsed;
 pub use scan::encoding::{Encoding, decode};
 pub use span::{Span, Spanned, token, token_of};
 pub use write::canonical::{canonical, complete};

@@ -1,27 +1,116 @@
-//! Reading and checking in one call.
+//! Reading and checking. Only this file asks if a text is an EDS or XML.
 
-use crate::read::Parsed;
-use crate::read::sorted::parse;
+use alloc::format;
+use alloc::vec::Vec;
 
-/// Reads and checks an EDS or a DCF: [`parse`], then [`check`](crate::check::check),
-/// without what the text [allows](crate::check::Allows).
-pub fn load(text: &str) -> Parsed {
-    checked(parse(text), text)
+use crate::check::{Allows, check};
+use crate::document::Document;
+use crate::finding::{Finding, sort};
+use crate::read::modules;
+use crate::read::parsed::Parsed;
+use crate::read::sorted;
+use crate::rules;
+use crate::scan::encoding::Encoding;
+use crate::scan::lines;
+#[cfg(feature = "xdd")]
+use crate::xdd;
+
+/// Returns if a text is XML, so an XDD or an XDC, not an EDS.
+pub fn is_xml(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{FEFF}');
+    text.trim_start().starts_with('<')
 }
 
-/// What was read, with the findings of all checks.
-pub(crate) fn checked(mut parsed: Parsed, text: &str) -> Parsed {
-    parsed
-        .diagnostics
-        .extend(crate::check::check(&parsed.description));
-    crate::finding::sort(&mut parsed.diagnostics);
-    crate::check::Allows::of(text).apply(&mut parsed.diagnostics);
+/// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
+///
+/// Never fails, never panics: what it cannot read is a finding, and text in the `extra` of where
+/// it was. It does not check: see [`check`](crate::check::check) and [`load`].
+pub fn parse(text: &str) -> Parsed {
+    ordered(read(text), text)
+}
+
+/// Reads and checks a text: [`parse`], then [`check`](crate::check::check), without what the
+/// text [allows](crate::check::Allows).
+pub fn load(text: &str) -> Parsed {
+    checked(read(text), text)
+}
+
+impl Document {
+    /// Reads the file as [`parse`](crate::parse()) does. Reports its encoding too.
+    pub fn parse(&self) -> Parsed {
+        ordered(self.read(), self.text())
+    }
+
+    /// Reads and checks the file as [`load`](crate::load()) does. Reports its encoding too.
+    pub fn load(&self) -> Parsed {
+        checked(self.read(), self.text())
+    }
+
+    fn read(&self) -> Parsed {
+        let mut parsed = read(self.text());
+        parsed.diagnostics.extend(encoded(self));
+        parsed
+    }
+}
+
+/// Reads a text in its form. Findings are in no order yet.
+fn read(text: &str) -> Parsed {
     #[cfg(feature = "xdd")]
-    if crate::xdd::is_xml(text) {
-        // What mends an EDS would break an XML.
+    if is_xml(text) {
+        return xdd::parse(text);
+    }
+    let mut parsed = sorted::eds(text);
+    modules::check(&parsed.description.sections, &mut parsed.diagnostics);
+    parsed
+}
+
+fn checked(mut parsed: Parsed, text: &str) -> Parsed {
+    parsed.diagnostics.extend(check(&parsed.description));
+    Allows::of(text).apply(&mut parsed.diagnostics);
+    ordered(parsed, text)
+}
+
+/// Puts the findings in file order.
+fn ordered(mut parsed: Parsed, text: &str) -> Parsed {
+    sort(&mut parsed.diagnostics);
+    if cfg!(feature = "xdd") && is_xml(text) {
+        // A fix of an EDS would break an XML.
         for finding in &mut parsed.diagnostics {
             finding.fix = None;
         }
     }
     parsed
+}
+
+/// What other tools may not expect of the characters.
+fn encoded(document: &Document) -> Vec<Finding> {
+    let (text, encoding) = (document.text(), document.encoding());
+    let mut found = Vec::new();
+    let first = text.find(|c: char| !c.is_ascii());
+    let marked = match document.has_mark() {
+        true => ", with a byte order mark",
+        false => "",
+    };
+    // XML says how it is written, and every tool that reads XML knows these.
+    if encoding != Encoding::Ascii && !is_xml(text) {
+        found.push(
+            rules::I0111
+                .told(
+                    lines::span(text, first.unwrap_or(0)),
+                    format!("the file is {encoding}{marked}"),
+                )
+                .with_help("where another reader fails, save it as ASCII"),
+        );
+    }
+    if let Some(at) = document.first_wrong() {
+        found.push(
+            rules::W0112
+                .told(
+                    lines::span(text, at),
+                    format!("here is a byte that is no character of {encoding}"),
+                )
+                .with_help("write the character anew, or save the file in one encoding"),
+        );
+    }
+    found
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use std::{env, fs};
 
 use od_eds::Document;
-use od_eds::{Tables, xdd};
+use od_eds::Tables;
 
 /// A device file of half a megabyte takes a tenth of this in a build without optimization.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -51,7 +51,7 @@ fn an_illegal_value_never_goes_unnamed() {
     let files: Vec<_> = files()
         .into_iter()
         .map(|(name, bytes)| (name, Document::new(bytes).text().to_string()))
-        .filter(|(_, text)| !xdd::is_xml(text))
+        .filter(|(_, text)| !od_eds::is_xml(text))
         .collect();
     let mut random = Xorshift(0x9E37_79B9_7F4A_7C15);
     let (mut made, mut tried) = (0, 0);

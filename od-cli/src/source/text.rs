@@ -49,7 +49,7 @@ impl Text {
     /// The text as one file that any reader of an EDS takes: itself, unless it is an overlaid
     /// one or an XDD.
     pub(crate) fn is_plain(&self) -> bool {
-        self.overlay.is_none() && !od_eds::xdd::is_xml(&self.text)
+        self.overlay.is_none() && !od_eds::is_xml(&self.text)
     }
 
     /// What it describes, and what was found; a text that describes nothing is a failure.

@@ -349,7 +349,7 @@ mod tests {
         let text = "[DeviceCommissioning]\nNodeId=0x11\nNodeName=Left\nBaudrate=500\nNetNumber=\n\
             CANopenManager=1\nLSS_SerialNumber=42\n\
             [2000]\nParameterName=a\nObjectType=2\nDenotation=Image\nUploadFile=a.bin\nDownloadFile=\n";
-        let description = crate::read::sorted::parse(text).description;
+        let description = crate::load::parse(text).description;
         let expected = Commissioning {
             node_id: Some(17),
             node_name: Some("Left"),

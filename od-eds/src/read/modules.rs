@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
 use crate::finding::Finding;
-use crate::read::sorted::sorted;
+use crate::read::sorted;
 use crate::rules;
 use crate::scan::known;
 use crate::scan::known::ModulePart;
@@ -199,7 +199,7 @@ fn read(sections: &[Section], log: &mut Vec<Finding>) -> Vec<Module> {
             let placed = found
                 .into_iter()
                 .map(|(place, section)| placed(section, place, &[]));
-            let parsed = sorted(placed.collect(), Vec::new()).parsed();
+            let parsed = sorted::objects(placed.collect(), Vec::new());
             log.extend(parsed.diagnostics);
             module.fixed = parsed.description.objects;
         }
@@ -228,7 +228,7 @@ fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a
 
 fn extension(section: &Section, place: Place, log: &mut Vec<Finding>) -> Option<Extension> {
     let own = placed(section, place, &["Count", "ObjExtend"]);
-    let parsed = sorted(alloc::vec![own], Vec::new()).parsed();
+    let parsed = sorted::objects(alloc::vec![own], Vec::new());
     log.extend(parsed.diagnostics);
     let object = parsed.description.objects.into_values().next()?;
     let entry = object.entries.into_values().next()?;

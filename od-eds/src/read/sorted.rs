@@ -1,4 +1,4 @@
-//! From text to a description.
+//! Sections sorted by what they are about, and the description that they make.
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
@@ -7,31 +7,22 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::Section;
-use crate::document::Document;
 use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
-use crate::read::{Parsed, compact, compact_pdo, faults, lists, modules, other, own_types};
+use crate::read::parsed::Parsed;
+use crate::read::{compact, compact_pdo, faults, lists, other, own_types};
 use crate::rules;
-use crate::scan::encoding::Encoding;
 use crate::scan::names::{List, Place, intended, place};
 use crate::scan::placed::{Placed, owned};
 use crate::scan::{lines, number::number};
 use crate::span::Span;
 use od_model::Address;
 
-/// Reads an EDS or a DCF; with feature `xdd`, an XDD or an XDC too.
-///
-/// Never fails, never panics: what it cannot read is a diagnostic, and stands as
-/// text in the `extra` of where it was. It does not check: see
-/// [`check`](crate::check::check) and [`load`](crate::load).
-pub fn parse(text: &str) -> Parsed {
-    #[cfg(feature = "xdd")]
-    if crate::xdd::is_xml(text) {
-        return crate::xdd::parse(text);
-    }
+/// Reads an EDS or a DCF. Findings are in no order yet.
+pub(crate) fn eds(text: &str) -> Parsed {
     let scan = lines::scan(text);
     let log = scan.faults.iter().map(faults::finding).collect();
     let mut sorted = sorted(scan.sections, log);
@@ -39,13 +30,13 @@ pub fn parse(text: &str) -> Parsed {
     sorted.parsed()
 }
 
-/// A description from the sections that an XDD has, in which no lists are.
-#[cfg(feature = "xdd")]
-pub(crate) fn from_sections(sections: Vec<Placed<'_>>, log: Vec<Finding>) -> Parsed {
+/// Reads the sections of objects alone, as an XDD and the modules of a device have them: no
+/// list names them. Findings are in no order yet.
+pub(crate) fn objects(sections: Vec<Placed<'_>>, log: Vec<Finding>) -> Parsed {
     sorted(sections, log).parsed()
 }
 
-pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Finding>) -> Sorted<'a> {
+fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Finding>) -> Sorted<'a> {
     let mut sorted = Sorted {
         log,
         ..Sorted::default()
@@ -56,51 +47,9 @@ pub(crate) fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Finding>) -> Sorted
     sorted
 }
 
-/// Reads a file; what there is to say of its encoding comes first.
-pub(crate) fn document(document: &Document) -> Parsed {
-    let mut parsed = parse(document.text());
-    parsed.diagnostics.extend(encoded(document));
-    crate::finding::sort(&mut parsed.diagnostics);
-    parsed
-}
-
-/// What other readers may not expect of the characters.
-fn encoded(document: &Document) -> Vec<Finding> {
-    let (text, encoding) = (document.text(), document.encoding());
-    let mut found = Vec::new();
-    let first = text.find(|c: char| !c.is_ascii());
-    let marked = match document.has_mark() {
-        true => ", with a byte order mark",
-        false => "",
-    };
-    // XML says how it is written, and every reader of XML knows these.
-    let is_xml = text.trim_start().starts_with('<');
-    if encoding != Encoding::Ascii && !is_xml {
-        found.push(
-            rules::I0111
-                .told(
-                    lines::span(text, first.unwrap_or(0)),
-                    format!("the file is {encoding}{marked}"),
-                )
-                .with_help("where another reader fails, save it as ASCII"),
-        );
-    }
-    if let Some(at) = document.first_wrong() {
-        found.push(
-            rules::W0112
-                .told(
-                    lines::span(text, at),
-                    format!("here is a byte that is no character of {encoding}"),
-                )
-                .with_help("write the character anew, or save the file in one encoding"),
-        );
-    }
-    found
-}
-
 /// The sections of a file by what they are about.
 #[derive(Default)]
-pub(crate) struct Sorted<'a> {
+struct Sorted<'a> {
     objects: BTreeMap<u16, Sections<'a>>,
     lists: BTreeMap<List, Vec<Placed<'a>>>,
     others: Vec<Placed<'a>>,
@@ -197,7 +146,7 @@ impl<'a> Sorted<'a> {
         self.others.push(section);
     }
 
-    pub(crate) fn parsed(mut self) -> Parsed {
+    fn parsed(mut self) -> Parsed {
         let mut parsed = Parsed::default();
         own_types::resolve(&mut self.objects, &mut self.log);
         for (index, mut sections) in core::mem::take(&mut self.objects) {
@@ -216,14 +165,12 @@ impl<'a> Sorted<'a> {
         }
         self.others.sort_by_key(|section| section.header.start);
         parsed.description.sections = self.others.into_iter().map(kept).collect();
-        modules::check(&parsed.description.sections, &mut self.log);
         let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
         if self.has_lists {
             lists::check(&self.lists, &parsed.description, &made, &mut self.log);
         }
         parsed.description.objects.append(&mut made);
         parsed.diagnostics = self.log;
-        crate::finding::sort(&mut parsed.diagnostics);
         parsed
     }
 }
@@ -284,6 +231,7 @@ fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Fi
 mod tests {
     use super::*;
     use crate::description::Value;
+    use crate::load::parse;
     use od_model::{DataType, Group, ObjectCode};
 
     fn codes(parsed: &Parsed) -> Vec<&'static str> {

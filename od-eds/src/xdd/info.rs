@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use super::{Made, Reader, below, children};
 use crate::scan::known;
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
+use crate::xdd::made::Made;
+use crate::xdd::source::{Reader, below, children};
 
 /// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
 pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {

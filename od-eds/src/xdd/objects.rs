@@ -6,12 +6,13 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use super::parameters::Parameter;
-use super::types::{self, Found};
-use super::{Ids, Made, Reader, below, children};
 use crate::rules;
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
+use crate::xdd::made::Made;
+use crate::xdd::parameters::Parameter;
+use crate::xdd::source::{Ids, Reader, below, children};
+use crate::xdd::types::{self, Found};
 use od_model::{DataType, ObjectCode};
 
 /// The sections of all objects.

@@ -4,8 +4,9 @@ use alloc::string::String;
 
 use roxmltree::Node;
 
-use super::{Ids, Reader, children, types};
 use crate::span::Spanned;
+use crate::xdd::source::{Ids, Reader, children};
+use crate::xdd::types;
 
 /// A parameter with its template.
 #[derive(Clone, Copy)]

@@ -4,8 +4,9 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::*;
 use crate::description::Value;
+use crate::load::parse;
+use crate::read::parsed::Parsed;
 use od_model::{Access, Address, DataType, Group, ObjectCode};
 
 fn file(device: &str, network: &str) -> String {

@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use super::{Ids, children};
+use crate::xdd::source::{Ids, children};
 use od_model::DataType;
 
 /// What stands for a type in an element.

@@ -1,0 +1,144 @@
+//! The XML behind a reader: elements, attributes and texts with their places.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use roxmltree::Node;
+
+use crate::finding::Finding;
+use crate::span::{Span, Spanned};
+
+/// What the parts of this module share: places and findings.
+pub(super) struct Reader<'a> {
+    places: Places<'a>,
+    pub(super) log: Vec<Finding>,
+}
+
+/// Lines and columns of bytes.
+pub(super) struct Places<'a> {
+    text: &'a str,
+    /// Where each line begins.
+    lines: Vec<usize>,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        let ends = text.bytes().enumerate().filter(|(_, b)| *b == b'\n');
+        let lines = core::iter::once(0).chain(ends.map(|(at, _)| at + 1));
+        Self {
+            text,
+            lines: lines.collect(),
+        }
+    }
+
+    /// The empty place at a line and a column, both counted from 1.
+    pub(super) fn at(&self, line: u32, column: u32) -> Span {
+        let start = self.lines.get(line as usize - 1).copied().unwrap_or(0);
+        let within = self.text[start..]
+            .char_indices()
+            .nth(column.saturating_sub(1) as usize)
+            .map_or(self.text.len() - start, |(at, _)| at);
+        let at = (start + within) as u32;
+        Span {
+            start: at,
+            end: at,
+            line,
+            column,
+        }
+    }
+
+    fn span(&self, range: core::ops::Range<usize>) -> Span {
+        let line = self.lines.partition_point(|start| *start <= range.start);
+        let start = self.lines[line - 1];
+        Span {
+            start: range.start as u32,
+            end: range.end as u32,
+            line: line as u32,
+            column: self.text[start..range.start].chars().count() as u32 + 1,
+        }
+    }
+}
+
+impl<'a> Reader<'a> {
+    /// A reader without findings.
+    pub(super) fn new(text: &'a str) -> Self {
+        Self {
+            places: Places::new(text),
+            log: Vec::new(),
+        }
+    }
+
+    /// The start tag of an element.
+    pub(super) fn tag(&self, node: Node<'_, '_>) -> Span {
+        let range = node.range();
+        let text = &self.places.text[range.clone()];
+        let end = text.find('>').map_or(text.len(), |at| at + 1);
+        self.places.span(range.start..range.start + end)
+    }
+
+    /// An attribute by its local name, with blanks cut off; `None` where it is missing.
+    pub(super) fn attribute(&self, node: Node<'_, '_>, name: &str) -> Option<Spanned<String>> {
+        let found = node
+            .attributes()
+            .find(|a| a.name().eq_ignore_ascii_case(name))?;
+        let span = self.places.span(found.range_value());
+        Some(Spanned::new(one_line(found.value()), span))
+    }
+
+    /// The text of an element, with blanks cut off.
+    pub(super) fn text(&self, node: Node<'_, '_>) -> Option<Spanned<String>> {
+        let text = node.children().find(Node::is_text)?;
+        let span = self.places.span(text.range());
+        Some(Spanned::new(one_line(text.text()?), span))
+    }
+}
+
+/// A text as an EDS can hold it: in one line.
+fn one_line(text: &str) -> String {
+    let mut words = String::with_capacity(text.len());
+    for (at, line) in text.trim().split(['\r', '\n']).enumerate() {
+        if at > 0 && !words.ends_with(' ') {
+            words.push(' ');
+        }
+        words.push_str(line.trim());
+    }
+    words
+}
+
+/// The child elements of this local name.
+pub(super) fn children<'a, 'i>(
+    node: Node<'a, 'i>,
+    name: &'static str,
+) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children()
+        .filter(move |child| child.is_element() && child.tag_name().name() == name)
+}
+
+/// All elements below of this local name.
+pub(super) fn below<'a, 'i>(
+    node: Node<'a, 'i>,
+    name: &'static str,
+) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.descendants()
+        .filter(move |child| child.is_element() && child.tag_name().name() == name)
+}
+
+/// Elements by the uniqueID that others refer to.
+pub(super) struct Ids<'a, 'i>(BTreeMap<&'a str, Node<'a, 'i>>);
+
+impl<'a, 'i> Ids<'a, 'i> {
+    pub(super) fn new(root: Node<'a, 'i>) -> Self {
+        let all = root.descendants().filter(Node::is_element);
+        let named = all.filter_map(|node| Some((node.attribute("uniqueID")?, node)));
+        let mut ids = BTreeMap::new();
+        for (id, node) in named {
+            ids.entry(id).or_insert(node);
+        }
+        Self(ids)
+    }
+
+    pub(super) fn get(&self, id: &str) -> Option<Node<'a, 'i>> {
+        self.0.get(id).copied()
+    }
+}
