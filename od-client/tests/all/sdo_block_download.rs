@@ -1,10 +1,8 @@
 //! Block download by hand: lost segments, servers without block transfers, servers that misbehave.
 
-mod support;
-
+use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
+use crate::support::{Machine, at, download, frame, pattern};
 use od_client::sdo::{Download, Expected, SdoError};
-use support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
-use support::{Machine, at, download, frame, pattern};
 
 /// A block download of 37 bytes in blocks of four segments: the first block is out.
 #[track_caller]
@@ -31,7 +29,7 @@ fn block(data: &[u8], start: usize, count: u8) -> Vec<String> {
 fn small_values_go_in_segments() {
     let mut download = download(&pattern(7), options(4));
     download.talk(&[("", "2103200007")]);
-    let mut longer = support::download(&pattern(8), options(4));
+    let mut longer = crate::support::download(&pattern(8), options(4));
     longer.talk(&[("", "C603200008")]);
 }
 

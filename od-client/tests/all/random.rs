@@ -1,12 +1,10 @@
 //! Random frames: no panic, no growth, no job without an end, and a client that works after it.
 
-mod support;
-
+use crate::support::{OBJECT, at, frame, pattern};
 use od_client::lss::Task;
 use od_client::sdo::Options;
 use od_client::{CanId, Client, Duration, Event, Frame, Instant, NodeId, lss};
 use od_model::Address;
-use support::{OBJECT, at, frame, pattern};
 
 /// Numbers that look random; the same seed gives the same ones.
 struct Random(u64);

@@ -1,12 +1,10 @@
 //! Upload by hand: a frame in, a frame out, and servers that misbehave.
 
-mod support;
-
+use crate::support::{Machine, OBJECT, at, frame, upload};
 use od_client::sdo::{Channel, Expected, Options, SdoError, Slice, Upload};
 use od_client::{NodeId, sdo};
 use od_model::Address;
 use od_wire::sdo::Response;
-use support::{Machine, OBJECT, at, frame, upload};
 
 const ASK: &str = "40032000";
 const NEXT: [&str; 2] = ["60", "70"];
@@ -318,7 +316,7 @@ fn cancelling_aborts_what_was_begun() {
     upload.cancel();
     assert_eq!(upload.outcome(), Some(Err(SdoError::Cancelled)));
     upload.talk(&[("", "8003200000000008")]);
-    let mut unsent = support::upload(Options::DEFAULT);
+    let mut unsent = crate::support::upload(Options::DEFAULT);
     unsent.cancel();
     assert!(
         unsent.out(at(0)).is_empty(),

@@ -1,10 +1,8 @@
 //! Block upload by hand: lost segments, servers without block transfers, servers that misbehave.
 
-mod support;
-
+use crate::support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
+use crate::support::{Machine, at, frame, pattern, upload};
 use od_client::sdo::{Expected, SdoError, Upload};
-use support::blocks::{COMMAND, SEQUENCE, crc, fails, options, refuses, segment};
-use support::{Machine, at, frame, pattern, upload};
 
 /// A block upload of `len` bytes after its start: blocks of four segments, with CRC.
 #[track_caller]

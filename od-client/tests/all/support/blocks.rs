@@ -5,33 +5,33 @@ use od_wire::sdo::{Response, crc16};
 
 use super::{Machine, frame};
 
-pub const COMMAND: &str = "01000405";
-pub const SEQUENCE: &str = "03000405";
+pub(crate) const COMMAND: &str = "01000405";
+pub(crate) const SEQUENCE: &str = "03000405";
 
 /// Blocks of `size` segments from 8 bytes on.
-pub fn options(size: u8) -> Options {
+pub(crate) fn options(size: u8) -> Options {
     let mut options = Options::DEFAULT;
     options.block_from = Some(8);
     options.block_size = size;
     options
 }
 
-pub fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect()
 }
 
 /// Segment `number` of a block, with the seven bytes of `data` from `start`.
-pub fn segment(number: u8, data: &[u8], start: usize) -> String {
+pub(crate) fn segment(number: u8, data: &[u8], start: usize) -> String {
     let end = data.len().min(start + 7);
     hex(&[number]) + &hex(&data[start..end])
 }
 
-pub fn crc(data: &[u8]) -> String {
+pub(crate) fn crc(data: &[u8]) -> String {
     hex(&crc16(data).to_le_bytes())
 }
 
 #[track_caller]
-pub fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error: SdoError) {
+pub(crate) fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error: SdoError) {
     machine.talk(&[(answer, &format!("80032000{abort}"))]);
     assert_eq!(machine.outcome(), Some(Err(error)), "{answer}");
     assert_eq!(machine.poll_timeout(), None);
@@ -39,7 +39,7 @@ pub fn fails(machine: &mut impl Machine, answer: &str, abort: &str, error: SdoEr
 }
 
 #[track_caller]
-pub fn refuses(machine: &mut impl Machine, answer: &str, abort: &str, expected: Expected) {
+pub(crate) fn refuses(machine: &mut impl Machine, answer: &str, abort: &str, expected: Expected) {
     let got = match frame(&format!("581#{answer}")).bytes() {
         // The last segment of a block, and no abort.
         [0x81..=0x9F, ..] => Response::Unknown,

@@ -1,12 +1,10 @@
 //! Download by hand: a frame in, a frame out, and servers that misbehave.
 
-mod support;
-
+use crate::support::{Machine, at, download, frame, pattern};
 use od_client::sdo::{Channel, Download, Expected, Options, SdoError};
 use od_client::{Frame, NodeId};
 use od_model::Address;
 use od_wire::sdo::Response;
-use support::{Machine, at, download, frame, pattern};
 
 const TAKEN: &str = "60032000";
 

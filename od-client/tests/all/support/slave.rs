@@ -5,16 +5,16 @@ use od_client::lss::Identity;
 use od_wire::lss::{MASTER, Part, Request, Response, SLAVE};
 
 /// A slave.
-pub struct Slave {
-    pub identity: Identity,
-    pub node_id: u8,
-    pub configuration: bool,
+pub(crate) struct Slave {
+    pub(crate) identity: Identity,
+    pub(crate) node_id: u8,
+    pub(crate) configuration: bool,
     selected: usize,
     part: u8,
 }
 
 impl Slave {
-    pub fn new(identity: [u32; 4]) -> Self {
+    pub(crate) fn new(identity: [u32; 4]) -> Self {
         Self {
             identity: Identity::new(identity),
             node_id: 0xFF,
@@ -51,7 +51,7 @@ impl Slave {
         Some(Response::Identified)
     }
 
-    pub fn handle(&mut self, frame: &Frame) -> Option<Frame> {
+    pub(crate) fn handle(&mut self, frame: &Frame) -> Option<Frame> {
         assert_eq!(frame.id().raw(), MASTER.into());
         let answer = match Request::parse(frame.data()).expect("a request of CiA 305") {
             Request::SwitchGlobal { configuration } => {

@@ -1,13 +1,11 @@
 //! The client against the node of `od-runtime`: every kind of transfer, both ways.
 
-mod support;
-
+use crate::support::bus::{Bus, Peer};
+use crate::support::{OBJECT, pattern};
 use od_client::sdo::{Options, SdoError};
 use od_client::{AbortCode, Client, Event, NodeId, lss};
 use od_model::Address;
 use od_runtime::{Profile, SdoProfile};
-use support::bus::{Bus, Peer};
-use support::{OBJECT, pattern};
 
 const SIZES: [usize; 15] = [
     0,

@@ -1,12 +1,10 @@
 //! Fastscan: one slave, several slaves, none; slaves to the letter of CiA 305 and nodes of `od-runtime`.
 
-mod support;
-
+use crate::support::bus::{Bus, Peer};
+use crate::support::slave::Slave;
+use crate::support::{at, frame};
 use od_client::lss::{Answer, Identity, LssError, Master, Options, Part, Task};
 use od_client::{Client, Event, NodeId};
-use support::bus::{Bus, Peer};
-use support::slave::Slave;
-use support::{at, frame};
 
 const IDENTITY: Identity = Identity {
     vendor: 0xEC,

@@ -7,15 +7,15 @@ use od_runtime::storage::Memory;
 use od_runtime::{Application, Lent, LssProfile, Node, Profile, Store};
 
 /// Most bytes of the object 2003h.
-pub const ROOM: usize = 8192;
+pub(crate) const ROOM: usize = 8192;
 
 /// One device on the bus.
-pub struct Peer {
+pub(crate) struct Peer {
     tables: Tables,
     values: Vec<u8>,
     storage: Memory<Vec<u8>>,
-    pub profile: Profile,
-    pub node: Node<4, ROOM>,
+    pub(crate) profile: Profile,
+    pub(crate) node: Node<4, ROOM>,
     application: Stored,
 }
 
@@ -96,7 +96,7 @@ fn tables(node: u8, identity: [u32; 4]) -> Tables {
 
 impl Peer {
     /// A node with power that has sent its boot-up message.
-    pub fn new(node: u8, identity: [u32; 4]) -> Self {
+    pub(crate) fn new(node: u8, identity: [u32; 4]) -> Self {
         let tables = tables(node, identity);
         let mut peer = Self {
             values: vec![0; tables.dictionary().store_len()],
@@ -127,27 +127,20 @@ impl Peer {
     fn poll(&mut self, now: Instant) -> Option<Frame> {
         self.node.poll_transmit(device!(self), now)
     }
-
-    /// The value of an UNSIGNED object.
-    pub fn value(&self, index: u16, sub: u8) -> u64 {
-        let mut values = self.values.clone();
-        let store = Store::new(self.tables.dictionary(), &mut values, self.node.node_id());
-        store.expect("the values fit").unsigned(index, sub)
-    }
 }
 
 /// The client, its peers, and all frames so far.
-pub struct Bus {
-    pub client: Client,
-    pub peers: Vec<Peer>,
-    pub now: Instant,
-    pub frames: Vec<String>,
+pub(crate) struct Bus {
+    pub(crate) client: Client,
+    pub(crate) peers: Vec<Peer>,
+    pub(crate) now: Instant,
+    pub(crate) frames: Vec<String>,
     /// Does the bus lose this frame, the one of this number?
-    pub loses: fn(usize, &Frame) -> bool,
+    pub(crate) loses: fn(usize, &Frame) -> bool,
 }
 
 impl Bus {
-    pub fn new(client: Client, peers: Vec<Peer>) -> Self {
+    pub(crate) fn new(client: Client, peers: Vec<Peer>) -> Self {
         Self {
             client,
             peers,
@@ -158,7 +151,7 @@ impl Bus {
     }
 
     /// Node 1 alone.
-    pub fn one(client: Client) -> Self {
+    pub(crate) fn one(client: Client) -> Self {
         Self::new(client, vec![Peer::new(1, [1, 2, 3, 4])])
     }
 
@@ -190,7 +183,7 @@ impl Bus {
     }
 
     /// Runs until nothing is sent and nothing is due before `end`.
-    pub fn run_until(&mut self, end: Instant) {
+    pub(crate) fn run_until(&mut self, end: Instant) {
         loop {
             while self.step() {}
             let peers = self
@@ -211,7 +204,7 @@ impl Bus {
     }
 
     /// Runs for a minute of virtual time; the events.
-    pub fn run(&mut self) -> Vec<Event> {
+    pub(crate) fn run(&mut self) -> Vec<Event> {
         self.run_until(self.now.plus_millis(60_000));
         core::iter::from_fn(|| self.client.poll_event()).collect()
     }

@@ -1,11 +1,9 @@
 //! LSS master: each service by hand, and against a node.
 
-mod support;
-
+use crate::support::bus::Bus;
+use crate::support::{at, frame};
 use od_client::lss::{Answer, Busy, Identity, LssError, Master, Options, Part, Task};
 use od_client::{Client, Event, Frame, NodeId};
-use support::bus::Bus;
-use support::{at, frame};
 
 const IDENTITY: Identity = Identity {
     vendor: 0xEC,

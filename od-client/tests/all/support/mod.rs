@@ -1,19 +1,18 @@
 //! Transfers by hand, and nodes on a bus: frames as candump writes them.
-#![allow(dead_code, unreachable_pub)] // each test file uses its own part
 
-pub mod blocks;
-pub mod bus;
-pub mod slave;
+pub(crate) mod blocks;
+pub(crate) mod bus;
+pub(crate) mod slave;
 
 use od_client::sdo::{Buffer, Channel, Download, Options, SdoError, Upload};
 use od_client::{CanId, Frame, Instant, NodeId};
 use od_model::Address;
 
 /// The object of every transfer by hand.
-pub const OBJECT: Address = Address::new(0x2003, 0);
+pub(crate) const OBJECT: Address = Address::new(0x2003, 0);
 
 /// `581#43…`; `581#R8` is a remote frame. Data is filled up with 0 to eight bytes.
-pub fn frame(text: &str) -> Frame {
+pub(crate) fn frame(text: &str) -> Frame {
     let (id, data) = text.split_once('#').expect("id#data");
     let id = CanId::standard(u16::from_str_radix(id, 16).expect("hex"));
     if data.starts_with('R') {
@@ -22,25 +21,24 @@ pub fn frame(text: &str) -> Frame {
     Frame::new(id, &bytes(&format!("{data:0<16}"))).unwrap()
 }
 
-pub fn bytes(hex: &str) -> Vec<u8> {
+pub(crate) fn bytes(hex: &str) -> Vec<u8> {
     let pairs = hex.as_bytes().chunks(2);
     let pair = |pair: &[u8]| u8::from_str_radix(core::str::from_utf8(pair).ok()?, 16).ok();
     pairs.map(|it| pair(it).expect("hex")).collect()
 }
 
-pub fn at(millis: u64) -> Instant {
+pub(crate) fn at(millis: u64) -> Instant {
     Instant::from_millis(millis)
 }
 
 /// `len` bytes, no two neighbours alike.
-pub fn pattern(len: usize) -> Vec<u8> {
+pub(crate) fn pattern(len: usize) -> Vec<u8> {
     (0..len).map(|at| (at * 31 + at / 251 + 1) as u8).collect()
 }
 
 /// What both directions have.
-pub trait Machine {
+pub(crate) trait Machine {
     fn handle_frame(&mut self, now: Instant, frame: &Frame);
-    fn handle_timeout(&mut self, now: Instant);
     fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
     fn poll_timeout(&self) -> Option<Instant>;
     fn outcome(&self) -> Option<Result<(), SdoError>>;
@@ -81,9 +79,6 @@ macro_rules! machine {
             fn handle_frame(&mut self, now: Instant, frame: &Frame) {
                 self.handle_frame(now, frame);
             }
-            fn handle_timeout(&mut self, now: Instant) {
-                self.handle_timeout(now);
-            }
             fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
                 self.poll_transmit(now)
             }
@@ -99,10 +94,10 @@ macro_rules! machine {
 machine!(Upload<B>, Buffer, B);
 machine!(Download<D>, AsRef<[u8]>, D);
 
-pub fn upload(options: Options) -> Upload<Vec<u8>> {
+pub(crate) fn upload(options: Options) -> Upload<Vec<u8>> {
     Upload::new(Channel::of(NodeId::ONE), OBJECT, Vec::new(), options)
 }
 
-pub fn download(bytes: &[u8], options: Options) -> Download<Vec<u8>> {
+pub(crate) fn download(bytes: &[u8], options: Options) -> Download<Vec<u8>> {
     Download::new(Channel::of(NodeId::ONE), OBJECT, bytes.to_vec(), options)
 }

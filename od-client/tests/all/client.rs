@@ -1,15 +1,13 @@
 //! Jobs that wait for each other, jobs side by side, and what comes from the bus.
 
-mod support;
-
+use crate::support::bus::{Bus, Peer};
+use crate::support::{OBJECT, at, frame, pattern};
 use od_client::emcy::Emcy;
 use od_client::lss::{self, Answer, Task};
 use od_client::nmt::{Command, State};
 use od_client::sdo::{Options, SdoError};
 use od_client::{CanId, Client, Duration, Event, Frame, NodeId};
 use od_model::Address;
-use support::bus::{Bus, Peer};
-use support::{OBJECT, at, frame, pattern};
 
 fn node(raw: u8) -> NodeId {
     NodeId::new(raw).expect("a node ID")
@@ -213,7 +211,7 @@ fn nodes_come_are_lost_and_come_back() {
     client.watch(node(3), Duration::from_millis(100));
     assert_eq!((client.state(node(3)), client.poll_timeout()), (None, None));
     let beat = |client: &mut Client, millis, text| {
-        let frame = Frame::new(CanId::standard(0x703), &support::bytes(text)).unwrap();
+        let frame = Frame::new(CanId::standard(0x703), &crate::support::bytes(text)).unwrap();
         client.handle_frame(at(millis), &frame);
         events(client)
     };
