@@ -57,7 +57,7 @@ impl VirtualDevice {
     /// The shaft as it is, for devices that share it.
     pub(super) fn shaft_now(&self) -> Option<Shaft> {
         match &self.behaviour {
-            Behaviour::Encoder(encoder) => Some(encoder.shaft.alone()),
+            Behaviour::Encoder(encoder) => Some(encoder.shaft.without_counter()),
             Behaviour::Other(_) => None,
         }
     }
@@ -67,8 +67,9 @@ impl VirtualDevice {
         self.change(now, |encoder| encoder.shaft.follow(shaft));
     }
 
-    /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Answers whether
-    /// there is a shaft, as the next three do.
+    /// Puts the shaft where the sensor begins to say `raw`; its speed stays. Positions that are
+    /// set at least every 20 ms are a movement with a speed of its own. Returns `false` if the
+    /// device has no shaft, as the next three do.
     pub fn set_position(&mut self, raw: u64, now: Instant) -> bool {
         self.change(now, |encoder| {
             encoder.shaft.set_raw(now, encoder.sensor(), raw);

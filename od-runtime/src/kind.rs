@@ -1,4 +1,4 @@
-//! A finished device as one value, for whoever offers several to choose from.
+//! A finished device as one value, for a host that offers several.
 
 use od_model::Dictionary;
 

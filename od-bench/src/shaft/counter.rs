@@ -1,4 +1,4 @@
-//! What a revolution counter does not see while there is no power.
+//! Revolution counter of an encoder, which may miss revolutions while there is no power.
 
 use od_runtime::encoder::{Angle, Counter, Sensor};
 
@@ -6,7 +6,7 @@ use od_runtime::encoder::{Angle, Counter, Sensor};
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct Unseen {
     angle: Angle,
-    /// Where the shaft was when power went.
+    /// Angle of the shaft when power went.
     off: Option<Angle>,
 }
 
@@ -17,7 +17,7 @@ impl Unseen {
         off: None,
     };
 
-    /// What was missed so far.
+    /// Revolutions missed since the start.
     #[inline]
     pub(super) const fn angle(&self) -> Angle {
         self.angle
@@ -29,7 +29,7 @@ impl Unseen {
     }
 
     /// Power goes with the shaft at this angle. It may turn on; a counter that misses a crossing
-    /// of its zero does not know of it, which shows where the revolutions are no power of two.
+    /// of its zero does not know of it, which shows where the revolutions are not a power of two.
     pub(super) fn power_off(&mut self, shaft: Angle) {
         self.off = Some(shaft.minus(self.angle));
     }

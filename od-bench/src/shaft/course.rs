@@ -1,4 +1,4 @@
-//! How a shaft turned: its speed over the time that a speed or an acceleration looks back.
+//! Course of a shaft: its speed over the integration time of a speed or an acceleration.
 //!
 //! A way is in thousandths of a revolution per minute, times microseconds. Who turns the shaft
 //! by hand moves it in no time, which does not count.
@@ -8,10 +8,10 @@ use od_runtime::Instant;
 /// The way of one revolution.
 pub(super) const PER_REVOLUTION: u64 = 60_000_000_000;
 
-/// How many changes of speed are remembered. Who changes it every 10 ms is followed for 640 ms.
+/// Changes of speed that are remembered: 640 ms of a change every 10 ms.
 const PIECES: usize = 64;
 
-/// What a speed is multiplied with, so that fractions of it are not lost.
+/// Factor of a fine speed, so that fractions of a thousandth are not lost.
 pub(super) const FINE: i128 = 1 << 20;
 
 /// A speed that changes evenly.
@@ -78,9 +78,9 @@ struct Piece {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Course {
     pieces: [Piece; PIECES],
-    /// Where the newest stands.
+    /// Index of the newest.
     newest: u8,
-    /// How many there are, 1 or more.
+    /// Number of pieces, 1 or more.
     len: u8,
 }
 
@@ -91,7 +91,7 @@ impl Default for Course {
 }
 
 impl Course {
-    /// A shaft that always stood.
+    /// Course of a shaft that never turned.
     pub(super) const AT_REST: Self = Self {
         pieces: [Piece {
             since: Instant::ZERO,
@@ -221,7 +221,7 @@ mod tests {
         assert_eq!(course.fine_speed(ms(5)), 37 * FINE);
         assert_eq!(course.way(ms(360), ms(380)), 37 * 20_000);
         assert_eq!(course.way(ms(990), ms(1010)), (99 + 100) * 10_000);
-        // The same speed again is no change.
+        // The same speed again does not add a piece.
         course.add(ms(2000), 100, Ramp::NONE);
         assert_eq!(course.fine_speed(ms(370)), 37 * FINE);
     }

@@ -25,7 +25,7 @@ pub struct Shaft {
     since: Instant,
     /// At `since`.
     milli_rpm: i32,
-    /// How `milli_rpm` changes from there; no time where it does not.
+    /// Change of `milli_rpm` from there; it takes no time if there is none.
     ramp: Ramp,
     course: Course,
     placed: Placed,
@@ -46,9 +46,9 @@ impl Shaft {
         }
     }
 
-    /// The shaft without what an encoder's counter missed of it.
+    /// Returns the shaft without the state of its encoder's counter.
     #[must_use]
-    pub fn alone(&self) -> Self {
+    pub fn without_counter(&self) -> Self {
         let unseen = Unseen::NOTHING;
         Self {
             unseen,
@@ -56,7 +56,7 @@ impl Shaft {
         }
     }
 
-    /// Turns as `other` does, from where `other` is now: both are ends of one shaft.
+    /// Takes angle and course of `other`: both are ends of one shaft. The counter stays.
     pub fn follow(&mut self, other: &Self) {
         let unseen = self.unseen;
         *self = Self {
@@ -107,24 +107,24 @@ impl Shaft {
         sensor.raw(self.seen(now))
     }
 
-    /// The speed that it has, or on a ramp will have at its end, in thousandths of a
-    /// revolution per minute, positive clockwise.
+    /// Returns the speed in thousandths of a revolution per minute, positive clockwise; on a
+    /// ramp, the speed at its end.
     pub const fn milli_rpm(&self) -> i32 {
         self.ramp.to(self.milli_rpm)
     }
 
-    /// Does it turn, or will it before its ramp ends?
+    /// Returns `true` while the shaft turns or is on a ramp.
     pub const fn is_turning(&self) -> bool {
         self.milli_rpm != 0 || self.ramp.micros != 0
     }
 
-    /// From `now` on it turns with this speed, in thousandths of a revolution per minute.
+    /// Sets the speed from `now` on, in thousandths of a revolution per minute.
     pub fn set_milli_rpm(&mut self, now: Instant, milli_rpm: i32) {
         self.ramp_to(now, milli_rpm, 0);
     }
 
-    /// From `now` on its speed changes evenly, and is `milli_rpm` after this many
-    /// microseconds; with 0 it has it at once.
+    /// Changes the speed evenly from `now` on: it is `milli_rpm` after `micros` microseconds,
+    /// at once with 0.
     pub fn ramp_to(&mut self, now: Instant, milli_rpm: i32, micros: u32) {
         let from = self.milli_rpm_at(now);
         self.rebase(now);
@@ -137,20 +137,20 @@ impl Shaft {
         self.course.add(self.since, self.milli_rpm, self.ramp);
     }
 
-    /// The speed at a moment since the last change of it, as [`milli_rpm`](Self::milli_rpm)
-    /// gives it, rounded to whole thousandths on a ramp.
+    /// Returns the speed at a moment after its last change, in thousandths of a revolution per
+    /// minute, rounded on a ramp.
     pub fn milli_rpm_at(&self, now: Instant) -> i32 {
         let micros = now.micros_since(self.since);
         self.ramp.speed(self.milli_rpm, micros)
     }
 
-    /// Turns it by hand; it goes on with its speed.
+    /// Turns the shaft by an angle at once; it goes on with its speed.
     pub fn turn(&mut self, now: Instant, by: Angle) {
         self.rebase(now);
         self.angle = self.angle.plus(by);
     }
 
-    /// Puts it somewhere; it goes on with its speed.
+    /// Puts the shaft at an angle; it goes on with its speed.
     pub fn set_angle(&mut self, now: Instant, angle: Angle) {
         self.rebase(now);
         self.angle = angle;
@@ -158,8 +158,8 @@ impl Shaft {
 
     /// Puts the shaft where a sensor begins to say `raw`; it goes on with its speed.
     ///
-    /// Who does so again and again, at least every 20 ms, turns the shaft: speed and
-    /// acceleration are those between the positions.
+    /// A host that does so at least every 20 ms turns the shaft: speed and acceleration are
+    /// those between the positions. A single position is a jump, which has no speed.
     pub fn set_raw(&mut self, now: Instant, sensor: Sensor, raw: u64) {
         self.unseen.forget();
         let angle = sensor.angle(raw);

@@ -16,7 +16,7 @@ const LONGEST: u64 = 20_000;
 pub(super) struct Placed {
     /// Moments, and the way from the first position to each.
     ways: VecDeque<(Instant, Angle)>,
-    /// Microseconds that somebody will ask for.
+    /// Microseconds to remember.
     interval: u32,
 }
 
@@ -28,12 +28,12 @@ impl Placed {
         }
     }
 
-    /// Remembers so many microseconds.
+    /// Remembers the positions of the last `interval` microseconds.
     pub(super) fn look_back(&mut self, interval: u32) {
         self.interval = interval;
     }
 
-    /// A position was set that lies so far from where the shaft was.
+    /// Adds a position that lies `by` from the angle that the shaft had.
     pub(super) fn add(&mut self, now: Instant, by: Angle) {
         let way = match self.ways.back() {
             Some((last, _)) if *last >= now => return,

@@ -153,8 +153,8 @@ fn two_ends_of_a_shaft_have_counters_of_their_own() {
     assert_eq!(shaft.seen(Instant::ZERO), Angle::ZERO);
     other.follow(&shaft);
     assert_eq!(other.seen(Instant::ZERO), turns(5));
-    assert_eq!(other.alone(), shaft.alone());
-    // Who puts the shaft somewhere says where the counter is.
+    assert_eq!(other.without_counter(), shaft.without_counter());
+    // A position that is set sets the counter too.
     shaft.set_raw(Instant::ZERO, SENSOR, 0x2800);
     assert_eq!(shaft.raw(Instant::ZERO, SENSOR), 0x2800);
     assert_eq!(shaft.seen(Instant::ZERO).split(), (2, 1 << 31));
@@ -196,7 +196,7 @@ fn positions_set_one_after_another_are_a_movement() {
     let error = speed(&shaft, 460) - (i64::from(SENSOR.steps) + 30 * 20);
     assert!(
         error.abs() <= 20,
-        "a hundredth of a revolution is no whole step: {error}"
+        "a hundredth of a revolution is not a whole step: {error}"
     );
 }
 

@@ -1,4 +1,4 @@
-//! What the objects for the position mean: they, and the gear, become a [`Scale`].
+//! Configuration of the position: its objects, and the gear, become a [`Scale`].
 
 use od_model::{Address, Group};
 
@@ -17,7 +17,7 @@ pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 const REVERSED: u64 = 1 << 0;
 const SCALING: u64 = 1 << 2;
 
-/// What the objects of a gear say, or would say with a new value in one of them.
+/// Objects of a gear, as they are or with a new value in one of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Factor {
     is_on: bool,
@@ -84,7 +84,7 @@ impl<M: Motion> Encoder<M> {
         }
     }
 
-    /// The range that a value of 6002h stands for.
+    /// The range that a value of 6002h means.
     fn range(&self, value: Option<u64>) -> u64 {
         match value {
             Some(0) if self.profile.zero_is_full => 1 << 32,
@@ -160,13 +160,13 @@ impl<M: Motion> Encoder<M> {
         }
     }
 
-    /// What a test adds to the position.
+    /// Steps that a test adds to the position.
     fn injected_offset(&self, store: &Store<'_>) -> i64 {
         let at = self.profile.object(Role::InjectedOffset);
         at.map_or(0, |at| i64::from(store.unsigned(at.index, at.sub) as u32))
     }
 
-    /// Sets 6509h and whoever shows it.
+    /// Sets 6509h and the object that shows it.
     pub(super) fn set_offset(&self, store: &mut Store<'_>, offset: i64) {
         store.set_unsigned(OFFSET, offset as u64);
         self.show_link(store, OFFSET);

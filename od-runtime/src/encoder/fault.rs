@@ -1,4 +1,4 @@
-//! What can break, and how a family reports it, as const data.
+//! Faults of an encoder, and their reports in a family, as const data.
 
 use od_model::Address;
 
@@ -31,12 +31,12 @@ pub enum Fault {
     SingleturnStrength,
     /// Singleturn and multiturn sensor do not agree.
     Supervision,
-    /// The multiturn counter lost its power and began anew.
+    /// The multiturn counter lost its power and started again.
     MultiturnReset,
 }
 
 impl Fault {
-    /// All of them, and the names that scripts and pages call them by. A name never changes.
+    /// All faults and their names in scripts and on pages. A name never changes.
     pub const NAMES: [(Self, &'static str); 14] = [
         (Self::Position, "position-error"),
         (Self::Battery, "battery-low"),
@@ -57,7 +57,7 @@ impl Fault {
     /// Its name in kebab-case.
     pub fn name(self) -> &'static str {
         let named = Self::NAMES.iter().find(|(fault, _)| *fault == self);
-        // Every fault stands in the list, which a test checks.
+        // Every fault is in the list, which a test checks.
         named.map_or("", |(_, name)| name)
     }
 
@@ -85,15 +85,15 @@ pub enum Appears {
 /// When a report goes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Until {
-    /// As soon as the fault is mended.
+    /// As soon as the fault ends.
     Repaired,
     /// At the next start (power-on, NMT reset node) that does not find the fault.
     Reboot,
-    /// Never: a start does not end it, nor does a mended fault.
+    /// Never: neither a start nor the end of the fault ends it.
     Ever,
 }
 
-/// How a family reports a fault; a fault can have several, each its own source of errors.
+/// Report of a fault in a family. A fault can have several, each its own source of errors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Report {
     /// Which.
@@ -113,7 +113,7 @@ pub struct Report {
     /// When it goes.
     pub until: Until,
     /// With [`Appears::Startup`]: seen only where power was off this long, in milliseconds
-    /// (a battery that is tested meanwhile); 0: at every start.
+    /// (a battery that is tested during that time); 0: at every start.
     pub off_ms: u32,
     /// The code that injects it ([`Injection::code`](super::Injection::code)).
     pub injection: Option<u32>,

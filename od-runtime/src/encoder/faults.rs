@@ -1,4 +1,4 @@
-//! What is broken, and how it gets into 6503h, 6505h, 1001h, 1003h and an EMCY.
+//! Active faults, and their way into 6503h, 6505h, 1001h, 1003h and an EMCY message.
 
 use od_model::Address;
 
@@ -27,18 +27,18 @@ pub(super) fn info(store: &Store<'_>) -> [u8; 5] {
 pub(super) struct Faults {
     /// Something changed that [`report`](Self::report) has not seen.
     changed: bool,
-    /// What the host broke.
+    /// Faults that the host set.
     broken: u32,
     /// Why the sensor does not tell the angle; see [`seen`].
     sensed: u32,
-    /// What of it was there at the last start.
+    /// Faults at the last start.
     at_start: u32,
     /// The last reset was by the watchdog.
     watchdog: bool,
     /// The last start found the memory damaged: [`Fault::Memory`] until it holds something
     /// sound again.
     damaged: bool,
-    /// How often each came, as the device remembers it without power.
+    /// Number of times that each came; kept without power.
     counts: [u32; Fault::NAMES.len()],
     /// Rows that the check at the last start found.
     found: u32,
@@ -50,12 +50,12 @@ pub(super) struct Faults {
     shown: u32,
 }
 
-/// What [`Faults::reset`] has to know of the time without power.
+/// Time without power, for [`Faults::reset`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Off {
     /// There was power all the time.
     Never,
-    /// It was off for so many microseconds.
+    /// Power was off for this many microseconds.
     For(u64),
     /// There never was any before.
     Always,
@@ -105,7 +105,7 @@ impl Faults {
         is_news
     }
 
-    /// What the device can find broken now, by the host, the sensor or by itself.
+    /// Faults that the device can find now: those of the host, the sensor and the memory.
     fn found(&self) -> u32 {
         self.broken | self.sensed | if self.damaged { bit(Fault::Memory) } else { 0 }
     }
@@ -271,7 +271,7 @@ fn is_supported(cx: &Context<'_, '_>, report: &Report) -> bool {
     has(0x6504, report.alarm) && has(0x6506, report.warning)
 }
 
-/// The bit of a fault without which there is no angle; also [`NO_ANGLE`], unless the family has
+/// The bit of a fault that keeps the sensor silent; also [`NO_ANGLE`], unless the family has
 /// an alarm for it while the device runs.
 #[cold]
 fn seen(fault: Fault, reports: &[Report]) -> u32 {

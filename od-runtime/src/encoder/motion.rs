@@ -1,4 +1,4 @@
-//! What an encoder has to know of the shaft that it sits on.
+//! Interface between an encoder and the shaft that it sits on.
 
 use super::angle::Angle;
 use super::fault::Fault;
@@ -9,7 +9,7 @@ use od_wire::Instant;
 /// Angle, speed and acceleration of a shaft.
 ///
 /// A device with a sensor implements [`PositionSource`](super::PositionSource) and uses
-/// [`Sampled`](super::Sampled); a device that measures speed by itself (a timer capture, say)
+/// [`Sampled`](super::Sampled); a device that measures speed itself (a timer capture, say)
 /// implements this trait.
 pub trait Motion {
     /// Returns the angle at `now`, whole revolutions included.
@@ -32,7 +32,8 @@ pub trait Motion {
         let _ = interval;
     }
 
-    /// When [`angle`](Self::angle) wants to be called next, asked for or not.
+    /// Returns the time of the next call of [`angle`](Self::angle) that is needed even if nobody
+    /// reads the position. `None`: none is needed.
     fn due(&self) -> Option<Instant> {
         None
     }

@@ -10,8 +10,8 @@ use crate::store::Store;
 use od_wire::Instant;
 
 impl<M: Motion> Encoder<M> {
-    /// The source or the interval of a movement changed, or all began anew: a whole interval
-    /// from `now` on nothing is known.
+    /// Starts movements again after a start, or after a change of source or interval: for a
+    /// whole interval they are not known.
     pub(super) fn forget_movements(
         &mut self,
         cx: &Context<'_, '_>,

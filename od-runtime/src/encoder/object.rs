@@ -1,4 +1,4 @@
-//! What the encoder does for an object, as const data.
+//! Roles of objects in an encoder, as const data.
 
 use od_model::Address;
 
@@ -58,7 +58,7 @@ impl Role {
     }
 }
 
-/// What a speed or an acceleration is made of.
+/// Source of a speed or an acceleration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Source {
     /// Whole revolutions: a speed is per minute.
@@ -66,13 +66,13 @@ pub enum Source {
     /// Steps of 6004h; sense of rotation and resolution count, offset and range do not. A
     /// [`GearKind::Output`] counts, a [`GearKind::Position`] does not.
     Position,
-    /// So many steps per revolution, whatever the scaling; the sense of rotation counts.
+    /// This number of steps per revolution, whatever the scaling; the sense of rotation counts.
     Fixed(u32),
     /// Steps of the sensor, without the sense of rotation.
     Raw,
 }
 
-/// What is derived from the movement of the shaft.
+/// Quantity that is derived from the movement of the shaft.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Quantity {
     /// Steps per second, or revolutions per minute.
@@ -88,12 +88,12 @@ pub enum Quantity {
 /// source was changed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Movement {
-    /// What it is.
+    /// Speed or acceleration.
     pub quantity: Quantity,
     /// Object that selects the source; values that `sources` has not are answered with
     /// 06090030h.
     pub selector: Option<Address>,
-    /// The sources by the selector's value; the first stands where there is no selector.
+    /// The sources by the selector's value; the first one is used if there is no selector.
     pub sources: &'static [(u8, Source)],
     /// Object with the interval in milliseconds; 0 counts as 1.
     pub interval: Address,

@@ -10,7 +10,7 @@ mod ratio;
 use super::angle::Angle;
 use ratio::{Ratio, at_least_1};
 
-/// What the sensor tells apart.
+/// Resolution and range of a sensor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sensor {
     /// Steps per revolution, 1 or more.
@@ -51,7 +51,7 @@ impl Sensor {
     }
 }
 
-/// How a position is made; everything that 6004h depends on besides the angle.
+/// Scaling of the position: everything that 6004h depends on besides the angle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Scale {
     sensor: Sensor,
@@ -59,12 +59,13 @@ pub struct Scale {
     steps: u64,
     /// Positions that are shown, 1 to 2³².
     range: u64,
-    /// Where counting begins anew: `range`, or what the sensor can tell apart if that is less.
+    /// Positions after which counting starts again at 0: `range`, or those of the sensor if that
+    /// is less.
     wrap: u64,
     /// `wrap` − 1 where `wrap` is a power of two, else 0: a mask is faster than a division.
     mask: u64,
     step: Step,
-    /// Revolutions count; else each begins anew.
+    /// Revolutions count; else each starts again at 0.
     counts: bool,
     gear: Option<Ratio>,
     reversed: bool,
@@ -72,7 +73,7 @@ pub struct Scale {
     offset: u64,
 }
 
-/// How a step of the sensor becomes one that is shown.
+/// Conversion of a step of the sensor into one that is shown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Step {
     Same,
@@ -127,8 +128,8 @@ impl Scale {
         }
     }
 
-    /// Counts on past the revolutions of the sensor: the range alone says where it begins
-    /// anew, for a singleturn, too.
+    /// Counts on past the revolutions of the sensor: only the range decides when it starts
+    /// again at 0, for a singleturn, too.
     #[must_use]
     pub const fn counting_on(mut self) -> Self {
         self.counts = true;
@@ -141,7 +142,7 @@ impl Scale {
         self
     }
 
-    /// What was counted is multiplied with `numerator` and divided by `denominator`, exactly
+    /// The count is multiplied by `numerator` and divided by `denominator`, exactly
     /// and rounded down, before it is brought into the range. Counts on
     /// ([`counting_on`](Self::counting_on)); a denominator of 0 counts as 1.
     #[must_use]
@@ -180,7 +181,7 @@ impl Scale {
     ///
     /// A multiturn goes on counting past the end of its sensor as long as it has
     /// power, so the number of revolutions need not be a power of two. A singleturn
-    /// begins anew with each revolution.
+    /// starts again at 0 with each revolution.
     #[inline]
     pub const fn position(&self, angle: Angle) -> u32 {
         let position = self.without_offset(angle) + self.offset;

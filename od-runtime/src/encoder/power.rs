@@ -1,4 +1,4 @@
-//! Power comes and goes: what the encoder counts of its life.
+//! Power comes and goes: operating time and power-on cycles.
 
 use od_model::Address;
 
@@ -10,7 +10,7 @@ use crate::application::{Context, Reset};
 use crate::store::Store;
 use od_wire::Instant;
 
-/// How often the operating time is saved.
+/// Microseconds between two saves of the operating time.
 const SIX_MINUTES: u64 = 360_000_000;
 
 impl<M: Motion> Encoder<M> {

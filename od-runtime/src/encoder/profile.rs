@@ -1,4 +1,4 @@
-//! What one encoder family does differently from another, as const data.
+//! Properties of an encoder family, as const data.
 
 use core::mem::discriminant;
 
@@ -9,7 +9,7 @@ use super::object::{Movement, Role};
 use super::position::Sensor;
 use od_wire::AbortCode;
 
-/// What object 6502h counts.
+/// Unit of object 6502h.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Total {
     /// Steps in all, the whole measuring range.
@@ -20,11 +20,11 @@ pub enum Total {
     Shown,
 }
 
-/// How revolutions are counted past what the sensor tells apart, and without power.
+/// Counting of revolutions beyond the range of the sensor, and without power.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Counter {
     /// With power, on and on; without, whole ranges of the sensor are not noticed. A range
-    /// of more revolutions than the sensor's begins anew where the sensor does.
+    /// of more revolutions than the sensor's starts again at 0 where the sensor does.
     Sensor,
     /// On and on. Without power half this many revolutions either way are noticed; who turns
     /// the shaft further finds a position that is wrong by a multiple of them.
@@ -36,12 +36,12 @@ pub enum Counter {
     Volatile,
 }
 
-/// What 6002h takes beside the limits of the dictionary.
+/// Values that 6002h accepts, besides the limits of the dictionary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum RangeRule {
     /// 1 to what the sensor tells apart in all; above is 06090031h.
     Sensor,
-    /// 6001h times a power of two, and 0 where that stands for 2³²; else 06090030h.
+    /// 6001h times a power of two, and 0 if that means 2³²; else 06090030h.
     PowerOfTwo,
     /// At most 6001h times the sensor's revolutions; above is 06090031h. Only a write of
     /// 6002h is checked, so that 6001h first and 6002h second always works.
@@ -55,7 +55,7 @@ pub struct Gear {
     pub index: u16,
     /// Value of sub-index 1 that switches it on.
     pub on: u8,
-    /// What it divides.
+    /// Value that it divides.
     pub kind: GearKind,
 }
 
@@ -97,34 +97,34 @@ impl Options {
     };
 }
 
-/// How many movements of a profile are told apart.
+/// Number of movements that a profile can have.
 pub(super) const MOVEMENTS: usize = 4;
 
-/// What the encoder needs to know of its family besides the dictionary.
+/// Properties of an encoder family besides its dictionary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct EncoderProfile {
     /// The sensor; `None`: 6501h and 6502h describe it.
     pub sensor: Option<Sensor>,
     /// Steps per revolution with scaling off; `None`: the sensor's.
     pub unscaled_steps: Option<u32>,
-    /// How revolutions are counted.
+    /// Counting of revolutions.
     pub counter: Counter,
-    /// What 6502h counts.
+    /// Unit of 6502h.
     pub total: Total,
-    /// What 6002h takes.
+    /// Values that 6002h accepts.
     pub range_rule: RangeRule,
     /// 6509h is signed (CiA 406), else modulo the range.
     pub signed_offset: bool,
-    /// 6002h = 0 stands for 2³².
+    /// 6002h = 0 means 2³².
     pub zero_is_full: bool,
     /// Bits of 6000h that 6500h shows.
     pub operating_bits: u16,
     /// The electronic gear.
     pub gear: Option<Gear>,
-    /// Objects that the encoder does something for; at most 4 of them are a movement.
+    /// Objects with a role; at most 4 of them are a movement.
     pub objects: &'static [(Address, Role)],
-    /// Objects that are one value: whatever is written to one stands in the other. After a
-    /// start the one that storage held rules, the first if both.
+    /// Pairs of objects with one value: a write to one changes the other. After a start the
+    /// saved value of the pair applies, the first one if both are saved.
     pub links: &'static [(Address, Address)],
     /// Answer to a value below its lower limit.
     pub below_limit: AbortCode,
@@ -136,7 +136,7 @@ pub struct EncoderProfile {
     /// Bit rates by the DIP switches, in kbit/s; at 0 the object decides. A device without
     /// any has no switches for the node ID either.
     pub switch_rates: &'static [u16],
-    /// How faults are reported; at most 31.
+    /// Reports of faults; at most 31.
     pub reports: &'static [Report],
     /// A report exists only where 6504h and 6506h have its bits (by them, variants differ);
     /// else all do.
@@ -175,7 +175,7 @@ impl EncoderProfile {
         Some(if in_steps { &STEPS } else { &Self::CIA406 })
     }
 
-    /// Returns what the encoder does for an object.
+    /// Returns the role of an object.
     pub fn role(&self, address: Address) -> Option<&'static Role> {
         let mut objects = self.objects.iter();
         let found = objects.find(|(at, _)| *at == address);
@@ -190,7 +190,7 @@ impl EncoderProfile {
         found.map(|(at, _)| *at)
     }
 
-    /// Returns the speeds and accelerations, and where they are read.
+    /// Returns the speeds and accelerations with their addresses.
     pub fn movements(&self) -> impl Iterator<Item = (Address, &'static Movement)> + use<> {
         let objects = self.objects.iter();
         objects.filter_map(|(at, role)| match role {

@@ -52,7 +52,7 @@ impl PositionSource for Angle {
 /// time before the newest sample; an acceleration is the difference of the mean speeds in the
 /// two halves of it. `N`, 3 to 255, is how many samples are remembered, 12 bytes each. Where
 /// `N − 2` times `every` is less than the longest integration time, samples are left out, and
-/// the angle between two that are remembered is taken to change evenly.
+/// the angle changes evenly between two that are remembered.
 ///
 /// ```
 /// use od_runtime::encoder::{Angle, Encoder, EncoderProfile, Fault, Sampled};
@@ -209,14 +209,14 @@ fn factor(gain: Gain) -> Float {
     factor.over(Float::new(gain.revolutions))
 }
 
-/// An amount in so many microseconds as one per second.
+/// Amount per second, from the amount in `micros` microseconds.
 fn per_second(amount: Float, micros: u32) -> Float {
     amount
         .times(Float::new(1_000_000))
         .over(Float::new(micros.into()))
 }
 
-/// What a computation makes of fractions of a revolution, rounded towards zero.
+/// Result of a computation with fractions of a revolution, rounded towards zero.
 fn signed(fractions: i64, compute: impl Fn(Float) -> Float) -> i64 {
     let whole = compute(Float::new(fractions.unsigned_abs()).shifted(-32)).whole();
     if fractions < 0 { -whole } else { whole }

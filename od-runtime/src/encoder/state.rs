@@ -34,7 +34,7 @@ pub struct Encoder<M> {
     pub(super) faults: Faults,
     pub(super) sensor: Sensor,
     pub(super) scale: Scale,
-    /// 6004h, where it stands in the store.
+    /// 6004h in the store.
     pub(super) position: Option<Var<u32, Ro>>,
     /// Steps of 6004h per revolution, without a gear that divides the position.
     pub(super) gain: Gain,
@@ -54,7 +54,7 @@ pub struct Encoder<M> {
     pub(super) keep_at: Option<Instant>,
     /// Seconds of operation before `started`.
     pub(super) seconds: u32,
-    /// How often power came.
+    /// Number of times that power came.
     pub(super) cycles: u32,
     /// Since when a movement of the profile can be measured.
     pub(super) measured_since: [Instant; MOVEMENTS],
@@ -106,7 +106,7 @@ impl<M: Motion> Encoder<M> {
         self
     }
 
-    /// What its family does differently.
+    /// Returns the properties of its family.
     pub const fn profile(&self) -> &'static EncoderProfile {
         self.profile
     }
@@ -118,13 +118,13 @@ impl<M: Motion> Encoder<M> {
         self
     }
 
-    /// What its sensor tells apart; known after [`with_sensor_of`](Self::with_sensor_of) or the
+    /// Returns resolution and range of its sensor, known after [`with_sensor_of`](Self::with_sensor_of) or the
     /// first power-on.
     pub const fn sensor(&self) -> Sensor {
         self.sensor
     }
 
-    /// How its position is made at present.
+    /// Returns the present scaling of its position.
     pub const fn scale(&self) -> Scale {
         self.scale
     }

@@ -11,7 +11,7 @@ pub(super) const TIMER: Address = Address::new(0x6200, 0);
 pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);
 
 impl<M: Motion> Encoder<M> {
-    /// What 1800h:05 is later than 6200h, in milliseconds.
+    /// Delay of 1800h:05 against 6200h, in milliseconds.
     fn delay(&self, store: &Store<'_>) -> u64 {
         match &self.profile.options {
             Some(options) if self.has_option(store, |options| options.delay_timer) => {

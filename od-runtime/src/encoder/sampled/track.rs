@@ -33,12 +33,12 @@ impl<const N: usize> Track<N> {
         self.len = 0;
     }
 
-    /// Samples are to be remembered for this long.
+    /// Remembers samples for this many microseconds.
     pub(super) fn reach(&mut self, micros: u32) {
         self.spacing = micros.div_ceil(N as u32 - 2);
     }
 
-    /// The sample so many before the newest; 0 is the newest.
+    /// Returns the sample `back` places before the newest.
     fn sample(&self, back: u8) -> Option<(u32, i64)> {
         if back >= self.len {
             return None;
@@ -79,8 +79,8 @@ impl<const N: usize> Track<N> {
         self.sample(0).map_or(0, |(at, _)| now.wrapping_sub(at))
     }
 
-    /// The angle so many microseconds before the newest sample; `None` where that is before the
-    /// oldest.
+    /// Returns the angle `micros` microseconds before the newest sample; `None` if that is before
+    /// the oldest.
     pub(super) fn back(&self, micros: u32) -> Option<i64> {
         let (newest, angle) = self.sample(0)?;
         let mut later = (0, angle);

@@ -111,7 +111,7 @@ fn tables(range: i128) -> Tables {
     Tables::new(&description)
 }
 
-/// A shaft that stands where a test puts it.
+/// Shaft at rest at the angle that a test sets.
 struct Still(Angle);
 
 impl Motion for Still {

@@ -1,4 +1,4 @@
-//! What the objects say and take.
+//! Values of the objects, and the values that they accept.
 
 use super::*;
 

@@ -93,7 +93,7 @@ fn a_singleturn_begins_anew_and_a_multiturn_goes_on() {
     assert_eq!(scale.position(turn(65_535)), 500);
     assert_eq!(scale.position(turn(65_536)), 1500);
     assert_eq!(scale.position(turn(-1)), 2500);
-    // More revolutions than the sensor has: it begins anew where the sensor does.
+    // More revolutions than the sensor has: it starts again where the sensor does.
     let scale = Scale::new(MULTIVO, 0x1000, 0x2000_0000);
     assert_eq!(scale.position(turn(65_535)), 0x0FFF_F800);
     assert_eq!(scale.position(turn(65_536)), 0x800);
