@@ -1,10 +1,12 @@
 //! `odkit explain`: what a code means, and what to do about it.
 
 use od_eds::Severity;
-use od_eds::check::{RULES, Rule, rule};
+use od_eds::check::{RULES, Rule, pair, rule};
 
 use crate::Failure;
 use crate::output::Output;
+
+mod example;
 
 /// Explain the code of a finding: why it matters, with an example before and after
 #[derive(clap::Args)]
@@ -70,14 +72,14 @@ fn text(rule: &Rule) -> String {
         rule.title,
         wrapped(rule.why, 90)
     );
-    for (title, lines) in [("Before:", rule.before), ("After:", rule.after)] {
+    let (before, after) = pair(rule.code).map(example::lines).unwrap_or_default();
+    for (title, lines) in [("Before:", &before), ("After:", &after)] {
         if !lines.is_empty() {
-            text.push_str(&format!("\n{title}\n"));
-            for line in lines.lines() {
-                text.push_str(format!("    {line}").trim_end());
-                text.push('\n');
-            }
+            text.push_str(&format!("\n{title}\n{lines}"));
         }
+    }
+    if !rule.example.is_empty() {
+        text.push_str(&format!("\nExample:\n    {}\n", rule.example));
     }
     let fix = match rule.fixability.name() {
         "by hand" => "by hand; nobody but you knows what is meant".to_owned(),
@@ -133,6 +135,7 @@ mod tests {
                 "{page}"
             );
             assert!(own.count() > 4, "{page}");
+            assert!(page.lines().any(|line| line.starts_with("    ")), "{page}");
         }
     }
 

@@ -83,10 +83,8 @@ pub struct Rule {
     pub source: &'static str,
     /// What `odkit check --fix` can do about it.
     pub fixability: Fixability,
-    /// Lines of a file that break the rule.
-    pub before: &'static str,
-    /// The same lines, fixed.
-    pub after: &'static str,
+    /// A statement of a macro call that breaks the rule; empty for a rule with a pair of files.
+    pub example: &'static str,
     /// What a finding says, unless it takes one of `also`.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub form: Form,
@@ -117,8 +115,7 @@ impl Rule {
         why: "",
         source: "",
         fixability: Fixability::None,
-        before: "",
-        after: "",
+        example: "",
         form: TOLD,
         also: &[],
     };

@@ -4,7 +4,7 @@ use odkit::object_dictionary;
 
 object_dictionary! {
     mod device {
-        eds = "../cases/rules/E0605/bad.eds";
+        eds = "../../od-eds/cases/E0605/bad.eds";
     }
 }
 

@@ -38,6 +38,8 @@ pub(crate) mod text;
 mod values;
 
 pub use crate::finding::{Fixability, Rule};
+#[cfg(feature = "explain")]
+pub use crate::rules::{Pair, pair};
 pub use crate::rules::{RULES, rule};
 pub use allow::{Allows, parse_allow};
 

@@ -12,12 +12,42 @@ pub fn rule(code: &str) -> Option<&'static Rule> {
 
 /// A module for each rule of a folder, the rule under the name of its code, and all of them.
 macro_rules! catalogue {
-    ($($file:ident $code:ident)*) => {
+    ($($file:ident $code:ident $(($kind:tt))?)*) => {
         $(
             mod $file;
             pub(crate) use $file::RULE as $code;
         )*
         pub(crate) static ALL: &[&crate::finding::Rule] = &[$(&$code),*];
+        /// The pair of files of each rule, in the same order.
+        #[cfg(feature = "explain")]
+        pub(crate) static PAIRS: &[super::Pair] = &[$(pair!($code $($kind)?)),*];
+    };
+}
+
+/// What a rule is explained with: a file that breaks it, and the same file fixed.
+#[cfg(feature = "explain")]
+pub struct Pair {
+    /// The rule's code.
+    pub code: &'static str,
+    /// The file that breaks the rule.
+    pub bad: &'static [u8],
+    /// The same file, without a finding.
+    pub fixed: &'static [u8],
+}
+
+/// The files of a code; an EDS unless its kind is given. Edits of a macro call have none.
+#[cfg(feature = "explain")]
+macro_rules! pair {
+    ($code:ident) => { pair!($code eds) };
+    ($code:ident edit) => {
+        super::Pair { code: stringify!($code), bad: b"", fixed: b"" }
+    };
+    ($code:ident $kind:ident) => {
+        super::Pair {
+            code: stringify!($code),
+            bad: include_bytes!(concat!("../../../cases/", stringify!($code), "/bad.", stringify!($kind))),
+            fixed: include_bytes!(concat!("../../../cases/", stringify!($code), "/fixed.", stringify!($kind))),
+        }
     };
 }
 
@@ -31,6 +61,8 @@ macro_rules! folders {
             pub(crate) use $folder::*;
         )*
         static FOLDERS: &[&[&Rule]] = &[$($folder::ALL),*];
+        #[cfg(feature = "explain")]
+        static FILES: &[&[Pair]] = &[$($folder::PAIRS),*];
     };
 }
 
@@ -59,6 +91,13 @@ static TABLE: [&Rule; COUNT] = {
     }
     table
 };
+
+/// The pair of files that a rule is tested and explained with; `None` for edits of a macro call.
+#[cfg(feature = "explain")]
+pub fn pair(code: &str) -> Option<&'static Pair> {
+    let mut pairs = FILES.iter().copied().flatten();
+    pairs.find(|pair| pair.code == code && !pair.bad.is_empty())
+}
 
 /// Every rule, by ascending number.
 pub static RULES: &[&Rule] = &TABLE;

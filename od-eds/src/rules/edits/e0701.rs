@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "edit of what does not exist",
     why: "A variant is strict: it changes and removes what its base has.",
     source: "odkit, object_dictionary!",
-    before: "modify 0x2000 { default = 7 }      // the EDS has no 2000h",
-    after: "modify 0x2001 { default = 7 }",
+    example: "modify 0x2000 { default = 7 }      // the EDS has no 2000h",
     ..Rule::NEW
 };

@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "what is added exists already",
     why: "A variant is strict: it adds what its base lacks.",
     source: "odkit, object_dictionary!",
-    before: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // it is there already",
-    after: "modify 0x1017 { default = 1000 }",
+    example: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // it is there already",
     ..Rule::NEW
 };

@@ -9,9 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "added member has no object",
     why: "A member stands in an object; add the object first.",
     source: "odkit, object_dictionary!",
-    before: "add 0x2000sub1 { name = \"Order\"; type = u8 }",
-    after: "\
-        add 0x2000 { name = \"Filter\"; code = record }\n\
-        add 0x2000sub1 { name = \"Order\"; type = u8 }",
+    example: "add 0x2000sub1 { name = \"Order\"; type = u8 }",
     ..Rule::NEW
 };

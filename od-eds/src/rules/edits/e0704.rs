@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "object has no members",
     why: "Only a RECORD or an ARRAY has sub-indices.",
     source: "odkit, object_dictionary!",
-    before: "add 0x1017sub1 { name = \"Second\"; type = u16 }   // 1017h is a VAR",
-    after: "add 0x2000 { name = \"Second\"; type = u16 }",
+    example: "add 0x1017sub1 { name = \"Second\"; type = u16 }   // 1017h is a VAR",
     ..Rule::NEW
 };

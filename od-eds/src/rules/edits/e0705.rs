@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "added object has no name",
     why: "The handle is called after the name.",
     source: "odkit, object_dictionary!",
-    before: "add 0x2000 { type = u16 }",
-    after: "add 0x2000 { name = \"Gain\"; type = u16 }",
+    example: "add 0x2000 { type = u16 }",
     ..Rule::NEW
 };

@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "added value has no type",
     why: "A handle has a Rust type.",
     source: "odkit, object_dictionary!",
-    before: "add 0x2000 { name = \"Gain\" }",
-    after: "add 0x2000 { name = \"Gain\"; type = u16 }",
+    example: "add 0x2000 { name = \"Gain\" }",
     ..Rule::NEW
 };

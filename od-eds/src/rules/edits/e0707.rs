@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "value of an edit is none of its type",
     why: "A default or a limit is a value of the entry's type.",
     source: "odkit, object_dictionary!",
-    before: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
-    after: "add 0x2000 { name = \"Gain\"; type = u8; default = 200 }",
+    example: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
     ..Rule::NEW
 };

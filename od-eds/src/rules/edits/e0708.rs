@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "value of the base is none of the new type",
     why: "An edit that changes the type says the values anew where they do not fit.",
     source: "odkit, object_dictionary!",
-    before: "modify 0x1000 { type = u8 }          // its default does not fit",
-    after: "modify 0x1000 { type = u8; default = 0 }",
+    example: "modify 0x1000 { type = u8 }          // its default does not fit",
     ..Rule::NEW
 };

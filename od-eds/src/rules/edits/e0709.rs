@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "member with an object code",
     why: "The code belongs to the object.",
     source: "odkit, object_dictionary!",
-    before: "modify 0x1018sub1 { code = var }",
-    after: "modify 0x1018 { code = record }",
+    example: "modify 0x1018sub1 { code = var }",
     ..Rule::NEW
 };

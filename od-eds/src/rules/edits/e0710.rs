@@ -9,7 +9,6 @@ pub(crate) static RULE: Rule = Rule {
     title: "value field of an object with members",
     why: "Type, access, default and limits belong to the members.",
     source: "odkit, object_dictionary!",
-    before: "modify 0x1018 { default = 5 }        // a RECORD has no value",
-    after: "modify 0x1018sub1 { default = 5 }",
+    example: "modify 0x1018 { default = 5 }        // a RECORD has no value",
     ..Rule::NEW
 };

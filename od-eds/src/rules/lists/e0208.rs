@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "sub-index without its object",
     why: "The section of the object itself says its code and name. The members are kept in an object without a name.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [1018sub3]\n\
-        DataType=0x0007",
-    after: "\
-        [2000]\n\
-        ParameterName=Filter\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

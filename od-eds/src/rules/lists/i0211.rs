@@ -9,9 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "section is none of CiA 306",
     why: "It is kept, and nothing reads it. Tools put their own notes into sections; a slip in the name of an object hides the object.",
     source: "CiA 306-1, file format",
-    before: "\
-        [Sub1018]\n\
-        ParameterName=Vendor-ID",
-    after: "; [Sub1018] is no section of CiA 306",
     ..Rule::NEW
 };

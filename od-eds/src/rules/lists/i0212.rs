@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Four hexadecimal digits, and behind `sub` as many as it takes. Other ways are read the same; many readers do not see the object.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [0x2000]\n\
-        ParameterName=Gain\n\
-        DataType=0x0005",
-    after: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

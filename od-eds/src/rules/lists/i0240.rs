@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "[FileInfo] or [DeviceInfo] is missing",
     why: "Tools read there what the file is, and which device it is for.",
     source: "CiA 306-1, FileInfo and DeviceInfo",
-    before: "",
-    after: "\
-        [FileInfo]\n\
-        FileName=case.eds\n\
-        FileVersion=1\n\
-        FileRevision=0\n\
-        EDSVersion=4.0\n\
-        Description=A case\n\
-        CreationTime=09:30AM\n\
-        CreationDate=11-21-2026",
     ..Rule::NEW
 };

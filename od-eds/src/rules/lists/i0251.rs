@@ -10,12 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "There are seven dummies, 0001h to 0007h; some readers want to see each of them. 0 is taken for what is missing.",
     source: "CiA 306-1, DummyUsage",
     fixability: Fixability::Safe,
-    before: "\
-        [DummyUsage]\n\
-        Dummy0002=0",
-    after: "\
-        [DummyUsage]\n\
-        Dummy0001=0\n\
-        Dummy0002=0",
     ..Rule::NEW
 };

@@ -10,14 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Unsafe,
-    before: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=2\n\
-        1=0x2000\n\
-        2=0x2001",
-    after: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=1\n\
-        1=0x2000",
     ..Rule::NEW
 };

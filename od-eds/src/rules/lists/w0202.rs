@@ -9,12 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object is in no list",
     why: "A reader that follows the lists does not see the object. It is taken to exist.",
     source: "CiA 306-1, object lists",
-    before: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=0",
-    after: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=1\n\
-        1=0x2000",
     ..Rule::NEW
 };

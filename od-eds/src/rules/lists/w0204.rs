@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    before: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=3\n\
-        1=0x2000",
-    after: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=1\n\
-        1=0x2000",
     ..Rule::NEW
 };

@@ -9,12 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "list entry is no index",
     why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
     source: "CiA 306-1, object lists",
-    before: "\
-        [ManufacturerObjects]\n\
-        1=0x2000\n\
-        2=none",
-    after: "\
-        [ManufacturerObjects]\n\
-        1=0x2000",
     ..Rule::NEW
 };

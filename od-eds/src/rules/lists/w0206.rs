@@ -9,21 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object is in the wrong list",
     why: "2000h–5FFFh belong to [ManufacturerObjects], the mandatory three to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
-    before: "\
-        [OptionalObjects]\n\
-        SupportedObjects=2\n\
-        1=0x1017\n\
-        2=0x2000\n\
-        \n\
-        [ManufacturerObjects]\n\
-        SupportedObjects=0",
-    after: "\
-        [OptionalObjects]\n\
-        SupportedObjects=1\n\
-        1=0x1017\n\
-        \n\
-        [ManufacturerObjects]\n\
-        SupportedObjects=1\n\
-        1=0x2000",
     ..Rule::NEW
 };

@@ -10,14 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "One entry is enough; some editors make two objects of two.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    before: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=2\n\
-        1=0x2000\n\
-        2=0x2000",
-    after: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=1\n\
-        1=0x2000",
     ..Rule::NEW
 };

@@ -9,18 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "compact section without CompactSubObj",
     why: "[xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. The section is kept, and nothing reads it.",
     source: "CiA 306-1, CompactSubObj",
-    before: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x8\n\
-        DataType=0x0005\n\
-        PDOMapping=0\n\
-        CompactSubObj=3",
     ..Rule::NEW
 };

@@ -10,11 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "It looks like a slip. The section is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Unsafe,
-    before: "\
-        [DummyUsages]\n\
-        Dummy0001=0",
-    after: "\
-        [DummyUsage]\n\
-        Dummy0001=0",
     ..Rule::NEW
 };

@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Readers that ask for each number miss one of the two. Both entries are read.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    before: "\
-        [ManufacturerObjects]\n\
-        1=0x2000\n\
-        1=0x2001",
-    after: "\
-        [ManufacturerObjects]\n\
-        1=0x2000\n\
-        2=0x2001",
     ..Rule::NEW
 };

@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A tool that trusts Lines shows too few comments, or stops at a missing one.",
     source: "CiA 306-1, Comments",
     fixability: Fixability::Safe,
-    before: "\
-        [Comments]\n\
-        Lines=5\n\
-        Line1=A case",
-    after: "\
-        [Comments]\n\
-        Lines=2\n\
-        Line1=A case",
     ..Rule::NEW
 };

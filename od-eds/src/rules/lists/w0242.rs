@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers ask for entry 1, 2, 3 up to SupportedObjects, and miss an entry of another number. All entries are read.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    before: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=2\n\
-        0=0x2000\n\
-        1=0x2001",
-    after: "\
-        [ManufacturerObjects]\n\
-        SupportedObjects=2\n\
-        1=0x2000\n\
-        2=0x2001",
     ..Rule::NEW
 };

@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A configuration tool reads as many entries as it says and no more.",
     source: "CiA 306-1, SupportedModules",
     fixability: Fixability::Safe,
-    before: "\
-        [M1FixedObjects]\n\
-        NrOfEntries=4\n\
-        1=0x6000",
-    after: "\
-        [M1FixedObjects]\n\
-        NrOfEntries=1\n\
-        1=0x6000",
     ..Rule::NEW
 };

@@ -9,14 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "segment of [DynamicChannels] is incomplete",
     why: "A programmable device says for every segment the type, the direction and the range of its objects.",
     source: "CiA 306-1, DynamicChannels",
-    before: "\
-        [DynamicChannels]\n\
-        Type1=0x0005\n\
-        Range1=0xA000-0xA03F",
-    after: "\
-        [DynamicChannels]\n\
-        Type1=0x0005\n\
-        Dir1=ro\n\
-        Range1=0xA000-0xA03F",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "PDOMapping=0 forbids it.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0007\n\
-        DefaultValue=0\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0007\n\
-        DefaultValue=0\n\
-        PDOMapping=1",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO maps an object of the wrong direction",
     why: "A TPDO carries what can be read (ro, rw, rwr, const), an RPDO what can be written (wo, rw, rww).",
     source: "CiA 306-1, AccessType",
-    before: "\
-        [2001]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0",
-    after: "\
-        [2001]\n\
-        DataType=0x0007\n\
-        AccessType=rww\n\
-        DefaultValue=0",
     ..Rule::NEW
 };

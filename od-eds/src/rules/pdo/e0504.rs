@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "The last byte of a mapping entry is the object's length in bits.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x20000010\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x20000020\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

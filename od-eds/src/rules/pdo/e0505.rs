@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO is longer than 64 bits",
     why: "A CAN frame carries eight bytes.",
     source: "CiA 301, PDO mapping parameter",
-    before: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=3\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=2\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "TPDO maps a dummy",
     why: "Dummies fill gaps in what is received; there is nothing to send.",
     source: "CiA 301, dummy mapping",
-    before: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x00050008\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x20000020\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
     source: "CiA 301, PDO communication parameter",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1800sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=rw",
-    after: "\
-        [1800sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "CompactPDO stands for PDO objects",
     why: "They have no sections. They are made with the sub-indices that its bits name; a reader that does not know CompactPDO lacks them.",
     source: "CiA 306-1, DeviceInfo",
-    before: "\
-        [DeviceInfo]\n\
-        Granularity=8\n\
-        CompactPDO=15\n\
-        NrOfRxPDO=1\n\
-        NrOfTxPDO=1",
-    after: "\
-        [DeviceInfo]\n\
-        Granularity=8\n\
-        CompactPDO=0\n\
-        NrOfRxPDO=0\n\
-        NrOfTxPDO=1",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "COB-ID does not follow the node ID",
     why: "Two such devices in one network send on one identifier. The first four PDOs usually have $NODEID in their COB-IDs.",
     source: "CiA 301, predefined connection set",
-    before: "\
-        [1800sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x181\n\
-        PDOMapping=0",
-    after: "\
-        [1800sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=$NODEID+0x180\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

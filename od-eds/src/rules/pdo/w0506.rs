@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
     source: "CiA 306-1, DummyUsage",
     fixability: Fixability::Unsafe,
-    before: "\
-        [DummyUsage]\n\
-        Dummy0004=0\n\
-        Dummy0005=0\n\
-        Dummy0006=1",
-    after: "\
-        [DummyUsage]\n\
-        Dummy0004=0\n\
-        Dummy0005=1\n\
-        Dummy0006=1",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "transmission type is reserved",
     why: "0–240 and 252–255 have a meaning, for an RPDO 0–240, 254 and 255.",
     source: "CiA 301, PDO communication parameter",
-    before: "\
-        [1800sub2]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=245\n\
-        PDOMapping=0",
-    after: "\
-        [1800sub2]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=255\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A BOOLEAN has one bit in a PDO. Some stacks send a byte, and a master that goes by the type reads the rest of the PDO wrong.",
     source: "CiA 301, data types and PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x20000008\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x20000001\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

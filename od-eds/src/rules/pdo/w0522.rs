@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "identifier has more bits than it says",
     why: "Bit 29 of a COB-ID says that the identifier has 29 bits; without it bits 11 to 28 are 0.",
     source: "CiA 301, COB-ID",
-    before: "\
-        [1800sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x18000\n\
-        PDOMapping=0",
-    after: "\
-        [1800sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=$NODEID+0x180\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

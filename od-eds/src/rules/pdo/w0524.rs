@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "mapping counts more than 64 objects",
     why: "A PDO has 64 bits, so at most 64 objects; 254 and 255 say that it is multiplexed.",
     source: "CiA 301, PDO mapping parameter",
-    before: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=100\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=1\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

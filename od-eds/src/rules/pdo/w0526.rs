@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "mapping is finer than the granularity",
     why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
     source: "CiA 306-1, DeviceInfo",
-    before: "\
-        [DeviceInfo]\n\
-        SimpleBootUpSlave=0\n\
-        Granularity=64\n\
-        NrOfRxPDO=0",
-    after: "\
-        [DeviceInfo]\n\
-        SimpleBootUpSlave=0\n\
-        Granularity=8\n\
-        NrOfRxPDO=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Every master asks the first SDO server with 600h plus the node ID, and waits for 580h plus the node ID.",
     source: "CiA 301, predefined connection set",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1200sub1]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=$NODEID+0x640\n\
-        PDOMapping=0",
-    after: "\
-        [1200sub1]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=$NODEID+0x600\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

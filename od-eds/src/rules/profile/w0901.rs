@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "I/O module lacks what it says it has",
     why: "1000h of a CiA 401 device says which kinds of channels it has; each has its objects.",
     source: "CiA 401, object 1000h",
-    before: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x00030191\n\
-        PDOMapping=0",
-    after: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x00010191\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "measuring device lacks what it says it has",
     why: "1000h of a CiA 404 device says which function blocks it has; each has its process values.",
     source: "CiA 404, object 1000h",
-    before: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x000A0194\n\
-        PDOMapping=0",
-    after: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x00020194\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

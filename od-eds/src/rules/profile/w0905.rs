@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that knows the object from the device profile reads and writes it with another length.",
     source: "CiA 401 and CiA 402, object overview",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6041]\n\
-        ObjectType=0x7\n\
-        DataType=0x0007\n\
-        AccessType=ro",
-    after: "\
-        [6041]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=ro",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "What a profile has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 401 and CiA 402, object overview",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6041]\n\
-        DataType=0x0006\n\
-        AccessType=rw\n\
-        DefaultValue=0",
-    after: "\
-        [6041]\n\
-        DataType=0x0006\n\
-        AccessType=ro\n\
-        DefaultValue=0",
     ..Rule::NEW
 };

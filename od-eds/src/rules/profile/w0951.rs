@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "What CiA 406 has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 406, object overview",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6004]\n\
-        DataType=0x0007\n\
-        AccessType=rwr\n\
-        DefaultValue=0",
-    after: "\
-        [6004]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "6002h is 6001h times the revolutions, or divides that; else the position jumps where the encoder starts again.",
     source: "CiA 406, objects 6001h and 6002h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6002]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=33550000\n\
-        PDOMapping=0",
-    after: "\
-        [6002]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=33554432\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

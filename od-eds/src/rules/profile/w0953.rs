@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "The position is what an encoder sends in its PDOs.",
     source: "CiA 406, object 6004h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6004]\n\
-        DataType=0x0007\n\
-        DefaultValue=0\n\
-        PDOMapping=0",
-    after: "\
-        [6004]\n\
-        DataType=0x0007\n\
-        DefaultValue=0\n\
-        PDOMapping=1",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "6500h shows what is set in 6000h: code sequence, commissioning diagnosis, scaling.",
     source: "CiA 406, objects 6000h and 6500h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6500]\n\
-        DataType=0x0006\n\
-        AccessType=ro\n\
-        DefaultValue=0\n\
-        PDOMapping=0",
-    after: "\
-        [6500]\n\
-        DataType=0x0006\n\
-        AccessType=ro\n\
-        DefaultValue=4\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

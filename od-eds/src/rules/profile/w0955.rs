@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "preset is outside the range",
     why: "6003h is a position, and positions go from 0 to one below 6002h.",
     source: "CiA 406, object 6003h",
-    before: "\
-        [6003]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=33554432\n\
-        PDOMapping=0",
-    after: "\
-        [6003]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

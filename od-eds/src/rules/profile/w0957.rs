@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "device type and revolutions disagree",
     why: "1000h says whether the encoder counts revolutions, 6502h how many.",
     source: "CiA 406, objects 1000h and 6502h",
-    before: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x00010196\n\
-        PDOMapping=0",
-    after: "\
-        [1000]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x00020196\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "6200h and 1800h:05 are one timer.",
     source: "CiA 406, object 6200h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [6200]\n\
-        DataType=0x0006\n\
-        AccessType=rw\n\
-        DefaultValue=100\n\
-        PDOMapping=0",
-    after: "\
-        [6200]\n\
-        DataType=0x0006\n\
-        AccessType=rw\n\
-        DefaultValue=10\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "alarm or warning that is not supported",
     why: "6503h and 6505h show only what 6504h and 6506h say that there is.",
     source: "CiA 406, objects 6503h to 6506h",
-    before: "\
-        [6503]\n\
-        DataType=0x0006\n\
-        AccessType=ro\n\
-        DefaultValue=2\n\
-        PDOMapping=1",
-    after: "\
-        [6503]\n\
-        DataType=0x0006\n\
-        AccessType=ro\n\
-        DefaultValue=0\n\
-        PDOMapping=1",
     ..Rule::NEW
 };

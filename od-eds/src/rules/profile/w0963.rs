@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "no PDO carries the position",
     why: "As it is shipped, an encoder sends its position in the first TPDO.",
     source: "CiA 406, PDO mapping",
-    before: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x65030010\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x60040020\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A VAR, UNSIGNED32, read only.",
     source: "CiA 301, object 1000h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=ro",
-    after: "\
-        [1000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0007\n\
-        AccessType=ro",
     ..Rule::NEW
 };

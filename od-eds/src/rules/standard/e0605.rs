@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A VAR, UNSIGNED8, read only.",
     source: "CiA 301, object 1001h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1001]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=ro",
-    after: "\
-        [1001]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=ro",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
     source: "CiA 301, object 1018h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1018sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=ro",
-    after: "\
-        [1018sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0007\n\
-        AccessType=ro",
     ..Rule::NEW
 };

@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "date or time is not written as CiA 306 writes it",
     why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
     source: "CiA 306-1, FileInfo",
-    before: "\
-        [FileInfo]\n\
-        CreationTime=09:30AM\n\
-        CreationDate=21.11.2026",
-    after: "\
-        [FileInfo]\n\
-        CreationTime=09:30AM\n\
-        CreationDate=11-21-2026",
     ..Rule::NEW
 };

@@ -10,11 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "The standard writes `DeviceComissioning`. Both are read; many readers know only one.",
     source: "CiA 306-1, DCF",
     fixability: Fixability::Safe,
-    before: "\
-        [DeviceCommissioning]\n\
-        NodeID=5",
-    after: "\
-        [DeviceComissioning]\n\
-        NodeID=5",
     ..Rule::NEW
 };

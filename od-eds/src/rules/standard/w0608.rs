@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "NrOfRxPDO and NrOfTxPDO count the PDOs of the device.",
     source: "CiA 306-1, DeviceInfo",
     fixability: Fixability::Safe,
-    before: "\
-        [DeviceInfo]\n\
-        NrOfRxPDO=0\n\
-        NrOfTxPDO=4\n\
-        LSS_Supported=0",
-    after: "\
-        [DeviceInfo]\n\
-        NrOfRxPDO=0\n\
-        NrOfTxPDO=1\n\
-        LSS_Supported=0",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "value of a section that describes no object is none of its kind",
     why: "Flags are 0 or 1, numbers are numbers within their range. It is kept as text, and counts as missing.",
     source: "CiA 306-1, FileInfo, DeviceInfo, DummyUsage, DeviceComissioning",
-    before: "\
-        [DeviceInfo]\n\
-        SimpleBootUpSlave=0\n\
-        Granularity=eight\n\
-        NrOfRxPDO=0",
-    after: "\
-        [DeviceInfo]\n\
-        SimpleBootUpSlave=0\n\
-        Granularity=8\n\
-        NrOfRxPDO=0",
     ..Rule::NEW
 };

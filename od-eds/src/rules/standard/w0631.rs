@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that knows the object from the standard reads and writes it with another length.",
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1017]\n\
-        ObjectType=0x7\n\
-        DataType=0x0007\n\
-        AccessType=rw",
-    after: "\
-        [1017]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=rw",
     ..Rule::NEW
 };

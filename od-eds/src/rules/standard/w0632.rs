@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "What the standard has as read only is not to be written; what is written by masters must be writable.",
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1018sub1]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x5F",
-    after: "\
-        [1018sub1]\n\
-        DataType=0x0007\n\
-        AccessType=ro\n\
-        DefaultValue=0x5F",
     ..Rule::NEW
 };

@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "LSS without an LSS address",
     why: "A device is selected by vendor, product, revision and serial number: 1018h needs all four.",
     source: "CiA 305, LSS address",
-    before: "\
-        [DeviceInfo]\n\
-        NrOfTxPDO=0\n\
-        LSS_Supported=1",
-    after: "\
-        [DeviceInfo]\n\
-        NrOfTxPDO=0\n\
-        LSS_Supported=0",
     ..Rule::NEW
 };

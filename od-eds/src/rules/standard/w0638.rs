@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "node ID or bit rate of a DCF is none",
     why: "A node ID is 1 to 127, a bit rate one of CiA 301. A tool that loads the DCF cannot set it.",
     source: "CiA 306-1, DeviceComissioning",
-    before: "\
-        [DeviceComissioning]\n\
-        NodeID=200\n\
-        NodeName=Case",
-    after: "\
-        [DeviceComissioning]\n\
-        NodeID=5\n\
-        NodeName=Case",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Sub-index 0 of 1003h counts the errors that there are, not the room for them.",
     source: "CiA 301, object 1003h",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1003sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=1\n\
-        PDOMapping=0",
-    after: "\
-        [1003sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=0\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

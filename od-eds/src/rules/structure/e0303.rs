@@ -9,16 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object or sub-index stands twice with different content",
     why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts, with what only the other says.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=rw\n\
-        DefaultValue=500\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Only an ARRAY or a RECORD has sub-indices. It is taken for a RECORD; a value of its own becomes sub-index 0 where there is none.",
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        ParameterName=Filter\n\
-        ObjectType=0x7\n\
-        SubNumber=3",
-    after: "\
-        [2000]\n\
-        ParameterName=Filter\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

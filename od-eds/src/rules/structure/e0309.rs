@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Sub-index 0 is the highest sub-index, an UNSIGNED8, in every ARRAY and RECORD.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000sub0]\n\
-        ObjectType=0x7\n\
-        DataType=0x0007\n\
-        AccessType=const",
-    after: "\
-        [2000sub0]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=const",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that reads up to the highest sub-index gets an abort. A value that counts entries in use may be lower than the members, never higher.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=2\n\
-        PDOMapping=0",
-    after: "\
-        [1A00sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=1\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

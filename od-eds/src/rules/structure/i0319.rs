@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "key is none of CiA 306",
     why: "It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        Unit=mm\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ; Unit=mm\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A number, a type or an access says nothing when it is empty. It is read as if the line were not there; many readers stop at it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "two members have one name",
     why: "Masters that find values by their names find only one of them.",
     source: "odkit; python-canopen and others look up by name",
-    before: "\
-        [2000sub1]\n\
-        ParameterName=Cut-off\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
-    after: "\
-        [2000sub1]\n\
-        ParameterName=Order\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

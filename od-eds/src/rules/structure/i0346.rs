@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "two objects have one name",
     why: "Masters that find objects by their names find only one of them.",
     source: "odkit; python-canopen and others look up by name",
-    before: "\
-        [2001]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
-    after: "\
-        [2001]\n\
-        ParameterName=Offset\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

@@ -10,14 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Without ObjectType an object is a VAR, and this one has members. It is taken for a RECORD.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        ParameterName=Filter\n\
-        SubNumber=3",
-    after: "\
-        [2000]\n\
-        ParameterName=Filter\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

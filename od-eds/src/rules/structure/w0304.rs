@@ -9,16 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object or sub-index stands twice",
     why: "The sections do not contradict each other; one is enough. What only one of them says counts.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        ObjectType=0x9\n\
-        SubNumber=2",
-    after: "\
-        [2000]\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0006\n\
-        AccessType=rw",
-    after: "\
-        [2000sub2]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

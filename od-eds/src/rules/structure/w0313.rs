@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "CompactSubObj is no number from 1 to 254",
     why: "CompactSubObj is the number of members besides sub-index 0. What cannot be a sub-index is left out.",
     source: "CiA 306-1, CompactSubObj",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        PDOMapping=0\n\
-        CompactSubObj=300",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        PDOMapping=0\n\
-        CompactSubObj=3",
     ..Rule::NEW
 };

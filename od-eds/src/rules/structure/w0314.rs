@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "compact section names a member that does not exist",
     why: "The entry is left out.",
     source: "CiA 306-1, CompactSubObj",
-    before: "\
-        [2000Name]\n\
-        NrOfEntries=1\n\
-        4=Last",
-    after: "\
-        [2000Name]\n\
-        NrOfEntries=1\n\
-        3=Last",
     ..Rule::NEW
 };

@@ -9,14 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "ParameterName is missing",
     why: "Every object and every member has a name.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
-    after: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

@@ -9,13 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "SubNumber is no number",
     why: "SubNumber is the number of sub-index sections. They are counted instead.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ObjectType=0x9\n\
-        SubNumber=three",
-    after: "\
-        [2000]\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

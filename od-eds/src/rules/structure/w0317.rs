@@ -10,12 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "An object with members says how many. They are counted instead.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        ObjectType=0x9",
-    after: "\
-        [2000]\n\
-        ObjectType=0x9\n\
-        SubNumber=3",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "It looks like a slip. The key is kept, and nothing reads it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefualtValue=5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

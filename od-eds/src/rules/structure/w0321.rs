@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, CompactSubObj",
     fixability: Fixability::Safe,
-    before: "\
-        [2000Value]\n\
-        NrOfEntries=1\n\
-        1=7",
-    after: "\
-        [2000Value]\n\
-        NrOfEntries=2\n\
-        1=7",
     ..Rule::NEW
 };

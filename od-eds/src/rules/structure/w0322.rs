@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000sub1]\n\
-        ParameterName=Order\n\
-        ObjectType=0x9\n\
-        DataType=0x0005",
-    after: "\
-        [2000sub1]\n\
-        ParameterName=Order\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

@@ -9,7 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "Count of a module is none",
     why: "Count says how many sub-indices a module adds: a number, or `0;` and the bits that share one. One is taken.",
     source: "CiA 306-1, modular devices",
-    before: "[M1SubExt6000]\nCount=many\n",
-    after: "[M1SubExt6000]\nCount=1\n",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "ObjFlags has reserved bits",
     why: "Bit 0 says that a download tool leaves the object out, bit 1 the same for uploads; the others are reserved.",
     source: "CiA 306-1, ObjFlags",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        PDOMapping=0\n\
-        ObjFlags=0x81",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        PDOMapping=0\n\
-        ObjFlags=1",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "name is longer than 241 characters",
     why: "CiA 306 lets names have 241 characters; some readers cut what is longer.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ParameterName=Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent; Gain of the filter that comes behind the first amplifier, in per cent;\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
-    after: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

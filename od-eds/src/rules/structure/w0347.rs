@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Sub-index 0 counts the members, which no master changes; 1003h and the mappings are the exception.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
-    before: "\
-        [1016sub0]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=1",
-    after: "\
-        [1016sub0]\n\
-        DataType=0x0005\n\
-        AccessType=const\n\
-        DefaultValue=1",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that reads up to sub-index 0 gets an abort for what does not exist.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000sub0]\n\
-        DataType=0x0005\n\
-        AccessType=const\n\
-        DefaultValue=4\n\
-        PDOMapping=0",
-    after: "\
-        [2000sub0]\n\
-        DataType=0x0005\n\
-        AccessType=const\n\
-        DefaultValue=2\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,14 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Only an ARRAY or a RECORD has sub-indices to count.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        SubNumber=3\n\
-        DataType=0x0005",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

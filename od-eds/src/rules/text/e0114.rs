@@ -9,7 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object of an XDD has no index",
     why: "An index is four, a sub-index two hexadecimal digits without `0x`. The element is left out.",
     source: "CiA 311, CANopenObject",
-    before: "<CANopenObject index=\"10G0\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
-    after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
     ..Rule::NEW
 };

@@ -9,7 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "object of an XDD refers to no parameter",
     why: "Type, access and default of the object are said of the parameter. What the object says itself is read.",
     source: "CiA 311, CANopenObject",
-    before: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" uniqueIDRef=\"UID_PARAM_gone\"/>",
-    after: "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"0007\" accessType=\"ro\" PDOmapping=\"no\" defaultValue=\"0x0\"/>",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "file is not ASCII",
     why: "CiA 306 asks for ASCII. UTF-8, UTF-16 and Windows-1252 are read, with or without a byte order mark; many readers know only one of them.",
     source: "CiA 306-1, file format",
-    before: "\
-        [FileInfo]\n\
-        EDSVersion=4.0\n\
-        Description=A case for 5 µm\n\
-        CreationTime=09:30AM",
-    after: "\
-        [FileInfo]\n\
-        EDSVersion=4.0\n\
-        Description=A case for 5 um\n\
-        CreationTime=09:30AM",
     ..Rule::NEW
 };

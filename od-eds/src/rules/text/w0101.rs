@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Most readers stop at such a line. It is ignored here.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        see the manual\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        ; see the manual\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

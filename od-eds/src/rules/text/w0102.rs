@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Nothing can ask for a value without a key. The line is ignored.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        =7\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ;=7\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,13 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Most readers stop at such a line. The header is taken to end with its line.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    before: "\
-        [2000\n\
-        ParameterName=Gain\n\
-        DataType=0x0005",
-    after: "\
-        [2000]\n\
-        ParameterName=Gain\n\
-        DataType=0x0005",
     ..Rule::NEW
 };

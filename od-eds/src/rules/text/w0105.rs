@@ -9,7 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "key before the first section",
     why: "A key belongs to a section. It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
-    before: "Revision=3",
-    after: "",
     ..Rule::NEW
 };

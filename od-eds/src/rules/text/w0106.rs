@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "section stands twice",
     why: "Readers differ in which one they take. The first counts; both are kept.",
     source: "CiA 306-1, file format",
-    before: "\
-        [Comments]\n\
-        Line1=A case\n\
-        \n\
-        [Comments]\n\
-        Line2=of comments",
-    after: "\
-        [Comments]\n\
-        Line1=A case\n\
-        Line2=of comments",
     ..Rule::NEW
 };

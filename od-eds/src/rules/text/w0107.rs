@@ -10,16 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Readers differ in which one they take. The first counts.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Either,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Only some readers know it. It is read as `=`.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue:5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

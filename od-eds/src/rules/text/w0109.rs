@@ -10,18 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5 ; per cent\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        ; per cent\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,11 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "section header without name",
     why: "No reader can ask for such a section. It is kept, and nothing reads it.",
     source: "CiA 306-1, file format",
-    before: "\
-        []\n\
-        Lines=1",
-    after: "\
-        [Comments]\n\
-        Lines=1",
     ..Rule::NEW
 };

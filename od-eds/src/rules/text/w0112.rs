@@ -9,11 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "byte is no character of the file's encoding",
     why: "Two encodings in one file, or a file that was cut. In UTF-8 the byte is read as Windows-1252, in UTF-16 as U+FFFD; a file that is written back keeps it.",
     source: "CiA 306-1, file format",
-    before: "\
-        [FileInfo]\n\
-        Description=A case for 5 µm",
-    after: "\
-        [FileInfo]\n\
-        Description=A case for 5 um",
     ..Rule::NEW
 };

@@ -9,14 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "DataType is missing",
     why: "Nothing is known of a value without a type. It is left out of the dictionary.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        AccessType=rw",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "DataType is no data type",
     why: "DataType is the index of one of CiA 301's types. The value is left out of the dictionary.",
     source: "CiA 301, data types",
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0099\n\
-        AccessType=rw",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

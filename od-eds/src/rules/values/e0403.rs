@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "value has the type of a record",
     why: "0020h–0023h describe whole objects; a value has one of the basic types. It is left out of the dictionary.",
     source: "CiA 301, data types",
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0021\n\
-        AccessType=rw",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "AccessType is none",
     why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
     source: "CiA 306-1, object sections",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=any\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

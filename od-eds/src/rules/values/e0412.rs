@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "DefaultValue is no value of its type",
     why: "The value cannot be what the description says it is. The dictionary has no default there.",
     source: "CiA 306-1, object sections; CiA 301, data types",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=300\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

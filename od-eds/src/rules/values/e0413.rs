@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "ParameterValue is no value of its type",
     why: "The value cannot be what the configuration says it is. The dictionary has the default there.",
     source: "CiA 306-1, DCF; CiA 301, data types",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ParameterValue=fast\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ParameterValue=7\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

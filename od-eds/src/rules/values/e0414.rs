@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "value is outside its limits",
     why: "A device refuses to be set to what its own default is.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ParameterValue=11\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ParameterValue=7\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,19 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "No value lies between them.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        LowLimit=10\n\
-        HighLimit=0\n\
-        DefaultValue=",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        LowLimit=0\n\
-        HighLimit=10\n\
-        DefaultValue=",
     ..Rule::NEW
 };

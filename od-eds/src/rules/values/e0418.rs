@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "$NODEID formula does not fit its type for every node ID",
     why: "The sum with the highest node ID, 127, must fit.",
     source: "CiA 306-1, $NODEID",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=$NODEID+0xF0\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=$NODEID+0x80\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "`010` is 8. It is read so, as C reads it; not every reader does.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=010\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=8\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

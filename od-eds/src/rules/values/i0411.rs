@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Another order, other case or blanks are read the same; not every reader does.",
     source: "CiA 306-1, $NODEID",
     fixability: Fixability::Safe,
-    before: "\
-        [1014]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=0x80 + $nodeid\n\
-        PDOMapping=0",
-    after: "\
-        [1014]\n\
-        DataType=0x0007\n\
-        AccessType=rw\n\
-        DefaultValue=$NODEID+0x80\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "type that the file defines",
     why: "The object of that index says in sub-index 1 which basic type it stands for. That type is taken, with its limits; most readers know no such types.",
     source: "CanFestival, object dictionary editor",
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x00A0\n\
-        AccessType=rw",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw",
     ..Rule::NEW
 };

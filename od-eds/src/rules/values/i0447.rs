@@ -9,15 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "mappable, but into which PDO",
     why: "An object that is rw and mappable may stand in TPDOs and RPDOs alike; rwr or rww says which, if it is only one.",
     source: "CiA 306-1, AccessType",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rww\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

@@ -9,19 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "limits leave one value",
     why: "A value that can be written, but only to what it is: such limits are usually left over from an editor.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        LowLimit=5\n\
-        HighLimit=5\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        LowLimit=0\n\
-        HighLimit=10\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

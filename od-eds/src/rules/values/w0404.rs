@@ -10,14 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Every value says who may write it. `ro` is taken.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "0 is taken.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=maybe",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "0 is taken.",
     source: "CiA 306-1, ObjFlags",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ObjFlags=none\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        ObjFlags=0\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=08\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=8\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

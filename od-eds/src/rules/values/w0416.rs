@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        LowLimit=0\n\
-        HighLimit=1000\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        LowLimit=0\n\
-        HighLimit=\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

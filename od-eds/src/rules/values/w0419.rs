@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "An OCTET_STRING or a DOMAIN is written as hexadecimal bytes. The characters are taken for the bytes.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x000A\n\
-        AccessType=rw\n\
-        DefaultValue=OPEN\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x000A\n\
-        AccessType=rw\n\
-        DefaultValue=4F 50 45 4E\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

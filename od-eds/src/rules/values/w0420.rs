@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "`0x10L` and `5.0` are how other languages write integers. The integer is taken; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5.0\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

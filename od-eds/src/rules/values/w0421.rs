@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "`true` and `false` are words of other formats. They are read as 1 and 0.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0001\n\
-        AccessType=rw\n\
-        DefaultValue=true\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0001\n\
-        AccessType=rw\n\
-        DefaultValue=1\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

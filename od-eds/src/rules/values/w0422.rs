@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "`FF` and `1Fh` are how other formats write 0xFF and 0x1F. They are read so; many readers refuse them.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=1Fh\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=0x1F\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

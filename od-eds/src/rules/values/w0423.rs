@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "It is read as a decimal point; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        DataType=0x0008\n\
-        AccessType=rw\n\
-        DefaultValue=1,5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0008\n\
-        AccessType=rw\n\
-        DefaultValue=1.5\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

@@ -10,17 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType has six words. What is meant is read; many readers refuse it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    before: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=UNSIGNED8\n\
-        AccessType=read-write\n\
-        DefaultValue=5",
-    after: "\
-        [2000]\n\
-        ObjectType=0x7\n\
-        DataType=0x0005\n\
-        AccessType=rw\n\
-        DefaultValue=5",
     ..Rule::NEW
 };

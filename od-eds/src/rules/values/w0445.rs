@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "rwr and rww say into which PDO an object may be mapped; of an object that is not mappable they say nothing.",
     source: "CiA 306-1, AccessType",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        DefaultValue=5\n\
-        PDOMapping=1",
     ..Rule::NEW
 };

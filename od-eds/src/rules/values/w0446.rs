@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "text is not ASCII",
     why: "A VISIBLE_STRING has the characters of ISO 646; on the bus others become whatever the reader takes them for.",
     source: "CiA 301, data types",
-    before: "\
-        [2000]\n\
-        DataType=0x0009\n\
-        AccessType=rw\n\
-        DefaultValue=5 µm\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0009\n\
-        AccessType=rw\n\
-        DefaultValue=5 um\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

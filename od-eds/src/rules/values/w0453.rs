@@ -9,17 +9,5 @@ pub(crate) static RULE: Rule = Rule {
     title: "constant has no value",
     why: "What is const never changes; without a DefaultValue nobody knows what it is. 0 is taken.",
     source: "CiA 306-1, AccessType",
-    before: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=const\n\
-        DefaultValue=\n\
-        PDOMapping=0",
-    after: "\
-        [2000]\n\
-        DataType=0x0005\n\
-        AccessType=const\n\
-        DefaultValue=4\n\
-        PDOMapping=0",
     ..Rule::NEW
 };

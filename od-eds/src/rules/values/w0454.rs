@@ -10,15 +10,5 @@ pub(crate) static RULE: Rule = Rule {
     why: "A string or a DOMAIN has no place in a PDO.",
     source: "CiA 301, data types and PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    before: "\
-        [2000]\n\
-        DataType=0x0009\n\
-        DefaultValue=hello\n\
-        PDOMapping=1",
-    after: "\
-        [2000]\n\
-        DataType=0x0009\n\
-        DefaultValue=hello\n\
-        PDOMapping=0",
     ..Rule::NEW
 };
