@@ -2,24 +2,14 @@
 // It serves the bundle itself and prints a Markdown table; what misses its aim ends it with 1.
 import { execFileSync } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
-import { createServer } from 'node:http';
 import { cpus, loadavg } from 'node:os';
-import { extname } from 'node:path';
+import { serve } from '../../playground/web/serve.mjs';
 import { launch } from './harness.mjs';
 import { booted, nmt, sdo, sdoNote, until } from './bench.mjs';
 
 const WEB = new URL('../../playground/web/', import.meta.url);
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json' };
-
-const server = createServer(async (request, response) => {
-  const path = new URL(request.url, 'http://x').pathname;
-  const at = path.startsWith('/module/') ? new URL(`src/wasm/core/${path.slice(8)}`, WEB) : new URL(`dist${path === '/' ? '/index.html' : path}`, WEB);
-  const body = await readFile(at).catch(() => null);
-  response.writeHead(body ? 200 : 404, { 'content-type': TYPES[extname(at.pathname)] ?? 'text/plain', 'cache-control': 'no-store' });
-  response.end(body);
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-const url = `http://127.0.0.1:${server.address().port}/`;
+const server = await serve(WEB, 0);
+const url = `${server.url}dist/`;
 
 const load = loadavg()[0];
 const table = [];
@@ -68,7 +58,7 @@ async function simulation(browser, period, aim) {
   const page = await own.newPage();
   await page.goto(`${url}icon.svg`);
   const rate = await page.evaluate(async (cycle) => {
-    const { default: init, Bus } = await import('/module/od_playground.js');
+    const { default: init, Bus } = await import('/src/wasm/core/od_playground.js');
     await init();
     const bus = new Bus();
     bus.setRpm(bus.addDevice('gxmm', 1), 60);
@@ -146,7 +136,7 @@ try {
   await throughput(browser);
 } finally {
   await browser.close();
-  server.close();
+  await server.stop();
 }
 console.log(`Chromium ${browser.version()}, ${cpus().length} processors, load ${load.toFixed(1)} before the run\n`);
 console.log('| what | measured | aim |\n|---|--:|---|');

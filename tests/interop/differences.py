@@ -34,7 +34,9 @@ def corpus():
 
 def odkit_reading(folder):
     """file -> {index: (code, name, {sub: fields})}, read by odkit."""
-    command = ["cargo", "run", "--quiet", "--package", "od-tests", "--example", "corpus", "--"]
+    built = os.environ.get("ODKIT_READING")
+    build = ["cargo", "run", "--quiet", "--package", "od-tests", "--example", "corpus", "--"]
+    command = [built] if built else build
     out = subprocess.run(
         command + [str(Path(folder).resolve()), "--entries"],
         cwd=ROOT, check=True, capture_output=True, encoding="utf-8",

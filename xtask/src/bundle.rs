@@ -12,16 +12,13 @@ use std::process::Command;
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::lock::SetupLock;
+use crate::packages::PAGE;
 use crate::repo::{self, Repo};
-use crate::setup::target::{self, Compiler};
-use crate::setup::{binaryen, bindgen, node};
+use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
 /// The size of the download counts more than the last bit of speed.
 pub(crate) const OPT_LEVEL: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
-
-/// The library's name, which every generated file starts with.
-const LIB: &str = "od_playground";
 
 /// A WebAssembly module of the page.
 struct Module {
@@ -52,12 +49,6 @@ pub(crate) fn page(repo: &Repo, console: &Console) -> Result<()> {
     // What cannot be had is said before anything takes time.
     node::check()?;
     let web = repo.web();
-    if !web.join("package-lock.json").is_file() {
-        let web = repo.short(&web);
-        return Err(Error::Missing(format!(
-            "there is no {web}/package-lock.json"
-        )));
-    }
     let _lock = SetupLock::acquire(repo, console)?;
     generate(repo, console, &WHOLE)?;
     generate(repo, console, &CORE)?;
@@ -82,28 +73,27 @@ pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
 
 /// Steps 1 and 2, for a caller that holds the lock.
 fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> {
-    let compiler = Compiler::get(repo, console, target::WASM)?;
+    target::add(repo, console, target::WASM)?;
     let mut build = cargo(&repo.root, &["build", "--lib", "--profile", module.profile]);
-    build.args(["--package", "od-playground", "--target", target::WASM]);
+    build.args(["--package", PAGE.0, "--target", target::WASM]);
     build.args(module.features);
     build.env(OPT_LEVEL.0, OPT_LEVEL.1);
-    compiler.apply(&mut build)?;
     console.run(module.what, &mut build)?;
     let wasm = repo
         .target
         .join(target::WASM)
         .join(module.profile)
-        .join(format!("{LIB}.wasm"));
+        .join(format!("{}.wasm", PAGE.1));
 
     let out = repo.bindings().join(module.folder);
-    let module = out.join(format!("{LIB}_bg.wasm"));
+    let module = out.join(format!("{}_bg.wasm", PAGE.1));
     let inputs = Fingerprint::new()
         .file(&wasm)?
         .text(&repo.locked_version("wasm-bindgen")?)
         .file(&repo.root.join("xtask/tools/package-lock.json"))?
         .text(&binaryen::FLAGS.join(" "));
     let stamp = Stamp::new(out.join(".stamp"), inputs);
-    let script = out.join(format!("{LIB}.js"));
+    let script = out.join(format!("{}.js", PAGE.1));
     if stamp.is_current(&[&module, &script]) {
         return Ok(out);
     }
@@ -149,12 +139,10 @@ fn prepare(out: &Path) -> Result<()> {
 }
 
 fn optimise(repo: &Repo, console: &Console, module: &Path) -> Result<()> {
-    let tool = binaryen::WasmOpt::get(repo, console)?;
+    let bin = binaryen::get(repo, console)?;
     let smaller = module.with_extension("opt.wasm");
-    console.run(
-        "making the module smaller (wasm-opt)",
-        &mut tool.command(module, &smaller),
-    )?;
+    let mut command = binaryen::command(&bin, module, &smaller);
+    console.run("making the module smaller (wasm-opt)", &mut command)?;
     let size = |path: &Path| fs::metadata(path).map_or(0, |data| data.len() / 1024);
     console.note(&format!(
         "{} kB, before {} kB",

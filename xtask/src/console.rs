@@ -22,7 +22,7 @@ pub(crate) fn say(line: &str) {
 #[derive(Debug)]
 pub(crate) struct Console {
     log: Option<File>,
-    limit: Option<Duration>,
+    limit: Duration,
     last: RefCell<String>,
 }
 
@@ -31,7 +31,7 @@ impl Console {
     pub(crate) fn terminal() -> Console {
         Console {
             log: None,
-            limit: None,
+            limit: Duration::MAX,
             last: RefCell::default(),
         }
     }
@@ -40,7 +40,7 @@ impl Console {
     pub(crate) fn to_log(log: File, limit: Duration) -> Console {
         Console {
             log: Some(log),
-            limit: Some(limit),
+            limit,
             last: RefCell::default(),
         }
     }
@@ -49,10 +49,7 @@ impl Console {
     pub(crate) fn note(&self, text: &str) {
         match &self.log {
             None => say(&format!("  {text}")),
-            Some(log) => {
-                let mut log = log;
-                let _ = writeln!(log, "# {text}");
-            }
+            Some(log) => append(log, &format!("# {text}")),
         }
     }
 
@@ -69,13 +66,12 @@ impl Console {
         match &self.log {
             None => say(&format!("» {what}")),
             Some(log) => {
-                let mut log = log;
-                let _ = writeln!(log, "\n$ {shown}");
-                let copies = log
-                    .try_clone()
-                    .and_then(|out| Ok((out, log.try_clone()?)))
-                    .map_err(|e| Error::Failed(format!("cannot write the log: {e}")))?;
-                command.stdout(copies.0).stderr(copies.1);
+                append(log, &format!("\n$ {shown}"));
+                let copy = || {
+                    log.try_clone()
+                        .map_err(|e| Error::Failed(format!("cannot write the log: {e}")))
+                };
+                command.stdout(copy()?).stderr(copy()?);
             }
         }
         let mut child = command
@@ -84,9 +80,8 @@ impl Console {
             .map_err(|e| Error::Missing(format!("cannot start `{shown}`: {e}")))?;
         let status = self.wait(&mut child, started, &shown)?;
         if !status.success() {
-            return Err(Error::Failed(format!(
-                "{what}: `{shown}` ended with {status}"
-            )));
+            let text = format!("{what}: `{shown}` ended with {status}");
+            return Err(Error::Failed(text));
         }
         if self.log.is_none() {
             say(&format!("  done in {}", seconds(started.elapsed())));
@@ -96,30 +91,35 @@ impl Console {
 
     fn wait(&self, child: &mut Child, started: Instant, shown: &str) -> Result<ExitStatus> {
         let lost = |e| Error::Failed(format!("`{shown}` was lost: {e}"));
-        let Some(limit) = self.limit else {
-            return child.wait().map_err(lost);
-        };
-        loop {
+        while started.elapsed() < self.limit {
             if let Some(status) = child.try_wait().map_err(lost)? {
                 return Ok(status);
             }
-            if started.elapsed() > limit {
-                let _ = child.kill();
-                let _ = child.wait();
-                let after = seconds(limit);
-                return Err(Error::Failed(format!(
-                    "`{shown}` was stopped after {after}"
-                )));
-            }
             std::thread::sleep(Duration::from_millis(20));
         }
+        let _ = child.kill();
+        let _ = child.wait();
+        let limit = seconds(self.limit);
+        Err(Error::Failed(format!(
+            "`{shown}` was stopped after {limit}"
+        )))
     }
+}
+
+fn append(mut log: &File, line: &str) {
+    let _ = writeln!(log, "{line}");
 }
 
 /// The standard output of a quiet program, or `None` if it is missing or fails.
 pub(crate) fn ask(program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
+    ask_in(Path::new("."), program, args)
+}
+
+/// What [`ask`] answers in a folder: rustup chooses the toolchain by it.
+pub(crate) fn ask_in(dir: &Path, program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
     let output = Command::new(program.as_ref())
         .args(args)
+        .current_dir(dir)
         .stdin(Stdio::null())
         .stderr(Stdio::null())
         .output()
@@ -149,20 +149,12 @@ pub(crate) fn cargo(dir: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// PATH with a folder in front.
-pub(crate) fn path_with(dir: &Path) -> Result<std::ffi::OsString> {
-    let old = env::var_os("PATH").unwrap_or_default();
-    env::join_paths(std::iter::once(dir.to_path_buf()).chain(env::split_paths(&old)))
-        .map_err(|e| Error::Failed(format!("PATH: {e}")))
-}
-
 /// A duration as people say it.
 pub(crate) fn seconds(duration: Duration) -> String {
-    let s = duration.as_secs_f64();
-    if s < 60.0 {
-        format!("{s:.1} s")
+    let whole = duration.as_secs();
+    if whole < 60 {
+        format!("{:.1} s", duration.as_secs_f64())
     } else {
-        let whole = duration.as_secs();
         format!("{} min {:02} s", whole / 60, whole % 60)
     }
 }
@@ -208,14 +200,10 @@ mod tests {
     #[test]
     fn a_command_is_shown_as_one_would_type_it() {
         let mut command = Command::new("cargo");
-        command
-            .args(["doc", "--features", "a b"])
-            .env("RUSTDOCFLAGS", "-D warnings")
-            .env("PATH", "/x");
-        assert_eq!(
-            shown(&command),
-            "RUSTDOCFLAGS='-D warnings' cargo doc --features 'a b'"
-        );
+        command.args(["doc", "--features", "a b"]);
+        command.env("RUSTDOCFLAGS", "-D warnings").env("PATH", "/x");
+        let line = "RUSTDOCFLAGS='-D warnings' cargo doc --features 'a b'";
+        assert_eq!(shown(&command), line);
         assert_eq!(quoted("it's"), r"'it'\''s'");
         assert_eq!(quoted(""), "''");
     }

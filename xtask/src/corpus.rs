@@ -1,11 +1,12 @@
 //! `cargo xtask corpus DIR`: what odkit makes of a folder of device files.
 //!
-//! The work is done by an example of `od-tests`, because xtask itself depends on nothing.
+//! The work is done by an example of the tests, because xtask itself depends on nothing.
 
 use std::path::{Path, absolute};
 
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
+use crate::packages::TESTS;
 use crate::repo::Repo;
 
 /// Builds the example and lets it read the folder that the first argument names.
@@ -21,17 +22,9 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     // The example runs in the root of the repository; the arguments are the caller's.
     let place =
         |path: &str| absolute(Path::new(path)).map_err(|e| Error::io("find", Path::new(path), &e));
-    let example = [
-        "run",
-        "--quiet",
-        "--release",
-        "--package",
-        "od-tests",
-        "--example",
-        "corpus",
-    ];
-    let mut command = cargo(&repo.root, &example);
-    command.arg("--").arg(place(folder)?);
+    let mut command = cargo(&repo.root, &["run", "--quiet", "--release"]);
+    command.args(["--package", TESTS, "--example", "corpus", "--"]);
+    command.arg(place(folder)?);
     if let Some(file) = docs {
         command.arg("--docs").arg(place(file)?);
     }

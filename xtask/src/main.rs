@@ -9,6 +9,7 @@ mod console;
 mod corpus;
 mod error;
 mod lock;
+mod packages;
 mod play;
 mod repo;
 mod serve;
@@ -87,7 +88,7 @@ fn run(args: &[String]) -> Result<ExitCode> {
         "corpus" => corpus::run(&Repo::locate()?, &Console::terminal(), rest)?,
         "shots" => {
             if let Some(extra) = rest.first() {
-                return Err(Error::Usage(format!("shots takes no `{extra}`")));
+                return Err(Error::Usage(format!("shots does not take `{extra}`")));
             }
             shots::run(&Repo::locate()?, &Console::terminal())?;
         }

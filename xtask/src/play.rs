@@ -6,7 +6,7 @@ use crate::bundle;
 use crate::console::{Console, say, seconds};
 use crate::error::{Error, Result};
 use crate::repo::Repo;
-use crate::serve::Server;
+use crate::serve::{self, Server};
 
 /// The command line of `play`.
 #[derive(Debug, PartialEq, Eq)]
@@ -18,46 +18,38 @@ pub(crate) struct Options {
 impl Options {
     /// Reads the arguments after `play`.
     pub(crate) fn parse(args: &[String]) -> Result<Options> {
-        let mut options = Options {
-            port: None,
-            serve: true,
-        };
-        let mut args = args.iter();
-        while let Some(arg) = args.next() {
-            match arg.split_once('=').unwrap_or((arg, "")) {
-                ("--port", "") => options.port = Some(port(args.next())?),
-                ("--port", value) => options.port = Some(port(Some(value))?),
-                ("--no-serve", "") => options.serve = false,
-                _ => return Err(Error::Usage(format!("play takes no `{arg}`"))),
+        let (mut port, mut serve) = (None, true);
+        // `--port=9000` is `--port 9000`.
+        let mut words = args.iter().flat_map(|arg| arg.split('='));
+        while let Some(word) = words.next() {
+            match word {
+                "--port" => {
+                    let number = words.next().and_then(|text| text.parse().ok());
+                    let wrong = "--port wants a number from 0 to 65535";
+                    port = Some(number.ok_or_else(|| Error::Usage(String::from(wrong)))?);
+                }
+                "--no-serve" => serve = false,
+                _ => return Err(Error::Usage(format!("play does not take `{word}`"))),
             }
         }
-        Ok(options)
+        Ok(Options { port, serve })
     }
-}
-
-fn port(value: Option<impl AsRef<str>>) -> Result<u16> {
-    value
-        .as_ref()
-        .and_then(|text| text.as_ref().parse().ok())
-        .ok_or_else(|| Error::Usage(String::from("--port wants a number from 0 to 65535")))
 }
 
 /// Builds the page and serves it until Ctrl+C.
 pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<()> {
     let started = Instant::now();
-    // A port that is taken should be known before the build, not after it.
-    let server = options
-        .serve
-        .then(|| Server::bind(repo.dist(), options.port))
-        .transpose()?;
+    if let Some(port) = options.port {
+        serve::check(port)?;
+    }
     bundle::page(repo, console)?;
     say(&format!("\nReady after {}.", seconds(started.elapsed())));
-    let Some(server) = server else {
-        return Ok(());
-    };
-    say(&format!("The virtual encoder is at  {}", server.url()));
-    say("Ctrl+C stops it.");
-    server.run();
+    if options.serve {
+        let server = Server::start(repo, options.port)?;
+        say(&format!("The virtual encoder is at  {}", server.url));
+        say("Ctrl+C stops it.");
+        server.wait();
+    }
     Ok(())
 }
 
@@ -65,13 +57,12 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
 mod tests {
     use super::Options;
 
-    fn parse(line: &str) -> Option<Options> {
-        let args: Vec<String> = line.split_whitespace().map(String::from).collect();
-        Options::parse(&args).ok()
-    }
-
     #[test]
     fn command_lines() {
+        let parse = |line: &str| {
+            let args: Vec<String> = line.split_whitespace().map(String::from).collect();
+            Options::parse(&args).ok()
+        };
         let options = |port, serve| Some(Options { port, serve });
         assert_eq!(parse(""), options(None, true));
         assert_eq!(parse("--port 9000"), options(Some(9000), true));

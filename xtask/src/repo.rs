@@ -11,6 +11,11 @@ pub(crate) fn is_ci() -> bool {
     env::var("CI").is_ok_and(|value| value == "true" || value == "1")
 }
 
+/// The name of a program's file.
+pub(crate) fn program(name: &str) -> String {
+    format!("{name}{}", env::consts::EXE_SUFFIX)
+}
+
 /// The repository's folders.
 #[derive(Debug, Clone)]
 pub(crate) struct Repo {

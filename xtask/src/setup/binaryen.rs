@@ -20,41 +20,25 @@ pub(crate) const FLAGS: [&str; 7] = [
     "--enable-multivalue",
 ];
 
-/// wasm-opt as a JavaScript program for Node.js.
-#[derive(Debug)]
-pub(crate) struct WasmOpt {
-    script: PathBuf,
+/// The folder with `wasm-opt`, after installing the locked version into `.xtask/node`.
+pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
+    let dir = repo.tools().join("node");
+    fs::create_dir_all(&dir).map_err(|e| Error::io("create", &dir, &e))?;
+    for name in ["package.json", "package-lock.json"] {
+        let (from, to) = (repo.root.join("xtask/tools").join(name), dir.join(name));
+        fs::copy(from, &to).map_err(|e| Error::io("write", &to, &e))?;
+    }
+    node::ci(console, &dir, "fetching wasm-opt (npm package binaryen)")?;
+    Ok(dir.join("node_modules/.bin"))
 }
 
-impl WasmOpt {
-    /// Installs the locked version into `.xtask/node`, if it is not there yet.
-    pub(crate) fn get(repo: &Repo, console: &Console) -> Result<WasmOpt> {
-        let from = repo.root.join("xtask").join("tools");
-        let dir = repo.tools().join("node");
-        fs::create_dir_all(&dir).map_err(|e| Error::io("create", &dir, &e))?;
-        for name in ["package.json", "package-lock.json"] {
-            let path = dir.join(name);
-            fs::copy(from.join(name), &path).map_err(|e| Error::io("write", &path, &e))?;
-        }
-        node::ci(console, &dir, "fetching wasm-opt (npm package binaryen)")?;
-        let script = dir.join("node_modules/binaryen/bin/wasm-opt");
-        if !script.is_file() {
-            let script = repo.short(&script);
-            return Err(Error::Failed(format!("binaryen brought no {script}")));
-        }
-        Ok(WasmOpt { script })
-    }
-
-    /// The script, for `node`.
-    pub(crate) fn script(&self) -> &Path {
-        &self.script
-    }
-
-    /// The command that optimises `input` into `output`.
-    pub(crate) fn command(&self, input: &Path, output: &Path) -> Command {
-        let mut command = Command::new("node");
-        command.arg(&self.script).args(FLAGS);
-        command.arg(input).arg("-o").arg(output);
-        command
-    }
+/// The command that optimises `input` into `output`, with the `wasm-opt` of a folder.
+pub(crate) fn command(bin: &Path, input: &Path, output: &Path) -> Command {
+    // A JavaScript program: Windows does not start those by name.
+    let mut command = Command::new("node");
+    command
+        .arg(bin.join("../binaryen/bin/wasm-opt"))
+        .args(FLAGS);
+    command.arg(input).arg("-o").arg(output);
+    command
 }

@@ -4,16 +4,13 @@ use std::path::PathBuf;
 
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
-use crate::repo::Repo;
+use crate::repo::{Repo, program};
 
 /// Builds the command line tool, or lets cargo find that it is built; its path.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     check_versions(repo)?;
     let target = repo.tools().join("bindgen");
-    let tool = target.join("debug").join(format!(
-        "odkit-wasm-bindgen{}",
-        std::env::consts::EXE_SUFFIX
-    ));
+    let tool = target.join("debug").join(program("odkit-wasm-bindgen"));
     let what = if tool.is_file() {
         "checking wasm-bindgen"
     } else {

@@ -3,7 +3,7 @@
 use std::env;
 use std::path::PathBuf;
 
-use super::debian;
+use super::apt;
 use crate::console::{Console, which};
 use crate::error::{Error, Result};
 
@@ -19,21 +19,18 @@ const NAMES: [&str; 4] = [
 pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     if let Some(path) = env::var_os("CHROMIUM").filter(|path| !path.is_empty()) {
         let path = PathBuf::from(path);
+        let missing = Error::Missing(format!("CHROMIUM names no file: {}", path.display()));
         return if path.is_file() {
             Ok(path)
         } else {
-            let path = path.display();
-            Err(Error::Missing(format!("CHROMIUM names no file: {path}")))
+            Err(missing)
         };
     }
+    let on_path = || NAMES.iter().find_map(|name| which(name));
     if let Some(path) = on_path() {
         return Ok(path);
     }
     let packages = ["chromium", "fonts-liberation"];
-    debian::install(console, &packages, "no Chromium on PATH")?;
+    apt::install(console, &packages, "no Chromium on PATH")?;
     on_path().ok_or_else(|| Error::Missing(String::from("apt-get installed no `chromium`")))
-}
-
-fn on_path() -> Option<PathBuf> {
-    NAMES.iter().find_map(|name| which(name))
 }

@@ -1,11 +1,9 @@
 //! Getting the tools that odkit's tasks need, without a README to follow.
 
+pub(crate) mod apt;
 pub(crate) mod binaryen;
 pub(crate) mod bindgen;
 pub(crate) mod browser;
-pub(crate) mod debian;
-mod debian_rustc;
 pub(crate) mod node;
 pub(crate) mod python;
-pub(crate) mod script;
 pub(crate) mod target;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::debian;
+use super::apt;
 use crate::console::{Console, ask};
 use crate::error::{Error, Result};
 use crate::repo::Repo;
@@ -52,7 +52,7 @@ fn base(console: &Console) -> Result<PathBuf> {
         return Ok(PathBuf::from(python));
     }
     let packages = ["python3", "python3-venv"];
-    debian::install(console, &packages, "Python 3 with `venv` is missing")?;
+    apt::install(console, &packages, "Python 3 with `venv` is missing")?;
     // The python3 that comes first on PATH may be another one than Debian's.
     ["python3", "/usr/bin/python3"]
         .iter()

@@ -13,69 +13,70 @@ impl Counts {
     pub(super) fn read(log: &str) -> Counts {
         let mut sum = Counts::default();
         // Python says how many ran first, and how many of them failed after that.
-        let mut python_ran = None;
+        let mut ran = 0;
         for line in log.lines() {
-            // trybuild colours its lines, terminal or not, and resets the colour in the next.
             let line = without_colours(line);
-            let line = line.trim();
-            if let Some(rest) = line.strip_prefix("test result: ") {
-                sum.add(cargo(rest));
-            } else if let Some(rest) = line.strip_prefix("test ") {
-                sum.add(trybuild(rest));
-            } else if let Some(rest) = node_line(line) {
-                sum.add(node(rest));
-            } else if let Some(rest) = line.strip_prefix("Ran ") {
-                python_ran = first_number(rest).filter(|_| rest.contains(" test"));
-            } else if let Some(ran) = python_ran
-                && let Some(counts) = python(line, ran)
-            {
-                python_ran = None;
-                sum.add(counts);
+            let words = words(&line);
+            match *words {
+                ["test", "result", ..] => sum.add(&words, -1, ["passed", "failed", "ignored"]),
+                // A file of trybuild's, which cargo counts as one test together.
+                ["test", .., "rs", "ok"] | ["test", .., "rs", "should", "pass", "ok"] => {
+                    sum.passed += 1;
+                }
+                ["test", .., "rs", _] => sum.failed += 1,
+                // Node marks its closing lines, which have one number each.
+                ["pass" | "fail" | "cancelled" | "skipped" | "todo", _]
+                    if line.starts_with(['#', 'ℹ']) =>
+                {
+                    sum.add(&words, 1, ["pass", "fail", "skipped"]);
+                    sum.add(&words, 1, ["", "cancelled", "todo"]);
+                }
+                ["Ran", number, "test" | "tests", ..] => ran = number.parse().unwrap_or(0),
+                ["OK", ..] | ["FAILED", ..] if ran > 0 => {
+                    let mut counts = Counts::default();
+                    counts.add(&words, 1, ["", "failures", "skipped"]);
+                    counts.add(&words, 1, ["", "errors", ""]);
+                    counts.add(&words, 1, ["", "successes", ""]);
+                    counts.passed = u64::saturating_sub(ran, counts.failed + counts.skipped);
+                    sum.join(counts);
+                    ran = 0;
+                }
+                _ => {}
             }
         }
         sum
     }
 
     /// Adds another result.
-    pub(super) fn add(&mut self, other: Counts) {
+    pub(super) fn join(&mut self, other: Counts) {
         self.passed += other.passed;
         self.failed += other.failed;
         self.skipped += other.skipped;
     }
-}
 
-/// `ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.01s`
-fn cargo(line: &str) -> Counts {
-    let mut counts = Counts::default();
-    for part in line.split(['.', ';']) {
-        let mut words = part.split_whitespace();
-        let number = words.next().and_then(|word| word.parse().ok());
-        match (number, words.next()) {
-            (Some(n), Some("passed")) => counts.passed = n,
-            (Some(n), Some("failed")) => counts.failed = n,
-            (Some(n), Some("ignored")) => counts.skipped = n,
-            _ => {}
-        }
+    /// Adds the numbers that stand `by` words beside those for passed, failed and skipped.
+    fn add(&mut self, words: &[&str], by: isize, names: [&str; 3]) {
+        let number = |name: &str| -> Option<u64> {
+            let at = words.iter().position(|word| *word == name)?;
+            words.get(at.checked_add_signed(by)?)?.parse().ok()
+        };
+        let [passed, failed, skipped] = names.map(|name| number(name).unwrap_or(0));
+        self.join(Counts {
+            passed,
+            failed,
+            skipped,
+        });
     }
-    counts
 }
 
-/// `ui/wrong_type.rs ... ok`: trybuild's files, which cargo counts as one test together.
-fn trybuild(line: &str) -> Counts {
-    let mut counts = Counts::default();
-    if let Some((file, result)) = line.split_once(" ... ")
-        && (file.ends_with(".rs") || file.ends_with(".rs [should pass]"))
-    {
-        if result == "ok" {
-            counts.passed = 1;
-        } else {
-            counts.failed = 1;
-        }
-    }
-    counts
+/// Letters and digits; what stands between them does not matter here.
+fn words(line: &str) -> Vec<&str> {
+    line.split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect()
 }
 
-/// The text without `ESC [ ... m`.
+/// The text without `ESC [ ... m`: trybuild colours its lines, terminal or not.
 fn without_colours(text: &str) -> String {
     let mut parts = text.split('\u{1b}');
     let mut plain = String::from(parts.next().unwrap_or_default());
@@ -83,52 +84,6 @@ fn without_colours(text: &str) -> String {
         plain.push_str(part.split_once('m').map_or("", |(_, rest)| rest));
     }
     plain
-}
-
-/// Node marks its closing lines with `#` (TAP) or `ℹ` (for people).
-fn node_line(line: &str) -> Option<&str> {
-    line.strip_prefix("# ").or_else(|| line.strip_prefix("ℹ "))
-}
-
-/// `pass 3`, `fail 1`, `cancelled 0`, `skipped 0`, `todo 0`
-fn node(line: &str) -> Counts {
-    let mut counts = Counts::default();
-    if let Some((name, number)) = line.split_once(' ')
-        && let Ok(n) = number.parse::<u64>()
-    {
-        match name {
-            "pass" => counts.passed = n,
-            "fail" | "cancelled" => counts.failed = n,
-            "skipped" | "todo" => counts.skipped = n,
-            _ => {}
-        }
-    }
-    counts
-}
-
-/// `OK`, `OK (skipped=1)`, `FAILED (failures=1, errors=2)`
-fn python(line: &str, ran: u64) -> Option<Counts> {
-    let failed_line = line.starts_with("FAILED (");
-    if !failed_line && line != "OK" && !line.starts_with("OK (") && !line.starts_with("NO TESTS") {
-        return None;
-    }
-    let number = |name: &str| {
-        line.split(['(', ')', ','])
-            .find_map(|part| part.trim().strip_prefix(name)?.parse().ok())
-            .unwrap_or(0)
-    };
-    let failed = number("failures=") + number("errors=") + number("unexpected successes=");
-    let skipped = number("skipped=");
-    let passed = ran.saturating_sub(failed + skipped);
-    Some(Counts {
-        passed,
-        failed,
-        skipped,
-    })
-}
-
-fn first_number(text: &str) -> Option<u64> {
-    text.split_whitespace().next()?.parse().ok()
 }
 
 #[cfg(test)]
@@ -146,67 +101,36 @@ mod tests {
 
     #[test]
     fn nothing_counts_nothing() {
-        check("", 0, 0, 0);
         check("error: could not compile\n# a remark\nOK\n", 0, 0, 0);
+        check("Ran 0 tests in 0.000s\n\nNO TESTS RAN\n", 0, 0, 0);
     }
 
     #[test]
-    fn cargo_test() {
-        check(
-            "running 3 tests\n\
+    fn cargo_and_trybuild() {
+        let log = "running 3 tests\n\
              test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s\n\
-             test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 4 filtered out; finished in 1.50s\n",
-            15,
-            2,
-            1,
-        );
-    }
-
-    #[test]
-    fn trybuild() {
-        check(
-            "test ui/wrong_type.rs ... ok\n\
+             test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 4 filtered out; finished in 1.50s\n";
+        check(log, 15, 2, 1);
+        let log = "test ui/wrong_type.rs ... ok\n\
              test \u{1b}[0m\u{1b}[1mui/b.rs\u{1b}[0m [should pass] ... \u{1b}[32mok\u{1b}[0m\n\
              \u{1b}[0mtest \u{1b}[0m\u{1b}[1mui/d.rs\u{1b}[0m ... \u{1b}[0m\u{1b}[32mok\n\
              test ui/c.rs ... mismatch\n\
              test module::name ... ok\n\
              test src/lib.rs - Thing (line 3) ... ok\n\
-             test result: ok. 1 passed; 0 failed; 0 ignored\n",
-            4,
-            1,
-            0,
-        );
+             test result: ok. 1 passed; 0 failed; 0 ignored\n";
+        check(log, 4, 1, 0);
     }
 
     #[test]
-    fn node_test() {
+    fn node_and_python() {
         let tap = "# tests 5\n# suites 0\n# pass 3\n# fail 1\n# cancelled 0\n# skipped 1\n\
                    # todo 0\n# duration_ms 51.2\n";
         check(tap, 3, 1, 1);
         check("ℹ tests 2\nℹ pass 1\nℹ fail 0\nℹ cancelled 1\n", 1, 1, 0);
-    }
-
-    #[test]
-    fn python_unittest() {
-        check("Ran 12 tests in 3.4s\n\nOK\n", 12, 0, 0);
         check("Ran 12 tests in 3.4s\n\nOK (skipped=2)\n", 10, 0, 2);
-        check(
-            "Ran 9 tests in 3.4s\n\nFAILED (failures=1, errors=2, skipped=3)\n",
-            3,
-            3,
-            3,
-        );
-        check("Ran 0 tests in 0.000s\n\nOK\n", 0, 0, 0);
-        check("Ran 0 tests in 0.000s\n\nNO TESTS RAN\n", 0, 0, 0);
-    }
-
-    #[test]
-    fn a_log_may_have_several_kinds() {
-        check(
-            "test result: ok. 1 passed; 0 failed; 0 ignored\n# pass 2\nRan 3 tests in 1s\nOK\n",
-            6,
-            0,
-            0,
-        );
+        let python = "FAILED (failures=1, errors=2, skipped=3)\n";
+        check(&format!("Ran 9 tests in 3.4s\n\n{python}"), 3, 3, 3);
+        let all = "test result: ok. 1 passed; 0 failed\n# pass 2\nRan 3 tests in 1s\nOK\n";
+        check(all, 6, 0, 0);
     }
 }

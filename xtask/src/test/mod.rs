@@ -5,7 +5,10 @@ mod report;
 mod stages;
 
 use std::fs::{self, File};
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError, mpsc};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::console::{Console, say};
@@ -13,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::repo::{Repo, is_ci};
 use counts::Counts;
 use report::{Outcome, Report};
-use stages::{STAGES, Stage};
+use stages::{Kind, STAGES, Stage};
 
 /// No single program of a stage may run longer.
 const LIMIT: Duration = Duration::from_secs(30 * 60);
@@ -31,23 +34,19 @@ impl Options {
     /// Reads the arguments after `test`.
     pub(crate) fn parse(args: &[String]) -> Result<Options> {
         let mut options = Options::default();
-        let mut args = args.iter();
-        while let Some(arg) = args.next() {
-            match arg.split_once('=').unwrap_or((arg, "")) {
-                ("--quick", "") => options.quick = true,
-                ("--long", "") => options.long = true,
-                ("--list", "") => options.list = true,
-                ("--only", value) => {
-                    let value = if arg.contains('=') {
-                        value
-                    } else {
-                        args.next().map_or("", String::as_str)
-                    };
-                    for name in value.split(',') {
+        // `--only=fmt` is `--only fmt`.
+        let mut words = args.iter().flat_map(|arg| arg.split('='));
+        while let Some(word) = words.next() {
+            match word {
+                "--quick" => options.quick = true,
+                "--long" => options.long = true,
+                "--list" => options.list = true,
+                "--only" => {
+                    for name in words.next().unwrap_or_default().split(',') {
                         options.only.push(known(name)?);
                     }
                 }
-                _ => return Err(Error::Usage(format!("test takes no `{arg}`"))),
+                _ => return Err(Error::Usage(format!("test does not take `{word}`"))),
             }
         }
         Ok(options)
@@ -67,10 +66,8 @@ fn known(name: &str) -> Result<String> {
         return Ok(String::from(name));
     }
     let names: Vec<&str> = STAGES.iter().map(|stage| stage.name).collect();
-    Err(Error::Usage(format!(
-        "no stage `{name}`; there are {}",
-        names.join(", ")
-    )))
+    let text = format!("no stage is named `{name}`; stages: {}", names.join(", "));
+    Err(Error::Usage(text))
 }
 
 /// What a stage gets to work with.
@@ -93,60 +90,65 @@ pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     }
     let logs = repo.cache().join("logs");
     fs::create_dir_all(&logs).map_err(|e| Error::io("create", &logs, &e))?;
-    let mut report = Report::new(is_ci());
-    for stage in STAGES.iter().filter(|stage| options.selects(stage)) {
-        let path = logs.join(format!("{}.log", stage.name));
-        let log = File::create(&path).map_err(|e| Error::io("create", &path, &e))?;
-        let console = Console::to_log(log, LIMIT);
-        let context = Context {
-            repo,
-            console: &console,
-            quick: options.quick,
-            long: options.long,
-        };
-        report.start(stage.name);
-        let started = Instant::now();
-        let result = (stage.run)(&context);
-        let text = fs::read(&path).unwrap_or_default();
-        let text = String::from_utf8_lossy(&text);
-        let outcome = judge(stage, result, Counts::read(&text));
-        let command = console.last_command();
-        report.finish(stage.name, &outcome, started.elapsed());
-        if let Outcome::Failed { why, .. } = &outcome {
-            report.explain(stage.name, why, &text, &path, &command);
+    let report = Mutex::new(Report::new());
+    let work = |stage: &Stage| one(repo, options, stage, &logs, &report);
+    thread::scope(|scope| {
+        let (queue, waiting) = mpsc::channel::<&Stage>();
+        let beside = scope.spawn(move || waiting.iter().try_for_each(work));
+        for stage in STAGES.iter().filter(|stage| options.selects(stage)) {
+            // The other end is there until it is joined, or has failed and says why then.
+            if !stage.beside || queue.send(stage).is_err() {
+                work(stage)?;
+            }
         }
-    }
+        drop(queue);
+        beside.join().unwrap_or_else(|_| {
+            let text = "a stage panicked";
+            Err(Error::Failed(String::from(text)))
+        })
+    })?;
+    let report = report.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(report.close())
 }
 
+/// Runs one stage.
+fn one(
+    repo: &Repo,
+    options: &Options,
+    stage: &Stage,
+    logs: &Path,
+    report: &Mutex<Report>,
+) -> Result<()> {
+    let report = || report.lock().unwrap_or_else(PoisonError::into_inner);
+    let path = logs.join(format!("{}.log", stage.name));
+    let log = File::create(&path).map_err(|e| Error::io("create", &path, &e))?;
+    let console = Console::to_log(log, LIMIT);
+    let context = Context {
+        repo,
+        console: &console,
+        quick: options.quick,
+        long: options.long,
+    };
+    report().start(stage.name);
+    let started = Instant::now();
+    let result = (stage.run)(&context);
+    let text = fs::read(&path).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    let outcome = judge(stage, result, Counts::read(&text));
+    let (took, command) = (started.elapsed(), console.last_command());
+    report().finish(stage.name, &outcome, took, (&text, &path), &command);
+    Ok(())
+}
+
 /// Puts together what a stage returned and what its log counts.
-fn judge(stage: &Stage, result: Result<()>, mut counts: Counts) -> Outcome {
+fn judge(stage: &Stage, result: Result<()>, counts: Counts) -> Outcome {
     match result {
-        // A check without tests of its own is one.
-        Ok(()) if counts.passed == 0 && !stage.counts => {
-            counts.passed = 1;
-            Outcome::Passed {
-                counts,
-                tests: false,
-            }
-        }
-        Ok(()) if counts.passed == 0 && counts.failed == 0 => Outcome::Failed {
-            counts,
-            why: String::from("the stage ran no test"),
-        },
-        Ok(()) if counts.failed == 0 => Outcome::Passed {
-            counts,
-            tests: true,
-        },
-        Ok(()) => Outcome::Failed {
-            why: format!("{} failed", counts.failed),
-            counts,
-        },
-        Err(Error::Missing(why)) if !is_ci() => Outcome::Skipped { why },
-        Err(error) => Outcome::Failed {
-            counts,
-            why: String::from(error.message()),
-        },
+        Ok(()) if counts.failed > 0 => Outcome::Failed(counts, format!("{} failed", counts.failed)),
+        Ok(()) if counts.passed > 0 => Outcome::Passed(Some(counts)),
+        Ok(()) if stage.kind == Kind::Check => Outcome::Passed(None),
+        Ok(()) => Outcome::Failed(counts, String::from("the stage ran no test")),
+        Err(Error::Missing(why)) if !is_ci() => Outcome::Skipped(why),
+        Err(error) => Outcome::Failed(counts, String::from(error.message())),
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::counts::Counts;
 use crate::console::{say, seconds};
+use crate::repo::is_ci;
 
 /// A failing stage shows at most so many lines; the log has them all.
 const SHOWN: usize = 2000;
@@ -14,101 +15,93 @@ const SHOWN: usize = 2000;
 /// How a stage ended.
 #[derive(Debug)]
 pub(super) enum Outcome {
-    /// All is well. `tests` is false for a check that counts as one.
-    Passed { counts: Counts, tests: bool },
+    /// All is well; a check has no tests, and counts as one.
+    Passed(Option<Counts>),
     /// Something failed, in the tests or before them.
-    Failed { counts: Counts, why: String },
+    Failed(Counts, String),
     /// A tool or an input is missing, and this is not CI.
-    Skipped { why: String },
+    Skipped(String),
 }
 
 /// The running totals.
 #[derive(Debug)]
 pub(super) struct Report {
-    ci: bool,
     live: bool,
     started: Instant,
+    running: Vec<&'static str>,
     totals: Counts,
-    failed: Vec<String>,
-    skipped: Vec<String>,
+    failed: Vec<&'static str>,
+    skipped: Vec<&'static str>,
 }
 
 impl Report {
     /// A report without entries.
-    pub(super) fn new(ci: bool) -> Report {
+    pub(super) fn new() -> Report {
         Report {
-            ci,
-            live: !ci && std::io::stdout().is_terminal(),
+            live: !is_ci() && std::io::stdout().is_terminal(),
             started: Instant::now(),
+            running: Vec::new(),
             totals: Counts::default(),
             failed: Vec::new(),
             skipped: Vec::new(),
         }
     }
 
-    /// On a terminal, shows which stage is running.
-    pub(super) fn start(&self, name: &str) {
-        if self.live {
+    /// On a terminal, shows which stages are running.
+    pub(super) fn start(&mut self, name: &'static str) {
+        self.running.push(name);
+        self.show();
+    }
+
+    fn show(&self) {
+        if self.live && !self.running.is_empty() {
             let mut out = std::io::stdout().lock();
-            let _ = write!(out, "  ...      {name}\r");
+            let _ = write!(out, "  ...      {:<70}\r", self.running.join(", "));
             let _ = out.flush();
         }
     }
 
-    /// One line for a stage that ended.
-    pub(super) fn finish(&mut self, name: &str, outcome: &Outcome, took: Duration) {
+    /// One line for a stage that ended; of a failed one also what it wrote, and how to repeat
+    /// it alone: `log` is its text and place, `command` the last that it ran.
+    pub(super) fn finish(
+        &mut self,
+        name: &'static str,
+        outcome: &Outcome,
+        took: Duration,
+        (log, place): (&str, &Path),
+        command: &str,
+    ) {
+        self.running.retain(|running| *running != name);
         say(&line(name, outcome, took));
         match outcome {
-            Outcome::Passed { counts, .. } => self.totals.add(*counts),
-            Outcome::Failed { counts, .. } => {
-                let mut counts = *counts;
+            Outcome::Passed(counts) => self.totals.join(counts.unwrap_or(Counts {
+                passed: 1,
+                ..Counts::default()
+            })),
+            Outcome::Failed(counts, why) => {
                 // Something failed even if no test had the chance to.
-                counts.failed = counts.failed.max(1);
-                self.totals.add(counts);
-                self.failed.push(String::from(name));
+                let failed = counts.failed.max(1);
+                self.totals.join(Counts { failed, ..*counts });
+                self.failed.push(name);
+                explain(name, why, (log, place), command);
             }
-            Outcome::Skipped { .. } => {
+            Outcome::Skipped(_) => {
                 self.totals.skipped += 1;
-                self.skipped.push(String::from(name));
+                self.skipped.push(name);
             }
         }
-    }
-
-    /// What a failed stage wrote, and how to repeat it alone.
-    pub(super) fn explain(&self, name: &str, why: &str, log: &str, path: &Path, command: &str) {
-        let lines: Vec<&str> = log.lines().collect();
-        let hidden = lines.len().saturating_sub(SHOWN);
-        say("");
-        if hidden > 0 {
-            say(&format!(
-                "    [{hidden} earlier lines are in {}]",
-                path.display()
-            ));
-        }
-        for line in &lines[hidden..] {
-            say(&format!("    {line}"));
-        }
-        say(&format!("\n  {name}: {why}"));
-        say(&format!("  log:    {}", path.display()));
-        let ci = if self.ci { "CI=true " } else { "" };
-        say(&format!("  repeat: {ci}cargo xtask test --only {name}"));
-        if !command.is_empty() {
-            say(&format!("  or:     {command}"));
-        }
-        say("");
+        self.show();
     }
 
     /// The closing lines, and the exit code.
     pub(super) fn close(&self) -> ExitCode {
-        let took = seconds(self.started.elapsed());
         say("");
-        if !self.failed.is_empty() {
-            say(&format!("failed stages: {}", self.failed.join(", ")));
+        for (what, names) in [("failed", &self.failed), ("skipped", &self.skipped)] {
+            if !names.is_empty() {
+                say(&format!("{what} stages: {}", names.join(", ")));
+            }
         }
-        if !self.skipped.is_empty() {
-            say(&format!("skipped stages: {}", self.skipped.join(", ")));
-        }
-        say(&format!("finished in {took}"));
+        say(&format!("finished in {}", seconds(self.started.elapsed())));
         say(&closing(self.totals));
         if self.failed.is_empty() {
             ExitCode::SUCCESS
@@ -118,38 +111,55 @@ impl Report {
     }
 }
 
+fn explain(name: &str, why: &str, (log, place): (&str, &Path), command: &str) {
+    let (lines, place) = (log.lines().collect::<Vec<_>>(), place.display());
+    let hidden = lines.len().saturating_sub(SHOWN);
+    say("");
+    if hidden > 0 {
+        say(&format!("    [{hidden} earlier lines are in {place}]"));
+    }
+    for line in &lines[hidden..] {
+        say(&format!("    {line}"));
+    }
+    let ci = if is_ci() { "CI=true " } else { "" };
+    say(&format!("\n  {name}: {why}\n  log:    {place}"));
+    say(&format!("  repeat: {ci}cargo xtask test --only {name}"));
+    if !command.is_empty() {
+        say(&format!("  or:     {command}"));
+    }
+    say("");
+}
+
 fn line(name: &str, outcome: &Outcome, took: Duration) -> String {
-    let took = seconds(took);
     let (mark, what) = match outcome {
-        Outcome::Passed { tests: false, .. } => ("ok", String::from("check")),
-        Outcome::Passed { counts, .. } => ("ok", tests(*counts)),
-        Outcome::Failed { counts, .. } if counts.passed + counts.failed > 0 => {
+        Outcome::Passed(None) => ("ok", String::from("check")),
+        Outcome::Passed(Some(counts)) => ("ok", tests(*counts)),
+        Outcome::Failed(counts, _) if counts.passed + counts.failed > 0 => {
             ("FAILED", tests(*counts))
         }
-        Outcome::Failed { .. } => ("FAILED", String::from("-")),
-        Outcome::Skipped { why } => return format!("  skipped  {name:<12} skipped: {why}"),
+        Outcome::Failed(..) => ("FAILED", String::from("-")),
+        Outcome::Skipped(why) => return format!("  skipped  {name:<12} skipped: {why}"),
     };
-    format!("  {mark:<8} {name:<12} {what:<34} {took:>12}")
+    format!("  {mark:<8} {name:<12} {what:<34} {:>12}", seconds(took))
 }
 
 fn tests(counts: Counts) -> String {
     let all = counts.passed + counts.failed;
-    let mut text = format!("{all} {}", if all == 1 { "test" } else { "tests" });
-    if counts.failed > 0 {
-        text.push_str(&format!(", {} failed", counts.failed));
-    }
-    if counts.skipped > 0 {
-        text.push_str(&format!(", {} skipped", counts.skipped));
+    let mut text = format!("{all} test{}", if all == 1 { "" } else { "s" });
+    for (number, what) in [(counts.failed, "failed"), (counts.skipped, "skipped")] {
+        if number > 0 {
+            text.push_str(&format!(", {number} {what}"));
+        }
     }
     text
 }
 
 fn closing(totals: Counts) -> String {
-    let mut text = format!("{} passed, {} failed", totals.passed, totals.failed);
-    if totals.skipped > 0 {
-        text.push_str(&format!(", {} skipped", totals.skipped));
+    let text = format!("{} passed, {} failed", totals.passed, totals.failed);
+    match totals.skipped {
+        0 => text,
+        skipped => format!("{text}, {skipped} skipped"),
     }
-    text
 }
 
 #[cfg(test)]
@@ -163,16 +173,14 @@ mod tests {
         assert_eq!(closing(counts), "0 passed, 0 failed");
         (counts.passed, counts.skipped) = (3, 1);
         assert_eq!(closing(counts), "3 passed, 0 failed, 1 skipped");
-        let passed = Outcome::Passed {
-            counts,
-            tests: true,
-        };
-        let shown = line("unit", &passed, Duration::from_secs(2));
+        let shown = line(
+            "unit",
+            &Outcome::Passed(Some(counts)),
+            Duration::from_secs(2),
+        );
         let words: Vec<&str> = shown.split_whitespace().collect();
         assert_eq!(words.join(" "), "ok unit 3 tests, 1 skipped 2.0 s");
-        let skipped = Outcome::Skipped {
-            why: String::from("no browser"),
-        };
+        let skipped = Outcome::Skipped(String::from("no browser"));
         let shown = line("browser", &skipped, Duration::ZERO);
         assert!(shown.ends_with("skipped: no browser"), "{shown}");
     }

@@ -1,10 +1,21 @@
 //! The stages, in the order they run: what is quick and fails often comes first.
 
 mod page;
+mod release;
 mod rust;
 
 use super::Context;
 use crate::error::Result;
+
+/// What a stage consists of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Tests; none at all is a mistake.
+    Tests,
+    /// One thing that holds or not.
+    Check,
+}
+use Kind::{Check, Tests};
 
 /// One check with a name.
 #[derive(Debug)]
@@ -13,126 +24,60 @@ pub(super) struct Stage {
     pub(super) name: &'static str,
     /// One line for `--list`.
     pub(super) about: &'static str,
-    /// Part of `--quick`?
-    pub(super) quick: bool,
-    /// Does it consist of tests, so that none at all is a mistake?
-    pub(super) counts: bool,
+    /// Tests or a check.
+    pub(super) kind: Kind,
     /// Runs it; the log says how many tests there were.
     pub(super) run: fn(&Context<'_>) -> Result<()>,
+    /// Part of `--quick`?
+    pub(super) quick: bool,
+    /// Does it mostly wait, so that it runs beside the stages that follow?
+    pub(super) beside: bool,
+}
+
+type Run = fn(&Context<'_>) -> Result<()>;
+
+const fn stage(name: &'static str, kind: Kind, about: &'static str, run: Run) -> Stage {
+    Stage {
+        name,
+        about,
+        kind,
+        run,
+        quick: false,
+        beside: false,
+    }
+}
+
+impl Stage {
+    const fn quick(mut self) -> Stage {
+        self.quick = true;
+        self
+    }
+
+    const fn beside(mut self) -> Stage {
+        self.beside = true;
+        self
+    }
 }
 
 /// Every stage there is.
+#[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
-    Stage {
-        name: "fmt",
-        about: "rustfmt has nothing to change",
-        quick: true,
-        counts: false,
-        run: rust::fmt,
-    },
-    Stage {
-        name: "clippy",
-        about: "no warning, with every feature on",
-        quick: true,
-        counts: false,
-        run: rust::clippy,
-    },
-    Stage {
-        name: "unit",
-        about: "tests inside the crates",
-        quick: true,
-        counts: true,
-        run: rust::unit,
-    },
-    Stage {
-        name: "conformance",
-        about: "frame scripts per CANopen service",
-        quick: true,
-        counts: true,
-        run: |c| rust::outside(c, "conformance"),
-    },
-    Stage {
-        name: "ui",
-        about: "what must not compile, and what the compiler says",
-        quick: true,
-        counts: true,
-        run: |c| rust::outside(c, "ui"),
-    },
-    Stage {
-        name: "tests",
-        about: "all other tests from outside",
-        quick: false,
-        counts: true,
-        run: rust::other_outside,
-    },
-    Stage {
-        name: "fuzz",
-        about: "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters",
-        quick: false,
-        counts: true,
-        run: rust::fuzz,
-    },
-    Stage {
-        name: "doc",
-        about: "the examples in the documentation",
-        quick: false,
-        counts: false,
-        run: rust::doc,
-    },
-    Stage {
-        name: "rustdoc",
-        about: "the documentation builds without a warning",
-        quick: false,
-        counts: false,
-        run: rust::rustdoc,
-    },
-    Stage {
-        name: "no_std",
-        about: "model, runtime and devices build for a bare Cortex-M3",
-        quick: false,
-        counts: false,
-        run: rust::no_std,
-    },
-    Stage {
-        name: "wasm",
-        about: "the WebAssembly module and its tests under Node.js",
-        quick: false,
-        counts: false,
-        run: page::wasm,
-    },
-    Stage {
-        name: "page",
-        about: "types, tests and size of the TypeScript page",
-        quick: false,
-        counts: false,
-        run: page::page,
-    },
-    Stage {
-        name: "wasm-pack",
-        about: "wasm-pack makes the npm package",
-        quick: false,
-        counts: false,
-        run: page::wasm_pack,
-    },
-    Stage {
-        name: "browser",
-        about: "the page in Chromium",
-        quick: false,
-        counts: true,
-        run: page::browser,
-    },
-    Stage {
-        name: "interop",
-        about: "python-canopen as master of the simulated devices",
-        quick: false,
-        counts: true,
-        run: page::interop,
-    },
-    Stage {
-        name: "bench-build",
-        about: "the benchmarks compile",
-        quick: false,
-        counts: false,
-        run: rust::bench_build,
-    },
+    stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick(),
+    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
+    stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
+    stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(),
+    stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, "conformance")).quick(),
+    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, "ui")).quick(),
+    stage("tests", Tests, "all other tests from outside", rust::other_outside),
+    stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
+    stage("page", Check, "types, tests and size of the TypeScript page", page::page),
+    stage("browser", Tests, "the page in Chromium", page::browser).beside(),
+    stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm),
+    stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack),
+    stage("doc", Tests, "the examples in the documentation", rust::doc),
+    stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
+    stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3", rust::no_std),
+    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
+    stage("package", Check, "every crate can be published, with its licences", release::package),
+    stage("bench", Check, "each benchmark compiles and runs once", rust::bench),
 ];

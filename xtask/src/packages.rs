@@ -1,0 +1,20 @@
+//! The names of packages that a command line needs; cargo knows the others.
+
+/// The command line of odkit, and its program.
+pub(crate) const CLI: (&str, &str) = ("od-cli", "odkit");
+/// The WebAssembly module, and its library.
+pub(crate) const PAGE: (&str, &str) = ("od-playground", "od_playground");
+/// The tests from outside.
+pub(crate) const TESTS: &str = "od-tests";
+/// The benchmarks with their heavy peers.
+pub(crate) const BENCHES: &str = "od-benches";
+
+/// What must do without the standard library.
+pub(crate) const NO_STD: [&str; 6] = [
+    "od-model",
+    "od-wire",
+    "od-client",
+    "od-runtime",
+    "odkit",
+    "od-devices",
+];
