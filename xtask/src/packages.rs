@@ -9,6 +9,9 @@ pub(crate) const TESTS: &str = "od-tests";
 /// The benchmarks with their heavy peers.
 pub(crate) const BENCHES: &str = "od-benches";
 
+/// What is not for crates.io; the playground is for npm.
+pub(crate) const UNPUBLISHED: [&str; 5] = [BENCHES, "od-benches-zencan", PAGE.0, TESTS, "xtask"];
+
 /// What must do without the standard library.
 pub(crate) const NO_STD: [&str; 6] = [
     "od-model",

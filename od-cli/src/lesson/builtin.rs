@@ -4,54 +4,30 @@
 pub(super) const LESSONS: &[(&str, &str)] = &[
     (
         "boot-up-and-heartbeat",
-        include_str!("../../../playground/lessons/01-boot-up-and-heartbeat.md"),
+        include_str!("../../lessons/01-boot-up-and-heartbeat.md"),
     ),
-    ("nmt", include_str!("../../../playground/lessons/02-nmt.md")),
-    ("sdo", include_str!("../../../playground/lessons/03-sdo.md")),
-    (
-        "aborts",
-        include_str!("../../../playground/lessons/04-aborts.md"),
-    ),
-    (
-        "guarding",
-        include_str!("../../../playground/lessons/05-guarding.md"),
-    ),
-    (
-        "pdo-sync",
-        include_str!("../../../playground/lessons/06-pdo-sync.md"),
-    ),
-    (
-        "mapping",
-        include_str!("../../../playground/lessons/07-mapping.md"),
-    ),
-    (
-        "scaling",
-        include_str!("../../../playground/lessons/08-scaling.md"),
-    ),
-    (
-        "store",
-        include_str!("../../../playground/lessons/09-store.md"),
-    ),
-    ("lss", include_str!("../../../playground/lessons/10-lss.md")),
-    (
-        "emcy",
-        include_str!("../../../playground/lessons/11-emcy.md"),
-    ),
-    (
-        "gear",
-        include_str!("../../../playground/lessons/12-gear.md"),
-    ),
+    ("nmt", include_str!("../../lessons/02-nmt.md")),
+    ("sdo", include_str!("../../lessons/03-sdo.md")),
+    ("aborts", include_str!("../../lessons/04-aborts.md")),
+    ("guarding", include_str!("../../lessons/05-guarding.md")),
+    ("pdo-sync", include_str!("../../lessons/06-pdo-sync.md")),
+    ("mapping", include_str!("../../lessons/07-mapping.md")),
+    ("scaling", include_str!("../../lessons/08-scaling.md")),
+    ("store", include_str!("../../lessons/09-store.md")),
+    ("lss", include_str!("../../lessons/10-lss.md")),
+    ("emcy", include_str!("../../lessons/11-emcy.md")),
+    ("gear", include_str!("../../lessons/12-gear.md")),
     (
         "find-silent-node",
-        include_str!("../../../playground/lessons/13-find-silent-node.md"),
+        include_str!("../../lessons/13-find-silent-node.md"),
     ),
     (
         "find-terminator",
-        include_str!("../../../playground/lessons/14-find-terminator.md"),
+        include_str!("../../lessons/14-find-terminator.md"),
     ),
     (
         "find-two-nodes",
-        include_str!("../../../playground/lessons/15-find-two-nodes.md"),
+        include_str!("../../lessons/15-find-two-nodes.md"),
     ),
 ];
 

@@ -1,11 +1,60 @@
 //! What a release needs.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
 use crate::console::cargo;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::packages::UNPUBLISHED;
 use crate::test::Context;
 
+/// What every package carries.
+const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
+
+/// Every crate is packed, has the texts of its licences, and compiles from what was packed.
+///
+/// `cargo package` would build each crate and all that it depends on; here all of them are
+/// checked together, with the dependencies that clippy has checked already.
 pub(super) fn package(context: &Context<'_>) -> Result<()> {
-    let mut command = cargo(&context.repo.root, &["package", "--workspace"]);
-    command.args(["--no-verify", "--allow-dirty", "--quiet"]);
-    context.console.run("packages", &mut command)
+    let (root, packed) = (&context.repo.root, context.repo.target.join("package"));
+    // What an earlier run has left here would count as packed.
+    let _ = fs::remove_dir_all(&packed);
+    let mut command = cargo(root, &["package", "--workspace", "--no-verify"]);
+    command.args(["--allow-dirty", "--quiet"]);
+    command.args(UNPUBLISHED.iter().flat_map(|name| ["--exclude", name]));
+    context.console.run("packages", &mut command)?;
+
+    let dir = packed.join("unpacked");
+    fs::create_dir_all(&dir).map_err(|e| Error::io("create", &dir, &e))?;
+    let is_crate = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "crate");
+    for file in entries(&packed)?.into_iter().filter(is_crate) {
+        let mut tar = Command::new("tar");
+        tar.arg("-xzf").arg(&file).arg("-C").arg(&dir);
+        context.console.run("unpacking", &mut tar)?;
+    }
+    let mut manifest = String::from("[workspace]\nresolver = \"3\"\nmembers = [\"*\"]\n");
+    manifest.push_str("[patch.crates-io]\n");
+    for folder in entries(&dir)? {
+        let name = folder.file_name().unwrap_or_default().to_string_lossy();
+        if let Some(missing) = LICENCES.iter().find(|text| !folder.join(text).is_file()) {
+            return Err(Error::Failed(format!("{name} has no {missing}")));
+        }
+        let (krate, _) = name.rsplit_once('-').unwrap_or((&name, ""));
+        manifest.push_str(&format!("{krate} = {{ path = \"{name}\" }}\n"));
+    }
+    let write = dir.join("Cargo.toml");
+    fs::write(&write, manifest).map_err(|e| Error::io("write", &write, &e))?;
+    let lock = dir.join("Cargo.lock");
+    fs::copy(root.join("Cargo.lock"), &lock).map_err(|e| Error::io("write", &lock, &e))?;
+    let mut check = cargo(&dir, &["check", "--workspace", "--all-features"]);
+    check.args(["--offline", "--target-dir"]);
+    check.arg(&context.repo.target);
+    context.console.run("what was packed", &mut check)
+}
+
+/// What is in a folder.
+fn entries(dir: &Path) -> Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(dir).map_err(|e| Error::io("read", dir, &e))?;
+    Ok(entries.flatten().map(|entry| entry.path()).collect())
 }
