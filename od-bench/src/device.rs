@@ -19,9 +19,9 @@ use crate::eeprom::Eeprom;
 use crate::shaft::{self, Shaft};
 use od_runtime::DeviceKind;
 
-/// A node with room for what EDS files have: 64 PDOs each way, and the longest value that a
-/// store can hold.
-type RoomyNode = Node<64, 0x1_0000>;
+/// A node with room for what EDS files have: all PDOs that CiA 301 knows, and the longest value
+/// that a store can hold.
+type RoomyNode = Node<512, 0x1_0000>;
 
 /// Where a dictionary comes from.
 pub(super) enum Source {
@@ -246,8 +246,9 @@ impl VirtualDevice {
         }
         self.configure_node_id();
         let (node, mut device) = self.parts();
-        // `build` made room for the values.
-        let powered = node.power_on(&mut device, now);
+        // `build` made room for the values. A file may ask for more than the node serves: a
+        // second SDO server, say.
+        let powered = node.power_on_partly(&mut device, now);
         debug_assert!(powered.is_ok());
         self.take_events();
     }

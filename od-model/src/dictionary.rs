@@ -1,5 +1,7 @@
 //! The dictionary: one type for compiled tables and for files loaded at run time.
 
+use core::fmt;
+
 use crate::index::{self, Place};
 use crate::{Access, Address, DataType, Group, Kind, Literal, ObjectCode, Range};
 
@@ -70,6 +72,17 @@ pub enum Missing {
     /// The object has no such sub-index: SDO abort 06090011h.
     SubIndex,
 }
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Object => "the object does not exist",
+            Self::SubIndex => "the object does not have this sub-index",
+        })
+    }
+}
+
+impl core::error::Error for Missing {}
 
 impl Entry {
     /// Returns whether the value may be mapped into a TPDO.

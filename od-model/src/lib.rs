@@ -19,6 +19,7 @@ mod access;
 mod address;
 mod dictionary;
 mod index;
+mod needs;
 pub mod typed;
 mod types;
 mod value;

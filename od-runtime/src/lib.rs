@@ -56,7 +56,7 @@
 //! }
 //! assert_eq!(bus, ["701#00", "581#4300100096010000", "701#7F"]);
 //! assert_eq!(now, Instant::from_millis(100));
-//! # Ok::<(), od_runtime::StoreTooSmall>(())
+//! # Ok::<(), od_runtime::Unfit>(())
 //! ```
 //!
 //! A host that knows the state of its CAN controller tells it with [`Node::handle_bus`].
@@ -94,7 +94,7 @@ pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use emcy::Emcy;
 pub use kind::DeviceKind;
 pub use lent::Lent;
-pub use node::{BusEvent, Event, Node};
+pub use node::{BusEvent, Event, Node, Unfit};
 pub use profile::{
     BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule, LssProfile,
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,

@@ -3,7 +3,7 @@
 use od_wire::nmt::State;
 use od_wire::{CobId, Instant};
 
-use super::{BusEvent, Event, Machines, Node};
+use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
 use crate::lent::Lent;
 use crate::objects::Objects;
@@ -13,12 +13,28 @@ use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
 
 impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
-    /// Power comes: values are taken from storage or their defaults, and the node boots up.
+    /// Power comes: the values become the saved ones or their defaults, and the node boots up.
     ///
     /// # Errors
-    /// [`StoreTooSmall`] where `device.values` does not hold the dictionary's values; the
-    /// node stays without power.
-    pub fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall> {
+    /// [`Unfit`] where `device.values` is too short for the dictionary, or the node does not
+    /// serve all that the dictionary has ([`fits`](Self::fits)). The node stays without power.
+    pub fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), Unfit> {
+        Self::fits(&device.dictionary)?;
+        Ok(self.power_on_partly(device, now)?)
+    }
+
+    /// [`power_on`](Self::power_on) for a dictionary that need not fit, such as that of a file.
+    /// PDOs without room, second SDO servers and the SYNC producer are not served; a value
+    /// longer than the SDO buffer answers with SDO abort 05040005h.
+    ///
+    /// # Errors
+    /// [`StoreTooSmall`] where `device.values` is too short for the dictionary. The node stays
+    /// without power.
+    pub fn power_on_partly(
+        &mut self,
+        device: &mut Lent<'_>,
+        now: Instant,
+    ) -> Result<(), StoreTooSmall> {
         let needed = device.dictionary.store_len();
         let node = &mut self.machines;
         let objects = device.objects(node.node_id, now, &mut self.outbox);
@@ -163,8 +179,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     pub(super) fn configure(&mut self, objects: &mut Objects<'_>) {
         let sync = objects.store.try_unsigned(0x1005, 0).unwrap_or(0x80);
         self.sync_id = CobId::new(sync as u32).can_id();
-        self.tpdo_count = count(objects, 0x1800, PDO);
-        self.rpdo_count = count(objects, 0x1400, PDO);
+        let dictionary = objects.store.dictionary();
+        self.tpdo_count = dictionary.tpdos().min(PDO);
+        self.rpdo_count = dictionary.rpdos().min(PDO);
         for (number, tpdo) in self.tpdo.iter_mut().take(self.tpdo_count).enumerate() {
             if tpdo.configure(objects, number as u16) && self.state == State::Operational {
                 tpdo.start(objects);
@@ -177,15 +194,4 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             rpdo.configure(objects, number as u16);
         }
     }
-}
-
-/// How many PDOs the dictionary has parameters for, from `first` on; those past the
-/// node's room are not served.
-fn count(objects: &Objects<'_>, first: u16, room: usize) -> usize {
-    let dictionary = objects.store.dictionary();
-    let last = (first..first + pdo::MAX)
-        .rev()
-        .find(|index| dictionary.object(*index).is_some());
-    last.map_or(0, |last| usize::from(last - first) + 1)
-        .min(room)
 }

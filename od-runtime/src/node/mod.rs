@@ -13,6 +13,7 @@ mod bus;
 mod effects;
 mod errors;
 mod event;
+mod fits;
 mod input;
 mod output;
 
@@ -26,6 +27,7 @@ use crate::{emcy, error_control, lss, pdo, sdo};
 
 pub use bus::BusEvent;
 pub use event::Event;
+pub use fits::Unfit;
 
 /// A CANopen slave.
 ///

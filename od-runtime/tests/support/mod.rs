@@ -126,6 +126,7 @@ pub fn tables(rows: Vec<Row>) -> Tables {
     Tables::new(&description)
 }
 
+/// Its buffer is shorter than the DOMAIN 2003h: what runs over is tested, too.
 pub type TestNode = Node<4, 512>;
 
 /// The node with everything that it needs.
@@ -174,7 +175,7 @@ impl<A: Application> Bench<A> {
 
     pub fn power_on(&mut self) -> Vec<String> {
         self.node
-            .power_on(&mut device!(self), self.now)
+            .power_on_partly(&mut device!(self), self.now)
             .expect("the values fit");
         self.drain()
     }

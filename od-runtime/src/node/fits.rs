@@ -1,0 +1,156 @@
+//! Whether a node has what its dictionary needs: at compile time, and again at power-on.
+
+use core::fmt;
+
+use od_model::{Dictionary, Literal};
+use od_wire::CobId;
+
+use super::Node;
+use crate::store::StoreTooSmall;
+
+/// A reason why a node cannot serve a dictionary.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum Unfit {
+    /// The slice of values is shorter than [`Dictionary::store_len`].
+    Values(StoreTooSmall),
+    /// The dictionary has more TPDOs (1800h–19FFh) than the node.
+    Tpdos {
+        /// TPDOs of the dictionary: [`Dictionary::tpdos`].
+        needed: usize,
+        /// TPDOs of the node.
+        room: usize,
+    },
+    /// The dictionary has more RPDOs (1400h–15FFh) than the node.
+    Rpdos {
+        /// RPDOs of the dictionary: [`Dictionary::rpdos`].
+        needed: usize,
+        /// RPDOs of the node.
+        room: usize,
+    },
+    /// A value is longer than the SDO buffer.
+    SdoBuffer {
+        /// Bytes of the longest value: [`Dictionary::longest`].
+        needed: usize,
+        /// Bytes of the buffer.
+        room: usize,
+    },
+    /// The dictionary has the parameters of a second SDO server (1201h–127Fh); the node has
+    /// one, the default SDO.
+    SdoServer(u16),
+    /// The default value of 1005h has bit 30 set, and the node does not produce SYNC.
+    SyncProducer,
+}
+
+impl Unfit {
+    /// The reason without its numbers.
+    const fn reason(self) -> &'static str {
+        match self {
+            Self::Values(_) => "the slice of values is too short for the dictionary",
+            Self::Tpdos { .. } => "the dictionary has more TPDOs than the node",
+            Self::Rpdos { .. } => "the dictionary has more RPDOs than the node",
+            Self::SdoBuffer { .. } => "a value of the dictionary is longer than the SDO buffer",
+            Self::SdoServer(_) => "a second SDO server is not supported; remove 1201h to 127Fh",
+            Self::SyncProducer => {
+                "producing SYNC is not supported; clear bit 30 of the default value of 1005h"
+            }
+        }
+    }
+}
+
+impl fmt::Display for Unfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Values(error) => fmt::Display::fmt(&error, f),
+            Self::Tpdos { needed, room } => {
+                write!(
+                    f,
+                    "the node has room for {room} of {needed} TPDOs; use `Node<{needed}, _>`"
+                )
+            }
+            Self::Rpdos { needed, room } => {
+                write!(
+                    f,
+                    "the node has room for {room} of {needed} RPDOs; use `Node<{needed}, _>`"
+                )
+            }
+            Self::SdoBuffer { needed, room } => write!(
+                f,
+                "the SDO buffer has room for {room} of the {needed} bytes of the longest value; \
+                 use `Node<_, {needed}>`"
+            ),
+            Self::SdoServer(index) => write!(f, "{index:04X}h: {}", self.reason()),
+            Self::SyncProducer => f.write_str(self.reason()),
+        }
+    }
+}
+
+impl core::error::Error for Unfit {}
+
+impl From<StoreTooSmall> for Unfit {
+    fn from(error: StoreTooSmall) -> Self {
+        Self::Values(error)
+    }
+}
+
+impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+    /// Checks that a node of these sizes serves all that the dictionary has.
+    /// [`power_on`](Self::power_on) does so, too.
+    ///
+    /// # Errors
+    /// The first [`Unfit`] that is found; [`Unfit::Values`] is not among them.
+    pub const fn fits(dictionary: &Dictionary<'_>) -> Result<(), Unfit> {
+        let (tpdos, rpdos) = (dictionary.tpdos(), dictionary.rpdos());
+        if tpdos > PDO {
+            let (needed, room) = (tpdos, PDO);
+            return Err(Unfit::Tpdos { needed, room });
+        }
+        if rpdos > PDO {
+            let (needed, room) = (rpdos, PDO);
+            return Err(Unfit::Rpdos { needed, room });
+        }
+        let longest = dictionary.longest();
+        if longest > SDO {
+            let (needed, room) = (longest, SDO);
+            return Err(Unfit::SdoBuffer { needed, room });
+        }
+        let entries = dictionary.entries();
+        let mut at = 0;
+        while at < entries.len() {
+            let entry = &entries[at];
+            match entry.address.index {
+                index @ 0x1201..=0x127F => return Err(Unfit::SdoServer(index)),
+                0x1005 if produces_sync(entry.default) => return Err(Unfit::SyncProducer),
+                _ => {}
+            }
+            at += 1;
+        }
+        Ok(())
+    }
+
+    /// [`fits`](Self::fits) for a `const`: a node that does not fit does not compile.
+    ///
+    /// ```
+    /// # use od_model::Dictionary;
+    /// # const DICTIONARY: Dictionary<'static> = Dictionary::new(&[u16::MAX], &[], &[], &[], "", b"");
+    /// type Node = od_runtime::Node<2, 32>;
+    /// const _: () = Node::assert_fits(&DICTIONARY);
+    /// ```
+    ///
+    /// # Panics
+    /// With the reason, where [`fits`](Self::fits) has one.
+    pub const fn assert_fits(dictionary: &Dictionary<'_>) {
+        if let Err(unfit) = Self::fits(dictionary) {
+            panic!("{}", unfit.reason());
+        }
+    }
+}
+
+/// Whether a default value of 1005h has bit 30 set.
+const fn produces_sync(default: Literal) -> bool {
+    match default {
+        Literal::Unsigned(raw) => CobId::new(raw as u32).produces_sync(),
+        Literal::NodeId(offset) => CobId::new(offset).produces_sync(),
+        _ => false,
+    }
+}
