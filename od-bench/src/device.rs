@@ -10,8 +10,8 @@ use od_model::{Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault, Role};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
-    Application, BusEvent, Event, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
-    Reset, Store,
+    AnyDevice, Application, BusEvent, Event, Frame, Instant, Lent, NoApplication, Node, NodeId,
+    Profile, Reset, Store,
 };
 use od_wire::nmt::State;
 
@@ -21,7 +21,7 @@ use od_runtime::DeviceKind;
 
 /// A node with room for what EDS files have: all PDOs that CiA 301 knows, and the longest value
 /// that a store can hold.
-type RoomyNode = Node<512, 0x1_0000>;
+type RoomyNode = Node<AnyDevice, 512, 0x1_0000>;
 
 /// Where a dictionary comes from.
 pub(super) enum Source {

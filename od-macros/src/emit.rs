@@ -101,6 +101,7 @@ fn lex(text: &str) -> TokenStream {
 fn device(out: &mut String, root: &str, device: &Device, family: &[Item]) {
     let _ = writeln!(out, "use {root}::*;");
     dictionary(out, root, &device.tables);
+    node(out, root, &device.tables);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -197,6 +198,27 @@ dictionary(&BUCKETS, &PLACES, &OBJECTS, &ENTRIES, {:?}, ",
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();
+"
+    );
+}
+
+/// `Node` with the sizes of the dictionary, and the type that ties the two.
+fn node(out: &mut String, root: &str, tables: &Tables) {
+    let dictionary = tables.dictionary();
+    let pdos = dictionary.tpdos().max(dictionary.rpdos());
+    let bytes = dictionary.longest();
+    let _ = write!(
+        out,
+        "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
+#[derive(Clone, Copy, Debug)]
+pub struct Device;
+impl {root}::Device for Device {{
+const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
+::core::option::Option::Some(DICTIONARY);
+}}
+#[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
+({pdos}, and {bytes} bytes).\"]
+pub type Node = {root}::Node<Device, {pdos}, {bytes}>;
 "
     );
 }

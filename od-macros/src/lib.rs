@@ -167,6 +167,7 @@ mod tests {
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
+            "pub type Node = ::odkit::__private1::Node<Device, 0, 4>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

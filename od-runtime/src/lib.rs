@@ -71,6 +71,7 @@
 extern crate std;
 
 mod application;
+mod device;
 mod emcy;
 pub mod encoder;
 mod error_control;
@@ -91,6 +92,7 @@ mod store;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{Application, Context, NoApplication, Reset, Signals};
+pub use device::{AnyDevice, Device};
 pub use emcy::Emcy;
 pub use kind::DeviceKind;
 pub use lent::Lent;

@@ -5,7 +5,8 @@ mod support;
 use od_model::{Access, DataType, Dictionary};
 use od_runtime::storage::NoStorage;
 use od_runtime::{
-    AbortCode, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile, StoreTooSmall, Unfit,
+    AbortCode, AnyDevice, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
+    StoreTooSmall, Unfit,
 };
 use support::{Row, rows, tables, unsigned};
 
@@ -16,7 +17,7 @@ fn start<const PDO: usize, const SDO: usize>(
     dictionary: Dictionary<'_>,
     values: usize,
 ) -> (Result<(), Unfit>, bool) {
-    let mut node: Node<PDO, SDO> = Node::new(NodeId::ONE);
+    let mut node: Node<AnyDevice, PDO, SDO> = Node::new(NodeId::ONE);
     let mut device = Lent {
         dictionary,
         values: &mut vec![0; values],
@@ -76,12 +77,12 @@ fn pdos_are_counted_to_the_last_one() {
         let tables = tables(with((index, 1, U32, Access::Rw, false, unsigned(0))));
         let dictionary = tables.dictionary();
         assert_eq!((dictionary.tpdos(), dictionary.rpdos()), (tpdos, rpdos));
-        let fits = Node::<3, 1024>::fits(&dictionary);
+        let fits = Node::<AnyDevice, 3, 1024>::fits(&dictionary);
         assert_eq!(fits.is_ok(), tpdos <= 3 && rpdos <= 3, "{index:04X}h");
     }
     let needed = 4;
     let tables = tables(with((0x1403, 1, U32, Access::Rw, false, unsigned(0))));
-    let fits = Node::<3, 1024>::fits(&tables.dictionary());
+    let fits = Node::<AnyDevice, 3, 1024>::fits(&tables.dictionary());
     assert_eq!(fits, Err(Unfit::Rpdos { needed, room: 3 }));
 }
 
@@ -111,7 +112,7 @@ fn services_that_the_node_lacks_are_named() {
         (0x1280, None),
     ] {
         let tables = tables(with((index, 1, U32, Access::Rw, false, unsigned(0x601))));
-        let fits = Node::<2, 1024>::fits(&tables.dictionary());
+        let fits = Node::<AnyDevice, 2, 1024>::fits(&tables.dictionary());
         assert_eq!(fits.err(), unfit);
     }
     for (default, fits) in [
@@ -126,7 +127,10 @@ fn services_that_the_node_lacks_are_named() {
         let mut rows = rows();
         let row = rows.iter_mut().find(|row| row.0 == 0x1005);
         row.expect("1005h").5 = default;
-        assert_eq!(Node::<2, 1024>::fits(&tables(rows).dictionary()), fits);
+        assert_eq!(
+            Node::<AnyDevice, 2, 1024>::fits(&tables(rows).dictionary()),
+            fits
+        );
     }
 }
 
@@ -136,15 +140,15 @@ fn a_reason_says_what_to_write() {
     let (needed, room) = (6, 4);
     assert_eq!(
         say(Unfit::Tpdos { needed, room }),
-        "the node has room for 4 of 6 TPDOs; use `Node<6, _>`"
+        "the node has room for 4 of 6 TPDOs; use `Node<_, 6, _>`"
     );
     assert_eq!(
         say(Unfit::Rpdos { needed, room }),
-        "the node has room for 4 of 6 RPDOs; use `Node<6, _>`"
+        "the node has room for 4 of 6 RPDOs; use `Node<_, 6, _>`"
     );
     assert_eq!(
         say(Unfit::SdoBuffer { needed, room }),
-        "the SDO buffer has room for 4 of the 6 bytes of the longest value; use `Node<_, 6>`"
+        "the SDO buffer has room for 4 of the 6 bytes of the longest value; use `Node<_, _, 6>`"
     );
     assert_eq!(
         say(Unfit::SdoServer(0x1201)),

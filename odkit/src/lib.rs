@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use odkit::storage::Memory;
-//! use odkit::{Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
+//! use odkit::{Frame, Instant, Lent, NoApplication, NodeId, Profile};
 //!
 //! odkit::object_dictionary! {
 //!     /// A thermometer.
@@ -29,7 +29,7 @@
 //!     storage: &mut storage,
 //!     profile: &Profile::CIA301,
 //! };
-//! let mut node: Node = Node::new(NodeId::ONE);
+//! let mut node = thermometer::Node::new(NodeId::ONE);
 //! let now = Instant::ZERO;
 //! node.power_on(&mut device, now)?;
 //! assert_eq!(node.poll_transmit(&mut device, now).unwrap().to_string(), "701#00");
@@ -38,7 +38,7 @@
 //! node.handle_frame(&mut device, now, &request);
 //! let response = node.poll_transmit(&mut device, now).unwrap();
 //! assert_eq!(response.to_string(), "581#4B002000D7000000");
-//! # Ok::<(), odkit::StoreTooSmall>(())
+//! # Ok::<(), odkit::Unfit>(())
 //! ```
 //!
 //! The crates behind this one are public, too: `od-model` (dictionary), `od-wire` (frames and
@@ -52,11 +52,11 @@ pub use od_model::{
     ObjectCode, Slot, typed,
 };
 pub use od_runtime::{
-    AbortCode, Application, BusEvent, BusOffProfile, CanId, CobId, CommunicationReset, Context,
-    CutSave, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event, Frame, Instant,
-    LengthRule, Lent, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile,
-    Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile, Signals, Store, StoreProfile,
-    StoreTooSmall, TextTooLong, encoder, storage,
+    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, CobId, CommunicationReset,
+    Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event, Frame,
+    Instant, LengthRule, Lent, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice,
+    PdoProfile, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile, Signals, Store,
+    StoreProfile, StoreTooSmall, TextTooLong, Unfit, encoder, storage,
 };
 pub use od_wire::{emcy, lss, nmt, pdo, sdo};
 
@@ -66,4 +66,5 @@ pub use od_wire::{emcy, lss, nmt, pdo, sdo};
 pub mod __private1 {
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
+    pub use od_runtime::{Device, Node};
 }

@@ -43,11 +43,9 @@ fn a_change_of_the_file_rebuilds() {
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rebuild");
     std::fs::create_dir_all(scratch.join("src")).unwrap();
     std::fs::create_dir_all(scratch.join("eds")).unwrap();
-    let crate_at = |name: &str| format!("{name} = {{ path = {:?} }}", workspace.join(name));
     let manifest = format!(
-        "[package]\nname = \"rebuild\"\nedition = \"2024\"\n[dependencies]\n{}\n{}\n[workspace]\n",
-        crate_at("od-model"),
-        crate_at("od-macros")
+        "[package]\nname = \"rebuild\"\nedition = \"2024\"\n[dependencies]\nodkit = {{ path = {:?} }}\n[workspace]\n",
+        workspace.join("odkit")
     );
     std::fs::write(scratch.join("Cargo.toml"), manifest).unwrap();
     std::fs::copy(workspace.join("Cargo.lock"), scratch.join("Cargo.lock")).unwrap();

@@ -5,6 +5,7 @@ use od_wire::{CobId, Instant};
 
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
+use crate::device::Device;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
@@ -12,7 +13,7 @@ use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Power comes: the values become the saved ones or their defaults, and the node boots up.
     ///
     /// # Errors

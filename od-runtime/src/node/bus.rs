@@ -6,6 +6,7 @@ use od_wire::nmt::State;
 use super::input::PDO_LENGTH;
 use super::{Event, Machines, Node};
 use crate::application::Reset;
+use crate::device::Device;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::profile::Notice;
@@ -57,7 +58,7 @@ impl Mute {
     };
 }
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Reports a state change or frame loss of the CAN controller. A host that never calls
     /// this runs the node as on an error-free bus.
     pub fn handle_bus(&mut self, device: &mut Lent<'_>, now: Instant, event: BusEvent) {

@@ -6,6 +6,7 @@ use od_model::{Dictionary, Literal};
 use od_wire::CobId;
 
 use super::Node;
+use crate::device::Device;
 use crate::store::StoreTooSmall;
 
 /// A reason why a node cannot serve a dictionary.
@@ -65,19 +66,19 @@ impl fmt::Display for Unfit {
             Self::Tpdos { needed, room } => {
                 write!(
                     f,
-                    "the node has room for {room} of {needed} TPDOs; use `Node<{needed}, _>`"
+                    "the node has room for {room} of {needed} TPDOs; use `Node<_, {needed}, _>`"
                 )
             }
             Self::Rpdos { needed, room } => {
                 write!(
                     f,
-                    "the node has room for {room} of {needed} RPDOs; use `Node<{needed}, _>`"
+                    "the node has room for {room} of {needed} RPDOs; use `Node<_, {needed}, _>`"
                 )
             }
             Self::SdoBuffer { needed, room } => write!(
                 f,
                 "the SDO buffer has room for {room} of the {needed} bytes of the longest value; \
-                 use `Node<_, {needed}>`"
+                 use `Node<_, _, {needed}>`"
             ),
             Self::SdoServer(index) => write!(f, "{index:04X}h: {}", self.reason()),
             Self::SyncProducer => f.write_str(self.reason()),
@@ -93,7 +94,7 @@ impl From<StoreTooSmall> for Unfit {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Checks that a node of these sizes serves all that the dictionary has.
     /// [`power_on`](Self::power_on) does so, too.
     ///
@@ -128,19 +129,11 @@ impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
         Ok(())
     }
 
-    /// [`fits`](Self::fits) for a `const`: a node that does not fit does not compile.
-    ///
-    /// ```
-    /// # use od_model::Dictionary;
-    /// # const DICTIONARY: Dictionary<'static> = Dictionary::new(&[u16::MAX], &[], &[], &[], "", b"");
-    /// type Node = od_runtime::Node<2, 32>;
-    /// const _: () = Node::assert_fits(&DICTIONARY);
-    /// ```
-    ///
-    /// # Panics
-    /// With the reason, where [`fits`](Self::fits) has one.
-    pub const fn assert_fits(dictionary: &Dictionary<'_>) {
-        if let Err(unfit) = Self::fits(dictionary) {
+    /// [`fits`](Self::fits) for the dictionary that the compiler knows, if it knows one.
+    pub(super) const fn assert_fits() {
+        if let Some(dictionary) = &D::DICTIONARY
+            && let Err(unfit) = Self::fits(dictionary)
+        {
             panic!("{}", unfit.reason());
         }
     }

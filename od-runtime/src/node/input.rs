@@ -5,6 +5,7 @@ use od_wire::{CanId, Frame, Instant};
 
 use super::{Machines, Node, bus};
 use crate::application::Reset;
+use crate::device::Device;
 use crate::emcy::Emcy;
 use crate::lent::Lent;
 use crate::lss::Action;
@@ -14,7 +15,7 @@ use crate::pdo::Received;
 /// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(super) const PDO_LENGTH: u16 = 0x8210;
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Handles a frame that was received.
     #[inline]
     pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {

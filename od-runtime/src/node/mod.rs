@@ -17,9 +17,12 @@ mod fits;
 mod input;
 mod output;
 
+use core::marker::PhantomData;
+
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
+use crate::device::{AnyDevice, Device};
 use crate::fifo::Fifo;
 use crate::lent::Lent;
 use crate::objects::{Objects, Outbox};
@@ -32,10 +35,14 @@ pub use fits::Unfit;
 /// A CANopen slave.
 ///
 /// `PDO` is the number of TPDOs and of RPDOs that it can have, `SDO` the bytes of the transfer
-/// buffer: the longest value that a segmented or block transfer can carry. The node has no
-/// lifetime: each call borrows the device as a [`Lent`].
+/// buffer: the longest value that a segmented or block transfer can carry. `D` says what the
+/// compiler knows of the device: with `object_dictionary!` the type `Node` of its module has the
+/// sizes of the dictionary, and other sizes do not compile unless they fit.
+///
+/// The node has no lifetime: each call borrows the device as a [`Lent`].
 #[derive(Debug)]
-pub struct Node<const PDO: usize = 4, const SDO: usize = 128> {
+pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
+    device: PhantomData<D>,
     /// [`Objects`] holds it while a call has the device, so it is not one of the machines.
     outbox: Outbox,
     machines: Machines<PDO, SDO>,
@@ -82,11 +89,15 @@ struct Machines<const PDO: usize, const SDO: usize> {
     pdo_pending: bool,
 }
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// A node without power. It starts with this node ID, unless the application or the saved
     /// values set another.
+    ///
+    /// Does not compile where [`fits`](Self::fits) refuses the dictionary of `D`.
     pub const fn new(node_id: NodeId) -> Self {
+        const { Self::assert_fits() };
         Self {
+            device: PhantomData,
             outbox: Outbox::new(),
             machines: Machines::new(node_id),
         }

@@ -4,9 +4,10 @@ use od_wire::nmt::State;
 use od_wire::{Frame, Instant};
 
 use super::{Event, Machines, Node};
+use crate::device::Device;
 use crate::lent::Lent;
 
-impl<const PDO: usize, const SDO: usize> Node<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
     /// input before it.
     #[inline]

@@ -5,7 +5,8 @@ use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, 
 use od_model::{Access, Address, DataType, ObjectCode};
 use od_runtime::storage::Memory;
 use od_runtime::{
-    Application, BusEvent, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
+    AnyDevice, Application, BusEvent, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId,
+    Profile,
 };
 
 /// One row of a dictionary: address, type, access, mappable, default.
@@ -127,7 +128,7 @@ pub fn tables(rows: Vec<Row>) -> Tables {
 }
 
 /// Its buffer is shorter than the DOMAIN 2003h: what runs over is tested, too.
-pub type TestNode = Node<4, 512>;
+pub type TestNode = Node<AnyDevice, 4, 512>;
 
 /// The node with everything that it needs.
 pub struct Bench<A = NoApplication> {

@@ -4,7 +4,7 @@ use od_client::{Client, Event, Frame, Instant, NodeId};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
 use od_model::{Access, DataType, ObjectCode};
 use od_runtime::storage::Memory;
-use od_runtime::{Application, Lent, LssProfile, Node, Profile, Store};
+use od_runtime::{AnyDevice, Application, Lent, LssProfile, Node, Profile, Store};
 
 /// Most bytes of the object 2003h.
 pub(crate) const ROOM: usize = 8192;
@@ -15,7 +15,7 @@ pub(crate) struct Peer {
     values: Vec<u8>,
     storage: Memory<Vec<u8>>,
     pub(crate) profile: Profile,
-    pub(crate) node: Node<4, ROOM>,
+    pub(crate) node: Node<AnyDevice, 4, ROOM>,
     application: Stored,
 }
 

@@ -1,0 +1,21 @@
+//! A dictionary with a second SDO server.
+
+use odkit::{NodeId, object_dictionary};
+
+object_dictionary! {
+    mod device {
+        add 0x1000 { name = "Device type"; type = u32; default = 0x0001_0196 }
+        add 0x1001 { name = "Error register"; type = u8; mappable = true }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+        add 0x1201 { code = record; name = "SDO server 2" }
+        add 0x1201sub1 { name = "COB-ID request"; type = u32; access = rw; default = 0x640 }
+        add 0x1201sub2 { name = "COB-ID response"; type = u32; access = rw; default = 0x5C0 }
+    }
+}
+
+static NODE: device::Node = odkit::Node::new(NodeId::ONE);
+
+fn main() {
+    println!("{}", NODE.node_id());
+}

@@ -1,0 +1,19 @@
+//! A node whose SDO buffer is shorter than a constant string.
+
+use odkit::{NodeId, object_dictionary};
+
+object_dictionary! {
+    mod device {
+        add 0x1000 { name = "Device type"; type = u32; default = 0x0001_0196 }
+        add 0x1001 { name = "Error register"; type = u8; mappable = true }
+        add 0x1008 { name = "Device name"; type = str; access = const; default = "Thermometer" }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+    }
+}
+
+static NODE: odkit::Node<device::Device, 0, 10> = odkit::Node::new(NodeId::ONE);
+
+fn main() {
+    println!("{}", NODE.node_id());
+}
