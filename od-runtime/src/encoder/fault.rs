@@ -115,7 +115,7 @@ pub struct Report {
     /// With [`Appears::Startup`]: seen only where power was off this long, in milliseconds
     /// (a battery that is tested during that time); 0: at every start.
     pub off_ms: u32,
-    /// The code that injects it ([`Injection::code`](super::Injection::code)).
+    /// Code that injects it ([`Role::InjectedError`](super::Role::InjectedError)).
     pub injection: Option<u32>,
 }
 

@@ -64,7 +64,8 @@ pub enum Source {
     /// Whole revolutions: a speed is per minute.
     Revolutions,
     /// Steps of 6004h; sense of rotation and resolution count, offset and range do not. A
-    /// [`GearKind::Output`] counts, a [`GearKind::Position`] does not.
+    /// [`GearKind::Output`](super::GearKind::Output) counts, a
+    /// [`GearKind::Position`](super::GearKind::Position) does not.
     Position,
     /// This number of steps per revolution, whatever the scaling; the sense of rotation counts.
     Fixed(u32),

@@ -15,7 +15,7 @@ use track::Track;
 /// Sensor that tells the angle of a shaft.
 ///
 /// A closure `FnMut(Instant) -> Result<Angle, Fault>` is one, and so is an [`Angle`] that the
-/// host sets.
+/// host sets. It is asked once for each moment.
 pub trait PositionSource {
     /// Revolutions after which the sensor starts again at 0, as a power of two: 0 for a
     /// singleturn, 12 for 4096 revolutions. 32: it never does.
@@ -55,18 +55,29 @@ impl PositionSource for Angle {
 /// the angle changes evenly between two that are remembered.
 ///
 /// ```
-/// use od_runtime::encoder::{Angle, Encoder, EncoderProfile, Fault, Sampled};
+/// use od_runtime::encoder::{Angle, Encoder, EncoderProfile, Fault, PositionSource, Sampled};
 /// use od_runtime::{Duration, Instant};
 ///
-/// // A sensor of 12 bits; the driver gives `None` where the checksum is wrong.
-/// fn read_sensor() -> Option<u16> { Some(0x400) }
-/// let sensor = |_: Instant| match read_sensor() {
-///     Some(raw) => Ok(Angle::from_fractions(i64::from(raw) << 20)),
-///     None => Err(Fault::Position),
-/// };
+/// /// A singleturn of 12 bits; its driver gives `None` if the checksum is wrong.
+/// struct Sensor {
+///     read: fn() -> Option<u16>,
+/// }
+///
+/// impl PositionSource for Sensor {
+///     const TURN_BITS: u32 = 0; // it starts again at 0 with each revolution
+///
+///     fn sample(&mut self, _: Instant) -> Result<Angle, Fault> {
+///         let raw = (self.read)().ok_or(Fault::Position)?;
+///         Ok(Angle::from_fractions(i64::from(raw) << 20))
+///     }
+/// }
+///
+/// let sensor = Sensor { read: || Some(0x400) };
 /// let shaft: Sampled<_, 64> = Sampled::new(sensor, Duration::from_millis(1));
-/// let encoder = Encoder::new(&EncoderProfile::CIA406, shaft);
-/// # let _ = encoder;
+/// let mut encoder = Encoder::new(&EncoderProfile::CIA406, shaft);
+/// # use od_runtime::encoder::Motion;
+/// # let quarter = Angle::from_fractions(1 << 30);
+/// # assert_eq!(encoder.shaft.angle(Instant::ZERO), Ok(quarter));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Sampled<P, const N: usize = 16> {
