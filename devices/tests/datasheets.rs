@@ -77,7 +77,7 @@ fn a_page_has_every_value_and_what_is_particular_to_the_device() {
 fn names_of_a_file_cannot_break_the_table() {
     let text = "[DeviceInfo]\nProductName=a|b\n[2000]\nParameterName=x | *y*\nDataType=0x0005\n";
     let tables = od_eds::Tables::new(&od_eds::parse(text).description);
-    let page = datasheet::objects_page("a|b", tables.dictionary());
+    let page = od_eds::convert::markdown::page("a|b", tables.dictionary());
     assert!(page.starts_with("# a\\|b\n"), "{page}");
     assert!(page.contains("| x \\| \\*y\\* |"), "{page}");
 }

@@ -1,12 +1,9 @@
 //! `odkit convert`: a device description in another form.
 
-mod c_header;
-mod dcf;
-mod json;
-
 use std::path::{Path, PathBuf};
 
 use od_devices::text::datasheet;
+use od_eds::convert::{c_header, dcf, json, markdown};
 use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
@@ -89,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let text = match form {
         Form::Eds => od_eds::canonical(&description),
         Form::Dcf => {
-            dcf::configure(&mut description, args)?;
+            configure(&mut description, args)?;
             od_eds::canonical(&description)
         }
         Form::Xdd => xdd::write(&description),
@@ -97,7 +94,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             Source::BuiltIn(kind) => datasheet::page(kind),
             Source::File(_) => {
                 let tables = Tables::new(&description);
-                datasheet::objects_page(&args.input, tables.dictionary())
+                markdown::page(&args.input, tables.dictionary())
             }
         },
         Form::C => {
@@ -136,4 +133,25 @@ fn description(name: &str) -> Result<Description, Failure> {
     let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
     output::note_text(&file.render(&errors, output::error_colours()));
     Ok(description)
+}
+
+/// Node ID, bit rate and the values of the arguments. A value of the file stays if none is given.
+fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> {
+    if let Some(node_id) = args.node_id {
+        description.commission("NodeID", &node_id.raw().to_string());
+    } else if description.commissioned_node_id().is_none() {
+        return Err(Failure::Usage(
+            "a DCF is of one device: say its node ID, --node-id 5".into(),
+        ));
+    }
+    if let Some(rate) = args.bit_rate {
+        description.commission("Baudrate", &rate.to_string());
+    }
+    for setting in &args.values {
+        let (object, text) = setting.split_once('=').ok_or_else(|| {
+            Failure::Usage(format!("`{setting}` sets nothing; write --set 6001h=4096"))
+        })?;
+        dcf::set(description, object.trim(), text.trim()).map_err(Failure::Usage)?;
+    }
+    Ok(())
 }

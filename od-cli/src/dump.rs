@@ -1,6 +1,7 @@
 //! `odkit dump`: an object dictionary as a table, or a device's datasheet.
 
-use od_devices::text::datasheet::{self, HEAD};
+use od_devices::text::datasheet;
+use od_eds::convert::markdown::{self, HEAD};
 use od_eds::{Description, Tables};
 use od_model::Dictionary;
 
@@ -36,7 +37,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             tables = Tables::new(&description);
             let dictionary = tables.dictionary();
             let title = product(&description).unwrap_or(&file.path).to_owned();
-            (dictionary, datasheet::objects_page(&title, dictionary))
+            (dictionary, markdown::page(&title, dictionary))
         }
     };
     let mut output = Output::new();
@@ -61,7 +62,7 @@ fn product(description: &Description) -> Option<&str> {
 
 fn table(dictionary: Dictionary<'_>) -> Vec<String> {
     let mut rows = vec![HEAD.map(String::from)];
-    rows.extend(datasheet::rows(dictionary).into_iter().map(|row| row.cells));
+    rows.extend(markdown::rows(dictionary).into_iter().map(|row| row.cells));
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
     let widths: Vec<usize> = (0..HEAD.len())
         .map(|column| width(column).unwrap_or(0))

@@ -26,6 +26,7 @@ extern crate std;
 
 mod catalogue;
 pub mod check;
+pub mod convert;
 mod description;
 pub mod diff;
 mod document;

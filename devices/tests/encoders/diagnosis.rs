@@ -70,7 +70,7 @@ fn each_code_says_what_its_row_says() {
                 diagnosis.into(),
             ];
             assert_eq!(shown(&mut bench), expected, "{what}");
-            assert_eq!(bench.read(0x1003, 1), emcy.into(), "{what}");
+            assert_eq!(bench.read(0x1003, 1), u32::from(emcy), "{what}");
             bench.nmt(0x81);
             let again = [(emcy, register, alarms, warnings)];
             assert_eq!(bench.emcys(), &again[..usize::from(lasts)], "{what}");

@@ -7,7 +7,7 @@ use odkit::encoder::{
     Appears, Counter, GearKind, Quantity, RangeRule, Report, Role, Source, Total, Until,
 };
 
-use super::fact;
+use od_eds::convert::markdown::fact;
 use odkit::{Address, DeviceKind};
 
 /// The columns of [`faults`].

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use odkit::{CommunicationReset, CutSave, Restore, SaveAnswer, SavedCobIds};
 
-use super::fact;
+use od_eds::convert::markdown::fact;
 use odkit::DeviceKind;
 use odkit::encoder::Role;
 

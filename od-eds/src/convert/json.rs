@@ -1,10 +1,14 @@
 //! A dictionary as JSON: for tools that want tables and no parser.
 
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
 use od_model::{Dictionary, Entry, Group, Literal};
 use serde_json::{Value, json};
 
-/// One object: `objects` by index, each with its `entries`.
-pub(super) fn write(dictionary: Dictionary<'_>, source: &str) -> Value {
+/// Returns one JSON object: `objects` by index, each with its `entries`. `source` is named in it.
+pub fn write(dictionary: Dictionary<'_>, source: &str) -> Value {
     let objects: Vec<Value> = dictionary
         .objects()
         .iter()

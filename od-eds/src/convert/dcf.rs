@@ -1,36 +1,20 @@
 //! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
 
-use od_eds::{Description, Spanned, Tables, Value};
+use alloc::format;
+use alloc::string::{String, ToString};
+
 use od_model::values;
 
-use super::Args;
-use crate::Failure;
+use crate::description::tables::Tables;
+use crate::description::{Description, Value};
+use crate::span::Spanned;
 
-/// Node ID, bit rate and the values that were asked for. A value of the file stays where
-/// nothing is said of it.
-pub(super) fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> {
-    if let Some(node_id) = args.node_id {
-        description.commission("NodeID", &node_id.raw().to_string());
-    } else if description.commissioned_node_id().is_none() {
-        return Err(Failure::Usage(
-            "a DCF is of one device: say its node ID, --node-id 5".into(),
-        ));
-    }
-    if let Some(rate) = args.bit_rate {
-        description.commission("Baudrate", &rate.to_string());
-    }
-    for setting in &args.values {
-        value(description, setting).map_err(Failure::Usage)?;
-    }
-    Ok(())
-}
-
-/// `6001h=4096`: the ParameterValue of one object.
-fn value(description: &mut Description, setting: &str) -> Result<(), String> {
-    let (object, text) = setting
-        .split_once('=')
-        .ok_or_else(|| format!("`{setting}` sets nothing; write --set 6001h=4096"))?;
-    let (object, text) = (object.trim(), text.trim());
+/// Sets the ParameterValue of one object, `6001h` or `1800sub1`, from a value as people write it.
+///
+/// # Errors
+///
+/// The object does not exist or cannot be written, or the value is not one of it; in words.
+pub fn set(description: &mut Description, object: &str, text: &str) -> Result<(), String> {
     let tables = Tables::new(description);
     let entry = values::find(tables.dictionary(), object)?;
     let (address, data_type) = (entry.address, entry.data_type);

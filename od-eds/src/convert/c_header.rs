@@ -1,12 +1,16 @@
 //! A dictionary as a C header: what a master's firmware needs to know of a device.
 
-use std::collections::BTreeSet;
-use std::fmt::Write;
+use alloc::collections::BTreeSet;
+use alloc::string::String;
+use alloc::{format, vec};
+use core::fmt::Write;
 
 use od_model::{DataType, Dictionary, Entry, Literal};
 
-/// The header's text. `name` prefixes every macro: `GXMM_POSITION_VALUE_INDEX`.
-pub(super) fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
+/// Returns the header's text.
+///
+/// `name` prefixes every macro: `GXMM_POSITION_VALUE_INDEX`. `source` is named in its first line.
+pub fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
     let prefix = macro_name(name);
     let mut out = String::new();
     let mut names = BTreeSet::new();

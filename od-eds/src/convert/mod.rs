@@ -1,0 +1,7 @@
+//! A device description in the forms of other programs.
+
+pub mod c_header;
+pub mod dcf;
+#[cfg(feature = "json")]
+pub mod json;
+pub mod markdown;
