@@ -32,7 +32,7 @@ impl Factor {
             _ => store.unsigned(gear.index, sub),
         };
         Self {
-            is_on: number(1) == gear.on.into(),
+            is_on: number(1) == u64::from(gear.on),
             numerator: number(2) as u32,
             denominator: number(3) as u32,
         }

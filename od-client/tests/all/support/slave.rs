@@ -52,7 +52,7 @@ impl Slave {
     }
 
     pub(crate) fn handle(&mut self, frame: &Frame) -> Option<Frame> {
-        assert_eq!(frame.id().raw(), MASTER.into());
+        assert_eq!(frame.id().raw(), u32::from(MASTER));
         let answer = match Request::parse(frame.data()).expect("a request of CiA 305") {
             Request::SwitchGlobal { configuration } => {
                 self.configuration = configuration;
