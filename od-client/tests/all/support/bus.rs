@@ -184,8 +184,11 @@ impl Bus {
 
     /// Runs until nothing is sent and nothing is due before `end`.
     pub(crate) fn run_until(&mut self, end: Instant) {
-        loop {
-            while self.step() {}
+        for turn in 0.. {
+            while self.step() {
+                assert!(self.frames.len() < 200_000, "frames without end");
+            }
+            assert!(turn < 10_000, "deadlines without end");
             let peers = self
                 .peers
                 .iter()
