@@ -40,6 +40,7 @@ struct Sums {
 fn rust_ini_reads_the_same_in_every_case() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
+    collect(&here.join("cases"), &mut files);
     collect(&here.join("../tests/cases"), &mut files);
     collect(&here.join("../devices/eds"), &mut files);
     let mut sums = Sums::default();
