@@ -298,3 +298,24 @@ fn no_frame_panics_anything() {
         bus.advance(Instant::from_micros(round * 500));
     }
 }
+
+#[test]
+fn the_last_256_events_are_kept() {
+    let mut device = gxmm(1);
+    let now = Instant::ZERO;
+    device.power_on(now);
+    while device.poll_event().is_some() {}
+    for _ in 0..200 {
+        for command in [1, 0x80] {
+            device.handle_frame(now, &Frame::standard(0, &[command, 1]));
+        }
+        while device.poll_transmit(now).is_some() {}
+    }
+    device.handle_frame(now, &Frame::standard(0, &[2, 1]));
+    let events: Vec<_> = std::iter::from_fn(|| device.poll_event()).collect();
+    assert_eq!(events.len(), 256);
+    let last = events.last().expect("256 events");
+    assert_eq!(*last, od_runtime::Event::State(State::Stopped));
+    let first = events.first().expect("256 events");
+    assert_eq!(*first, od_runtime::Event::State(State::PreOperational));
+}

@@ -98,8 +98,8 @@ impl Signals {
         self.reconfigure = true;
     }
 
-    /// What the device keeps of its own life (hours, counters) is saved, and nothing else
-    /// with it; where storage fails, the next time has to do.
+    /// Requests a save of the operating records (hours, counters) only. A failed save is not
+    /// repeated until the next request.
     pub fn keep(&mut self) {
         self.keep = true;
     }

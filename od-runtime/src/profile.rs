@@ -2,6 +2,10 @@
 //!
 //! The standard leaves room and manuals use it; the services ask here instead
 //! of asking who they are.
+//!
+//! The structs are not `#[non_exhaustive]`: a family is one `const` literal, which that would
+//! forbid. A literal that ends in `..Profile::CIA301` (or in a part of it, such as
+//! `..Profile::CIA301.sdo`) still compiles when a field is added.
 
 use od_model::Address;
 
@@ -48,8 +52,8 @@ pub struct PdoProfile {
     pub direct_cob_id: bool,
     /// First index of the repeat counters (2800h of the bus-cover family), one for each TPDO.
     pub repeat_counter: Option<u16>,
-    /// Object and bits that, all set, leave the synchronous types (0–240) alone; `None`: the
-    /// device has no such mode.
+    /// Object index and bit mask. While all masked bits are set, the node sends only synchronous
+    /// TPDOs (types 0–240). `None`: not supported.
     pub sync_only: Option<(u16, u32)>,
 }
 
@@ -72,7 +76,7 @@ pub enum SaveAnswer {
     AfterStoring,
 }
 
-/// What the next start finds after a save that was not completed: power went, or a reset came.
+/// Values that the node loads after an interrupted save (power loss or reset).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CutSave {
     /// The last complete set.
@@ -184,8 +188,9 @@ pub enum ErrorReset {
 /// What follows from bus-off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct BusOffProfile {
-    /// Object and bits (2110h) of which one set has the CAN controller begin anew; clear, the
-    /// device stays off the bus until it is reset or power comes back. `None`: it begins anew.
+    /// Object index and bit mask (2110h). If any masked bit is set, the CAN controller restarts
+    /// after bus-off; otherwise the node stays off the bus until a reset or power cycle. `None`:
+    /// always restarts.
     pub restart: Option<(u16, u32)>,
     /// Beginning anew is an NMT reset communication, with a boot-up message; else the NMT
     /// state goes on.

@@ -233,3 +233,42 @@ fn a_frame_that_waits_for_sync_outlives_a_change_of_another_pdo() {
     bench.send("080#");
     assert_eq!(bench.value(0x2001, 0), 8, "its own change ends the wait");
 }
+
+#[test]
+fn a_remote_frame_before_the_first_sync_answers_with_the_value_of_now() {
+    let mut bench = running(&["2F001802FC000000"]);
+    bench.send("601#2300200006000000");
+    assert_eq!(bench.send("181#R"), ["181#06000000"]);
+    bench.send("080#");
+    bench.send("601#2300200007000000");
+    assert_eq!(bench.send("181#R"), ["181#06000000"], "what SYNC saw");
+    bench.send("080#");
+    assert_eq!(bench.send("181#R"), ["181#07000000"]);
+}
+
+#[test]
+fn a_sync_start_value_waits_for_its_counter() {
+    let mut bench = running(&["2F00180202000000", "2F00180603000000"]);
+    let sent: Vec<_> = [1, 2, 3, 4, 5, 6]
+        .map(|counter| bench.send(&format!("080#{counter:02X}")).len())
+        .into();
+    assert_eq!(sent, [0, 0, 1, 0, 1, 0], "SYNC 3 is the first of the count");
+    // A SYNC without a counter cannot be waited for.
+    let mut bench = running(&["2F00180202000000", "2F00180603000000"]);
+    assert_eq!(bench.send("080#").len(), 1);
+    assert_eq!(bench.send("080#").len(), 0);
+}
+
+#[test]
+fn a_mapping_of_254_or_255_objects_is_too_long() {
+    let mut bench = running(&["2300180181010080", "2F001A0000000000"]);
+    for sub in 1..=8 {
+        let answer = bench.ask(&format!("601#23001A{sub:02X}08000110"));
+        assert_eq!(&answer[4..6], "60", "{answer}");
+    }
+    for count in [9, 64, 65, 253, 254, 255] {
+        let answer = bench.ask(&format!("601#2F001A00{count:02X}000000"));
+        assert_eq!(answer, "581#80001A0042000406", "{count}");
+    }
+    assert_eq!(bench.ask("601#2F001A0008000000"), "581#60001A0000000000");
+}

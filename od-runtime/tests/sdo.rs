@@ -238,3 +238,15 @@ fn block_faults_have_their_codes() {
     );
     assert_eq!(bench.ask("601#4000100000000000"), "581#4300100096010200");
 }
+
+#[test]
+fn three_bytes_go_expedited_both_ways() {
+    let mut bench = bench();
+    assert_eq!(bench.ask("601#2702200061626300"), "581#6002200000000000");
+    assert_eq!(bench.ask("601#4002200000000000"), "581#4702200061626300");
+    // What the frame is too short for was not given.
+    bench.profile.sdo.min_dlc = 4;
+    assert_eq!(bench.ask("601#27022000414243"), "581#6002200000000000");
+    assert_eq!(bench.ask("601#270220007172"), "581#8002200013000706");
+    assert_eq!(bench.ask("601#4002200000000000"), "581#4702200041424300");
+}

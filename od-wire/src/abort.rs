@@ -4,7 +4,7 @@ use core::fmt;
 
 macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
-        /// Why an SDO transfer ends (CiA 301, table 22); the number is the one on the wire.
+        /// SDO abort code (CiA 301, table 22). The discriminant is the value on the bus.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         #[repr(u32)]
         pub enum AbortCode { $(#[doc = $text] $(#[$doc])* $name = $code,)* }
@@ -13,12 +13,12 @@ macro_rules! abort_codes {
             /// Every code, by ascending number.
             pub const ALL: &[AbortCode] = &[$(AbortCode::$name),*];
 
-            /// The code with this number, if it is one.
+            /// Returns the abort code with this value; `None` for a value that CiA 301 does not define.
             pub const fn from_code(code: u32) -> Option<Self> {
                 match code { $($code => Some(Self::$name),)* _ => None }
             }
 
-            /// What it says, in a few plain words.
+            /// Returns a short English description.
             pub const fn text(self) -> &'static str {
                 match self { $(Self::$name => $text),* }
             }
@@ -62,7 +62,7 @@ abort_codes! {
 }
 
 impl AbortCode {
-    /// The number on the wire.
+    /// The value on the bus.
     #[inline]
     pub const fn code(self) -> u32 {
         self as u32

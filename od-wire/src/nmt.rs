@@ -38,11 +38,11 @@ impl Command {
 pub enum State {
     /// Between reset and boot-up; as a heartbeat it is the boot-up message.
     Initialising = 0x00,
-    /// Neither SDO nor PDO, SYNC, EMCY.
+    /// Only NMT, error control and LSS.
     Stopped = 0x04,
-    /// Everything.
+    /// All services, including PDOs (CiA 301, chapter 7.3.2).
     Operational = 0x05,
-    /// Everything but PDOs.
+    /// All services but PDOs.
     PreOperational = 0x7F,
 }
 

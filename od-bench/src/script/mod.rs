@@ -64,6 +64,8 @@ pub struct Problem {
     pub help: String,
 }
 
+impl core::error::Error for Problem {}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(

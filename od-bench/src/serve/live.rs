@@ -329,6 +329,6 @@ fn words(event: Event) -> Option<String> {
         Event::Error(error) => format!("error {:04X}h", error.code),
         Event::ErrorCleared(code) => format!("error {code:04X}h is over"),
         Event::BitRate(code) => format!("LSS set bit rate {code}; this bus has none"),
-        Event::Written(_) => return None,
+        _ => return None,
     })
 }

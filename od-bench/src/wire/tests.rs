@@ -80,3 +80,20 @@ fn a_missing_terminator_hurts_fast_lines_and_the_same_seed_hurts_the_same_way() 
     assert!(count(50, 0) > 10);
     assert_eq!(count(500, 1), count(500, 1));
 }
+
+#[test]
+fn an_error_of_the_transmitter_counts_8_and_a_frame_that_came_through_1() {
+    let mut controller = Line::default().controller(0);
+    for errors in 1..=31 {
+        controller.erred_sending();
+        assert_eq!(controller.transmit, 8 * errors);
+    }
+    assert_eq!(controller.condition(), Condition::ErrorPassive);
+    controller.sent();
+    assert_eq!(controller.transmit, 247);
+    controller.erred_sending();
+    assert_eq!(controller.condition(), Condition::ErrorPassive, "255");
+    controller.erred_sending();
+    assert_eq!(controller.condition(), Condition::BusOff, "256 at the most");
+    assert_eq!(controller.transmit, BUS_OFF);
+}

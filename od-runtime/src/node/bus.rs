@@ -13,6 +13,7 @@ use crate::profile::Notice;
 
 /// News of the CAN controller (CiA 301, table 26, codes 81xxh).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum BusEvent {
     /// Error active, with error counters below the warning limit: all is well, or well again,
     /// and no more frames are lost. After bus-off: the controller could begin anew.

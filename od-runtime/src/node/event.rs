@@ -9,6 +9,7 @@ use od_wire::nmt::State;
 
 /// Something happened in the node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum Event {
     /// The NMT state changed.
     State(State),

@@ -23,6 +23,7 @@ pub struct File {
 
 /// Why a file is not used.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum OpenError {
     /// The operating system says no.
     Io(PathBuf, io::Error),

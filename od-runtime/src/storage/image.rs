@@ -48,6 +48,7 @@ const RECORD: usize = 5;
 
 /// What the storage held.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum Loaded {
     /// Nothing yet, or nothing of this device: the defaults stand.
     Blank,

@@ -18,6 +18,7 @@ pub use memory::Memory;
 
 /// Why bytes could not be read or written.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum StorageError {
     /// Outside the capacity.
     OutOfRange,

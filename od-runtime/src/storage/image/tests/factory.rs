@@ -123,3 +123,48 @@ fn a_user_s_cob_id_moves_with_the_node_id() {
         assert_eq!(bench.store().unsigned(0x1014, 0), cob_id);
     }
 }
+
+/// Memory whose write number `fails` does not succeed; those after it do.
+struct Flaky {
+    memory: Memory<Vec<u8>>,
+    fails: usize,
+}
+
+impl Storage for Flaky {
+    fn capacity(&self) -> usize {
+        self.memory.capacity()
+    }
+
+    fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
+        self.memory.read(offset, to)
+    }
+
+    fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
+        let fails = self.fails == 0;
+        self.fails = self.fails.wrapping_sub(1);
+        if fails {
+            return Err(StorageError::Device);
+        }
+        self.memory.write(offset, bytes)
+    }
+}
+
+#[test]
+fn a_save_that_fails_with_power_on_leaves_the_set_before_it() {
+    for fails in 0.. {
+        let (mut bench, mut memory) = (Bench::new(device()), storage());
+        bench.fill(5);
+        save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+        let before = bench.values();
+        bench.fill(200);
+        let mut flaky = Flaky { memory, fails };
+        let result = begin(&mut flaky, &bench.store(), FACTORY, 1);
+        if result.is_ok() {
+            assert!(fails > 3, "mark, magic, records and header were written");
+            break;
+        }
+        assert_eq!(result.err(), Some(StorageError::Device));
+        assert_eq!(bench.start(&mut flaky), Loaded::Complete, "write {fails}");
+        assert_eq!(bench.values(), before, "write {fails}");
+    }
+}
