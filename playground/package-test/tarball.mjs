@@ -45,7 +45,7 @@ test('the tarball has what package.json names, with types', () => {
   const { files, about } = install(process.env.ODKIT_PKG, 'contents');
   assert.equal(about.name, 'od-playground');
   assert.equal(about.type, 'module');
-  for (const name of [about.main, about.types, 'od_playground_bg.wasm', 'README.md', 'LICENSE-MIT', 'LICENSE-APACHE']) assert.ok(files.includes(name), name);
+  for (const name of [about.main, about.types, 'od_playground_bg.wasm', 'README.md', 'LICENSE.MIT', 'LICENSE.APACHE']) assert.ok(files.includes(name), name);
   const types = readFileSync(join(root, 'contents', 'node_modules', 'od-playground', about.types), 'utf8');
   for (const signature of ['addDevice(name: string, node_id: number', 'drain(): Uint8Array', '): EdsResult', 'Diagnostic[]', 'export interface Diagnostic']) {
     assert.ok(types.includes(signature), signature);

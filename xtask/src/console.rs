@@ -136,9 +136,14 @@ pub(crate) fn which(name: &str) -> Option<PathBuf> {
         .find(|file| file.is_file())
 }
 
-/// `cargo` without what the surrounding `cargo run` left in the environment.
+/// `cargo` in a folder.
 pub(crate) fn cargo(dir: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new("cargo");
+    clean(Path::new("cargo"), dir, args)
+}
+
+/// A program without what the surrounding `cargo run` left in the environment.
+pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(program);
     for (name, _) in env::vars_os() {
         let name = name.to_string_lossy();
         if name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_") {

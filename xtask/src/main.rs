@@ -1,14 +1,15 @@
 //! `cargo xtask`: everything around the product, and no product code.
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
-//! check there is, `corpus` reads a folder of device files, `wasm-pack` makes the npm
-//! package. Standard library only.
+//! check there is, `mutants` checks the tests, `corpus` reads a folder of device files,
+//! `wasm-pack` makes the npm package. Standard library only.
 
 mod bundle;
 mod console;
 mod corpus;
 mod error;
 mod lock;
+mod mutants;
 mod packages;
 mod play;
 mod repo;
@@ -39,6 +40,9 @@ usage: cargo xtask <command> [options]
   corpus DIR [--docs FILE]
         what odkit makes of the device files below a folder: a line a file, then
         the findings by code; --docs writes the sums as Markdown
+  mutants [--shard K/N] [--file FILE]...
+        change the code of the node, the client and the rules, one thing at a time,
+        and look whether a test notices; takes hours, goes on where it was stopped
   shots
         build and serve the page, write its screenshots to target/shots/
   wasm-pack [arguments]
@@ -86,6 +90,10 @@ fn run(args: &[String]) -> Result<ExitCode> {
             return test::run(&Repo::locate()?, &options);
         }
         "corpus" => corpus::run(&Repo::locate()?, &Console::terminal(), rest)?,
+        "mutants" => {
+            let options = mutants::Options::parse(rest)?;
+            mutants::run(&Repo::locate()?, &Console::terminal(), &options)?;
+        }
         "shots" => {
             if let Some(extra) = rest.first() {
                 return Err(Error::Usage(format!("shots does not take `{extra}`")));

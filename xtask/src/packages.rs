@@ -12,6 +12,18 @@ pub(crate) const BENCHES: &str = "od-benches";
 /// What is not for crates.io; the playground is for npm.
 pub(crate) const UNPUBLISHED: [&str; 5] = [BENCHES, "od-benches-zencan", PAGE.0, TESTS, "xtask"];
 
+/// What `cargo xtask mutants` changes: a package, the folder in which, and the tests from
+/// outside that have to notice beside the package's own.
+pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
+    (
+        "od-runtime",
+        "od-runtime/src/",
+        &["conformance", "power_loss"],
+    ),
+    ("od-client", "od-client/src/", &[]),
+    ("od-eds", "od-eds/src/rules/", &["rules", "cases"]),
+];
+
 /// What must do without the standard library.
 pub(crate) const NO_STD: [&str; 6] = [
     "od-model",

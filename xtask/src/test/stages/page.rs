@@ -62,7 +62,7 @@ pub(super) fn wasm_pack(context: &Context<'_>) -> Result<()> {
         let args: Vec<String> = build.iter().chain(args).map(|&arg| arg.into()).collect();
         crate::wasm_pack::run(context.repo, context.console, &args)?;
         let module = format!("{}_bg.wasm", PAGE.1);
-        for name in ["package.json", "LICENSE-MIT", "LICENSE-APACHE", &module] {
+        for name in ["package.json", "LICENSE.MIT", "LICENSE.APACHE", &module] {
             if !made.join(name).is_file() {
                 let made = context.repo.short(made);
                 return Err(Error::Failed(format!("wasm-pack made no {made}/{name}")));
