@@ -149,9 +149,16 @@ impl VirtualDevice {
     /// The diagnostics, if one of them is an error and `options` is not lenient.
     #[cfg(feature = "eds")]
     pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Finding>> {
+        let (device, findings) = Self::read_eds(text, options);
+        device.ok_or(findings)
+    }
+
+    /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
+    #[cfg(feature = "eds")]
+    pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
         let parsed = od_eds::load(text);
         if !options.lenient && parsed.diagnostics.iter().any(Finding::is_error) {
-            return Err(parsed.diagnostics);
+            return (None, parsed.diagnostics);
         }
         let description = &parsed.description;
         let commissioned = description.commissioned_node_id().and_then(NodeId::new);
@@ -166,13 +173,8 @@ impl VirtualDevice {
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
         let source = Source::Loaded(Box::new(tables));
-        Ok(Self::build(
-            title,
-            source,
-            behaviour,
-            &Profile::CIA301,
-            node_id,
-        ))
+        let device = Self::build(title, source, behaviour, &Profile::CIA301, node_id);
+        (Some(device), parsed.diagnostics)
     }
 
     fn build(

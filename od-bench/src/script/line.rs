@@ -7,109 +7,107 @@ use od_wire::sdo::Request;
 use od_wire::{Frame, NodeId, nmt};
 
 use super::Problem;
-use super::parse::statement;
-use super::statement::{Action, Outcome};
+use super::parse::command;
 use super::typed;
 use super::words::Words;
 use crate::logs::candump;
 
-/// Reads a line of a script, of a log, or a frame as people type it, for a node:
+/// What a line may refer to.
+pub struct Known<'k> {
+    /// The node that it is for.
+    pub node: NodeId,
+    /// The type of an object of that node.
+    pub type_of: &'k dyn Fn(Address) -> Option<DataType>,
+    /// Reads a decimal fraction.
+    pub real: &'k dyn Fn(&str) -> Option<f64>,
+}
+
+/// Reads a line of a log, a frame as people type it, or what a script says of one frame:
 /// `601#40 04 60 00`, `(0.1) can0 601#40046000`, `nmt start`, `sync`, `sdo read 6004h`, and for
-/// short `read 6004`, `write 6001 = 4096`, `sync 5`, `guard`. `type_of` knows the objects of
-/// the node.
+/// short `read 6004`, `write 6001 = 4096`, `sync 5`, `guard`.
 ///
 /// # Errors
 /// What is wrong with it and what to write instead.
-pub fn frame_of(
-    text: &str,
-    node: NodeId,
-    type_of: impl Fn(Address) -> Option<DataType>,
-) -> Result<Frame, Problem> {
-    let words = Words::new(1, text);
-    let mut rest = words;
-    let verb = rest.next().to_ascii_lowercase();
-    match verb.as_str() {
-        "guard" if rest.is_empty() => {
-            let asked = Frame::remote(node.plus(0x700), 1);
-            asked.ok_or_else(|| words.problem("a frame has at most 8 bytes", ""))
-        }
-        "sync" if rest.at_number() && !rest.rest().contains(' ') => {
-            let counter = rest.number(0, 255)? as u8;
-            Ok(Frame::standard(0x80, &[counter]))
-        }
-        "read" | "write" => {
-            let line = format!("sdo {verb} {}", rest.rest());
-            act(Words::new(1, &line), node, type_of).map_err(|problem| Problem {
-                column: problem.column.saturating_sub(4).max(1),
-                ..problem
-            })
-        }
-        "sdo" | "nmt" | "sync" | "send" => act(words, node, type_of),
-        _ => typed::frame(text).or_else(|error| {
-            // A line of a log has a time or an interface.
-            let line = candump::parse_line(text).map(|line| line.frame);
-            line.map_err(|_| words.frame_problem(&error))
-        }),
+pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
+    let start = Words::new(1, text);
+    let mut words = start;
+    let mut verb = words.next().to_ascii_lowercase();
+    if verb == "sdo" {
+        verb = words.next().to_ascii_lowercase();
     }
+    let frame = match verb.as_str() {
+        "guard" => {
+            let asked = Frame::remote(known.node.plus(0x700), 1);
+            asked.ok_or_else(|| start.problem("a frame has at most 8 bytes", ""))?
+        }
+        "sync" => {
+            words.take("counter");
+            match words.is_empty() {
+                true => Frame::standard(0x80, &[]),
+                false => Frame::standard(0x80, &[words.number(0, 255)? as u8]),
+            }
+        }
+        "nmt" => {
+            let command = command(&mut words)?;
+            let node = match words.is_empty() {
+                true => known.node.raw(),
+                false if words.take("all") => 0,
+                false => words.number(0, 127)? as u8,
+            };
+            Frame::standard(0, &nmt::Repr { command, node }.emit())
+        }
+        "read" => {
+            let address = address(words)?;
+            return Ok(request(known.node, Request::InitiateUpload { address }));
+        }
+        "write" => return write(words, known),
+        _ => return typed_or_logged(text, start),
+    };
+    words.end()?;
+    Ok(frame)
 }
 
-fn act(
-    words: Words<'_>,
-    node: NodeId,
-    type_of: impl Fn(Address) -> Option<DataType>,
-) -> Result<Frame, Problem> {
-    match statement(words, &mut None)?.1 {
-        Action::Send {
-            frame, times: 1, ..
-        } => Ok(frame),
-        Action::Nmt { command, node: of } => {
-            let node = of.unwrap_or(node.raw());
-            Ok(Frame::standard(0, &nmt::Repr { command, node }.emit()))
-        }
-        Action::Read {
-            object,
-            outcome: Outcome::Done,
-        } => {
-            let address = address(words, &object)?;
-            Ok(request(node, Request::InitiateUpload { address }))
-        }
-        Action::Write {
-            object,
-            value,
-            type_name: None,
-            outcome: Outcome::Done,
-        } => {
-            let address = address(words, &object)?;
-            let help = "write an object of the node";
-            let data_type = type_of(address).ok_or_else(|| {
-                words.problem(format!("{address} is not in the dictionary"), help)
-            })?;
-            let bytes = typed::value(data_type, &value).map_err(|why| words.problem(why, ""))?;
-            let mut data = [0; 4];
-            let room = data.get_mut(..bytes.len()).filter(|room| !room.is_empty());
-            let room = room.ok_or_else(|| {
-                words.problem("the value has more than 4 bytes", "use the SDO line")
-            })?;
-            room.copy_from_slice(&bytes);
-            let download = Request::InitiateDownload {
-                address,
-                size: Some(bytes.len() as u32),
-                expedited: Some(data),
-            };
-            Ok(request(node, download))
-        }
-        _ => Err(words.problem("this line is not one frame", "write one frame")),
-    }
+fn typed_or_logged(text: &str, start: Words<'_>) -> Result<Frame, Problem> {
+    typed::frame(text).or_else(|error| {
+        // A line of a log has a time or an interface.
+        let line = candump::parse_line(text).map(|line| line.frame);
+        line.map_err(|_| start.frame_problem(&error))
+    })
+}
+
+/// `6001h = 4096`.
+fn write(mut words: Words<'_>, known: &Known<'_>) -> Result<Frame, Problem> {
+    let start = words;
+    let object = words
+        .split_at_equals()
+        .ok_or_else(|| start.problem("the value is missing", "write `write 6001 = 4096`"))?;
+    let address = address(object)?;
+    let help = "write an object of the node";
+    let missing = || start.problem(format!("{address} is not in the dictionary"), help);
+    let data_type = (known.type_of)(address).ok_or_else(missing)?;
+    let bytes = typed::value(data_type, words.rest(), known.real);
+    let bytes = bytes.map_err(|why| words.problem(why, ""))?;
+    let mut data = [0; 4];
+    let room = data.get_mut(..bytes.len()).filter(|room| !room.is_empty());
+    let room =
+        room.ok_or_else(|| words.problem("the value has more than 4 bytes", "use the SDO line"))?;
+    room.copy_from_slice(&bytes);
+    let download = Request::InitiateDownload {
+        address,
+        size: Some(bytes.len() as u32),
+        expedited: Some(data),
+    };
+    Ok(request(known.node, download))
 }
 
 fn request(node: NodeId, request: Request) -> Frame {
     Frame::full(node.plus(0x600), request.emit())
 }
 
-fn address(words: Words<'_>, text: &str) -> Result<Address, Problem> {
-    let help = "write it as 6004 or 1018:01";
-    let message = || format!("`{text}` is not the address of an object");
-    values::address(text).ok_or_else(|| words.problem(message(), help))
+fn address(words: Words<'_>) -> Result<Address, Problem> {
+    let text = words.rest();
+    let message = || format!("an object is written as 6004 or 1018:01, not `{text}`");
+    values::address(text).ok_or_else(|| words.problem(message(), "write the address of an object"))
 }
 
 #[cfg(test)]
@@ -120,8 +118,12 @@ mod tests {
     fn read(text: &str) -> Result<String, Problem> {
         let node = NodeId::new(5).expect("1 to 127");
         let known = Address::new(0x6001, 0);
-        let type_of = |address| (address == known).then_some(DataType::Unsigned32);
-        frame_of(text, node, type_of).map(|frame| frame.to_string())
+        let known = Known {
+            node,
+            type_of: &|address| (address == known).then_some(DataType::Unsigned32),
+            real: &|text| text.parse().ok(),
+        };
+        frame_of(text, &known).map(|frame| frame.to_string())
     }
 
     #[test]
@@ -149,10 +151,10 @@ mod tests {
         }
         for (text, why) in [
             ("nmt begin", "begin"),
-            ("read position", "address"),
+            ("read position", "written as 6004"),
             ("write 6004 = 1", "not in the dictionary"),
             ("write 6001 = x", "not a whole number"),
-            ("sync 5 times", "one frame"),
+            ("sync 5 times", "too much"),
             ("hello", "hexadecimal"),
         ] {
             let problem = read(text).expect_err(text);

@@ -28,7 +28,7 @@ use std::{fmt, format};
 use od_runtime::{DeviceKind, Frame, Instant, NodeId};
 
 pub use console::Console;
-pub use line::frame_of;
+pub use line::{Known, frame_of};
 pub use pattern::Pattern;
 pub use run::{run, run_on};
 

@@ -182,11 +182,16 @@ impl Text {
 }
 
 /// The bytes of a value for an object of this type: `4096`, `0x1000`, `1000h`, `4 096`, `-1`,
-/// `true`, `1.5`, `"save"`, a text without quotes for a text, `01 02 FF` for bytes.
+/// `true`, `1.5`, `"save"`, a text without quotes for a text, `01 02 FF` for bytes. `real` reads
+/// a decimal fraction: a page has that already.
 ///
 /// # Errors
 /// What is wrong with the text.
-pub fn value(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
+pub fn value(
+    data_type: DataType,
+    text: &str,
+    real: impl Fn(&str) -> Option<f64>,
+) -> Result<Vec<u8>, String> {
     let text = text.trim();
     if text.is_empty() {
         return Err("the value is missing".into());
@@ -204,7 +209,12 @@ pub fn value(data_type: DataType, text: &str) -> Result<Vec<u8>, String> {
     }
     match kind {
         Kind::Real => {
-            values::parse(data_type, text).map_err(|_| format!("“{text}” is not a number"))
+            let number = real(text).filter(|number| number.is_finite());
+            let number = number.ok_or_else(|| format!("“{text}” is not a number"))?;
+            Ok(match data_type.size() {
+                Some(4) => (number as f32).to_le_bytes().to_vec(),
+                _ => number.to_le_bytes().to_vec(),
+            })
         }
         Kind::Boolean | Kind::Unsigned | Kind::Signed => integer(data_type, text),
         _ => hex(text).ok_or_else(|| "type the bytes in hexadecimal".into()),
@@ -309,6 +319,7 @@ mod tests {
 
     #[test]
     fn values_may_be_loose() {
+        let value = |data_type, text: &str| super::value(data_type, text, |text| text.parse().ok());
         let u32_ = DataType::Unsigned32;
         for text in [
             "4096",
