@@ -18,12 +18,15 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod bench;
+mod codec;
 #[cfg(feature = "eds")]
 mod configured;
 #[cfg(feature = "eds")]
 mod fixes;
 #[cfg(feature = "lessons")]
 mod lesson;
+#[cfg(feature = "logs")]
+mod logs;
 mod motion;
 mod packed;
 mod record;
@@ -45,6 +48,10 @@ use fixes::Places;
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson};
 use record::Record;
+
+pub use codec::{Transfers, decode_value, encode_value, read_line, tag_names, tags, type_range};
+#[cfg(feature = "logs")]
+pub use logs::{read_log, write_log};
 
 /// A CAN bus with CANopen devices on it, in virtual time.
 #[wasm_bindgen]
@@ -109,13 +116,10 @@ impl Bus {
             node_id: Some(valid(node_id)?),
             lenient: lenient.unwrap_or_default(),
         };
-        let (device, found) = match VirtualDevice::from_eds(text, options) {
-            Ok(device) => {
-                let found = od_eds::load(text).diagnostics;
-                (JsValue::from_f64(self.put(device, place) as f64), found)
-            }
-            Err(found) => (JsValue::NULL, found),
-        };
+        let (device, found) = VirtualDevice::read_eds(text, options);
+        let device = device.map_or(JsValue::NULL, |device| {
+            JsValue::from_f64(self.put(device, place) as f64)
+        });
         Ok(Record::new()
             .with("device", device)
             .with("diagnostics", diagnostics(&found, text))
@@ -180,6 +184,27 @@ impl Bus {
                 [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
             })
             .collect()
+    }
+
+    /// The fields of a packed frame, one after the other; none for a frame that was disturbed.
+    #[wasm_bindgen(unchecked_return_type = "Field[]")]
+    pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
+        let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
+        let fields = known.map(|frame| words::fields(self.bus.devices(), &frame));
+        let record = |field: words::Field| {
+            let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
+            Record::new()
+                .with("from", field.from)
+                .with("to", field.to)
+                .with("name", field.name)
+                .with("value", field.value)
+                .with(
+                    "object",
+                    field.object.map_or(JsValue::NULL, |at| key(at).into()),
+                )
+                .done()
+        };
+        fields.unwrap_or_default().into_iter().map(record).collect()
     }
 
     /// The object dictionary of a device, one row for each value.
@@ -406,6 +431,13 @@ pub fn mend_eds(text: &str, guess: bool) -> String {
     let document = od_eds::Document::new(text);
     let mended = mend(&document, level, |document| document.load().diagnostics);
     mended.document.text().into()
+}
+
+/// The text in the bytes of an EDS or DCF file: UTF-8, UTF-16 or Windows-1252.
+#[cfg(feature = "eds")]
+#[wasm_bindgen(js_name = decodeEds)]
+pub fn decode_eds(bytes: &[u8]) -> String {
+    od_eds::decode(bytes).into()
 }
 
 /// What a frame says, with its node where the identifier alone does not tell.

@@ -60,6 +60,39 @@ pub(crate) fn push_trouble(
     }
 }
 
+/// Adds a line of a log.
+#[cfg(feature = "logs")]
+pub(crate) fn push_line(batch: &mut Vec<u8>, line: &od_bench::logs::Record) {
+    use od_bench::logs::What;
+    let start = batch.len();
+    let nothing = Frame::standard(0, &[0; 6]);
+    let (frame, disturbed) = match &line.what {
+        What::Frame(frame) => (frame, 0),
+        What::Error => (&nothing, DISTURBED),
+    };
+    push(batch, line.at, None, frame);
+    if let Some(flags) = batch.get_mut(start + 12) {
+        *flags = *flags & !OWN | disturbed | if line.sent { OWN } else { 0 };
+    }
+}
+
+/// Was this frame disturbed on the line?
+pub(crate) fn is_disturbed(packed: &[u8]) -> bool {
+    packed.get(12).is_some_and(|flags| flags & DISTURBED != 0)
+}
+
+/// Was it sent from outside?
+#[cfg(feature = "logs")]
+pub(crate) fn is_own(packed: &[u8]) -> bool {
+    packed.get(12).is_some_and(|flags| flags & OWN != 0)
+}
+
+/// Its virtual microseconds.
+#[cfg(feature = "logs")]
+pub(crate) fn micros(packed: &[u8]) -> Option<f64> {
+    Some(f64::from_le_bytes(packed.get(..8)?.try_into().ok()?))
+}
+
 /// The frame in these bytes; `None` where there are too few.
 pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;

@@ -196,6 +196,46 @@ export interface LineStatus {
   plugged: boolean;
 }
 
+/** A part of a frame. */
+export interface Field {
+  /** The first byte, and the one after the last. */
+  from: number;
+  to: number;
+  name: string;
+  value: string;
+  /** The object that it is about, as `index * 256 + sub`. */
+  object: number | null;
+}
+
+/** A frame that was typed, or what is wrong with it and where. Data of a remote frame: its length. */
+export type LineResult =
+  | { id: number; extended: boolean; remote: boolean; data: Uint8Array; error?: undefined }
+  | { error: string; at: number };
+
+/** A segmented or block transfer. */
+export interface Transfer {
+  /** Numbers of its frames. */
+  frames: number[];
+  node: number;
+  index: number;
+  sub: number;
+  isWrite: boolean;
+  /** What was transferred so far. */
+  bytes: Uint8Array;
+  state: 'under way' | 'done' | 'aborted';
+}
+
+/** A log that was read. */
+export interface Log {
+  /** Packed. */
+  frames: Uint8Array;
+  count: number;
+  /** Lines that could not be read; the first of them, and why. */
+  skipped: number;
+  line: number;
+  why: string;
+}
+
 export interface Builtin {
   name: string;
   title: string;

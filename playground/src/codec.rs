@@ -1,0 +1,175 @@
+//! What a page asks without a bench: frames as people type them, values as bytes and back,
+//! services, and transfers of several frames.
+
+use od_bench::script::{Known, frame_of, typed};
+use od_bench::words::fold::{Folder, State};
+use od_bench::words::{TAGS, tag};
+use od_model::{Address, DataType};
+use od_runtime::NodeId;
+use wasm_bindgen::prelude::*;
+
+use crate::record::{Record, bytes, integer};
+use crate::{packed, values};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Answers with the type of an object.
+    #[wasm_bindgen(typescript_type = "{ typeOf(index: number, sub: number): string | undefined }")]
+    pub type Objects;
+
+    #[wasm_bindgen(method, structural, js_name = typeOf)]
+    fn type_of(this: &Objects, index: u16, sub: u8) -> Option<String>;
+}
+
+/// Short names of the services, such as `PDO1`, in the order of `tags`.
+#[wasm_bindgen(js_name = tagNames)]
+pub fn tag_names() -> Vec<String> {
+    TAGS.into_iter().map(String::from).collect()
+}
+
+/// Of each packed frame two numbers: place in `tagNames` + 256 * node ID (0: none, or all)
+/// + 65536 if it names an object; and that object as `index * 256 + sub`.
+#[wasm_bindgen]
+pub fn tags(frames: &[u8]) -> Vec<u32> {
+    let of = |packed: &[u8]| {
+        let tag = packed::frame(packed).map(|frame| tag(&frame));
+        let object = tag.and_then(|tag| tag.object);
+        let first = tag.map_or(0, |tag| u32::from(tag.tag) | u32::from(tag.node) << 8);
+        let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
+        [
+            first | u32::from(object.is_some()) << 16,
+            object.map_or(0, key),
+        ]
+    };
+    frames.chunks_exact(packed::LEN).flat_map(of).collect()
+}
+
+/// Reads a frame as people type it, or a line of a script or a log that is one frame.
+/// `objects` knows the types of the objects of the node.
+#[wasm_bindgen(js_name = readLine, unchecked_return_type = "LineResult")]
+pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
+    let known = Known {
+        node: NodeId::new(node_id).unwrap_or(NodeId::ONE),
+        type_of: &|at| named(&objects.type_of(at.index, at.sub)?),
+        real: &real,
+    };
+    match frame_of(text, &known) {
+        Ok(frame) => {
+            let mut data = [0; 8];
+            let len = usize::from(frame.dlc());
+            let sent = if frame.is_remote() {
+                &[][..]
+            } else {
+                frame.data()
+            };
+            for (to, from) in data.iter_mut().zip(sent) {
+                *to = *from;
+            }
+            Record::new()
+                .with("id", frame.id().raw())
+                .with("extended", frame.id().is_extended())
+                .with("remote", frame.is_remote())
+                .with("data", bytes(data.get(..len).unwrap_or_default()))
+                .done()
+        }
+        Err(problem) => Record::new()
+            .with("error", problem.message)
+            .with("at", problem.column.saturating_sub(1) as f64)
+            .done(),
+    }
+}
+
+/// The bytes of a value that somebody typed for an object of this type, such as `UNSIGNED32`.
+///
+/// # Errors
+/// What is wrong with the text.
+#[wasm_bindgen(js_name = encodeValue)]
+pub fn encode_value(type_name: &str, text: &str) -> Result<Vec<u8>, JsError> {
+    let data_type = named(type_name).unwrap_or(DataType::Domain);
+    typed::value(data_type, text, real).map_err(|why| JsError::new(&why))
+}
+
+/// The value in the bytes of an object of this type.
+#[wasm_bindgen(js_name = decodeValue, unchecked_return_type = "Value")]
+pub fn decode_value(type_name: &str, raw: &[u8]) -> JsValue {
+    match named(type_name) {
+        Some(data_type) => values::value(data_type, raw),
+        None => bytes(raw),
+    }
+}
+
+/// The lowest and the highest value of an integer type; empty for others.
+#[wasm_bindgen(js_name = typeRange, unchecked_return_type = "Value[]")]
+pub fn type_range(type_name: &str) -> Vec<JsValue> {
+    let range = named(type_name).and_then(DataType::integer_range);
+    range.map_or(Vec::new(), |(low, high)| vec![integer(low), integer(high)])
+}
+
+#[wasm_bindgen]
+extern "C" {
+    /// The number that a text is; NaN where it is none.
+    #[wasm_bindgen(js_name = Number)]
+    fn number(text: &str) -> f64;
+}
+
+fn real(text: &str) -> Option<f64> {
+    Some(number(text))
+}
+
+fn named(name: &str) -> Option<DataType> {
+    DataType::ALL.into_iter().find(|one| one.name() == name)
+}
+
+/// SDO transfers of several frames, put together.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Transfers(Folder);
+
+#[wasm_bindgen]
+impl Transfers {
+    /// Nothing was seen so far.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes the next packed frame; the number of the first frame of the transfer that it
+    /// belongs to, or nothing if it has a row of its own.
+    pub fn take(&mut self, frame: &[u8], number: u32) -> Option<u32> {
+        self.0.take(&packed::frame(frame)?, number)
+    }
+
+    /// The transfer that starts with this frame; `null` if it has this one only.
+    #[wasm_bindgen(unchecked_return_type = "Transfer | null")]
+    pub fn transfer(&self, first: u32) -> JsValue {
+        let Some(fold) = self.0.fold(first) else {
+            return JsValue::NULL;
+        };
+        let frames = fold.frames.iter().map(|number| JsValue::from(*number));
+        let state = match fold.state {
+            State::UnderWay => "under way",
+            State::Done => "done",
+            State::Aborted => "aborted",
+        };
+        Record::new()
+            .with("frames", crate::record::list(frames))
+            .with("node", fold.node)
+            .with("index", fold.object.index)
+            .with("sub", fold.object.sub)
+            .with("isWrite", fold.is_write)
+            .with("bytes", bytes(&fold.bytes))
+            .with("state", state)
+            .done()
+    }
+
+    /// Forgets transfers that start before this frame.
+    #[wasm_bindgen(js_name = forgetBefore)]
+    pub fn forget_before(&mut self, number: u32) {
+        self.0.forget_before(number);
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+}
