@@ -1,16 +1,14 @@
 // Everything a person can do, in one place.
 
 import type { Input, Source } from './sim/api';
-import type { Typed } from './can/text';
-import type { Format } from './logs/write';
-import type { Frame } from './sim/packed';
-import { act, add, dropFrames, restore, select, send } from './sim/link';
+import type { Typed } from './codec';
+import { act, add, dropFrames, readLog, restore, select, send, writeLog } from './sim/link';
 import * as state from './state';
 import { T } from './texts';
 
 export function sendFrame(frame: Typed): void {
-  const data = frame.remote ? new Uint8Array(frame.dlc) : frame.data;
-  act({ op: 'send', id: frame.id, data, extended: frame.extended, remote: frame.remote });
+  const { id, data, extended, remote } = frame;
+  act({ op: 'send', id, data, extended, remote });
 }
 
 export const NMT_COMMANDS = T.nmt;
@@ -69,16 +67,14 @@ export function clearConsole(): void {
 }
 
 /** Saves the capture as other tools read it. */
-export async function saveLog(format: Format): Promise<void> {
+export async function saveLog(format: string): Promise<void> {
   const { ring } = state;
-  const frames: Frame[] = [];
-  for (let number = ring.first; number < ring.end; number++) frames.push(ring.get(number)!);
-  if (frames.length === 0) {
+  if (ring.first === ring.end) {
     state.toast.value = { text: T.frames.noFrames, tone: 'info' };
     return;
   }
-  const { write } = await import('./logs/write');
-  download(write(format, frames), `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
+  const file = await writeLog(format, ring.slice(ring.first, ring.end));
+  if (file) download(file, `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
 }
 
 /** Hands a file to the person. */
@@ -96,19 +92,18 @@ let opened: Uint8Array | null = null;
 
 /** Shows a log of another tool in the console; time stands still, so that nothing mixes with it. */
 export async function openLog(name: string, bytes: Uint8Array): Promise<void> {
-  const { read } = await import('./logs/read');
-  try {
-    const log = read(bytes);
-    setRunning(false);
-    clearConsole();
-    state.ring.append(log.frames);
-    state.captured.value = state.ring.end;
-    opened = log.frames;
-    const skipped = log.firstSkipped ? ` ${T.frames.skipped(log.skipped, log.firstSkipped.line, log.firstSkipped.why)}` : '';
-    state.toast.value = { text: T.frames.opened(name, log.count) + skipped, tone: log.skipped ? 'error' : 'info', action: { text: T.frames.replay, run: replayLog } };
-  } catch (error) {
-    state.toast.value = { text: T.frames.unreadable(name, error instanceof Error ? error.message : String(error)), tone: 'error' };
+  const log = await readLog(bytes);
+  if (typeof log === 'string') {
+    state.toast.value = { text: T.frames.unreadable(name, log), tone: 'error' };
+    return;
   }
+  setRunning(false);
+  clearConsole();
+  state.ring.append(log.frames);
+  state.captured.value = state.ring.end;
+  opened = log.frames;
+  const skipped = log.skipped ? ` ${T.frames.skipped(log.skipped, log.line, log.why)}` : '';
+  state.toast.value = { text: T.frames.opened(name, log.count) + skipped, tone: log.skipped ? 'error' : 'info', action: { text: T.frames.replay, run: replayLog } };
 }
 
 /** Sends the frames of the opened log, in their rhythm. */

@@ -1,8 +1,8 @@
 // The console's views of the capture, and what a person chose in them.
 
 import { effect, signal } from '@preact/signals-core';
-import { parseFilter } from './can/filter';
-import { Trace } from './can/trace';
+import { parseFilter } from './trace/filter';
+import { Trace } from './trace/trace';
 import { knownWords, learnWords, wordsArrived } from './sim/words';
 import * as state from './state';
 

@@ -3,7 +3,7 @@
 
 import { computed, signal } from '@preact/signals-core';
 import type { Builtin, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
-import { Ring } from './can/ring';
+import { Ring } from './trace/ring';
 
 export type Health = 'starting' | 'running' | 'restarting' | 'failed';
 

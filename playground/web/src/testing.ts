@@ -12,5 +12,12 @@ import nodeAssert from 'node:assert/strict';
 // @ts-expect-error there are no types for it here
 import { test as nodeTest } from 'node:test';
 
+// @ts-expect-error there are no types for it here
+import { readFileSync } from 'node:fs';
+import { begin } from './codec';
+
 export const assert: Assert = nodeAssert as Assert;
 export const test = nodeTest as (name: string, body: () => void | Promise<void>) => void;
+
+// The page's own instance; `npm test` runs in the folder of the page.
+begin(new WebAssembly.Module(readFileSync('src/wasm/core/od_playground_bg.wasm') as BufferSource));

@@ -1,6 +1,6 @@
 import { assert, test } from '../testing';
 import { frameOf, stepsTo, unpackMapped } from './mapping';
-import { hexBytes } from './text';
+import { hexBytes } from '../format';
 
 const position = { index: 0x6004, sub: 0, bits: 32 };
 const speed = { index: 0x6030, sub: 1, bits: 16 };

@@ -70,7 +70,6 @@ export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, l
 async function tried(name: string, text: string): Promise<boolean> {
   const isOpen = await openLesson(name, text);
   if (isOpen) last = text;
-  else await import('../views/lessons');
   state.lessonDialog.value = !isOpen;
   return isOpen;
 }

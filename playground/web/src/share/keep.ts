@@ -1,6 +1,7 @@
 // The last bench, kept in this browser: nobody loses his work by closing a tab.
 
 import { effect } from '@preact/signals-core';
+import { createStore, get, set } from 'idb-keyval';
 import * as state from '../state';
 import { T } from '../texts';
 import { write } from './bench';
@@ -20,30 +21,10 @@ interface Kept {
   text: string;
 }
 
-const store = (mode: IDBTransactionMode): Promise<IDBObjectStore> =>
-  new Promise((resolve, reject) => {
-    const opening = indexedDB.open('odkit', 1);
-    opening.onupgradeneeded = () => opening.result.createObjectStore('kept');
-    opening.onerror = () => reject(opening.error ?? new Error());
-    opening.onsuccess = () => {
-      const { result: database } = opening;
-      const transaction = database.transaction('kept', mode);
-      transaction.oncomplete = () => database.close();
-      resolve(transaction.objectStore('kept'));
-    };
-  });
+const store = createStore('odkit', 'kept');
 
-const answer = <T>(request: IDBRequest<T>): Promise<T> =>
-  new Promise((resolve, reject) => {
-    request.onsuccess = () => resolve(request.result);
-    request.onerror = () => reject(request.error ?? new Error());
-  });
-
-const load = async (key: 'last' | 'before'): Promise<Kept | undefined> => answer((await store('readonly')).get(key) as IDBRequest<Kept | undefined>);
-
-async function save(key: 'last' | 'before', kept: Kept): Promise<void> {
-  await answer((await store('readwrite')).put(kept, key));
-}
+const load = (key: 'last' | 'before'): Promise<Kept | undefined> => get(key, store);
+const save = (key: 'last' | 'before', kept: Kept): Promise<void> => set(key, kept, store);
 
 /** Has anything been done but putting devices on the bus? */
 const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.op !== 'add');

@@ -1,33 +1,9 @@
 // The seam between the page and the simulation: what a bus can do, and the messages
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
-import type { Judgement, Lesson, LessonState } from '../wasm/od_playground';
+import type { Builtin, Diagnostic, Lesson, LessonState, LineStatus, ObjectRecord, Status, Value } from '../wasm/od_playground';
 
-/** What kind of value an object holds, by its CiA 301 name. */
-export type TypeName = string;
-
-export type Access = 'ro' | 'wo' | 'rw' | 'rwr' | 'rww' | 'const';
-
-/** A value as the bus hands it over: 64-bit integers come as bigint. */
-export type Value = number | bigint | string | boolean | Uint8Array | null;
-
-/** One row of the object dictionary. */
-export interface ObjectRecord {
-  index: number;
-  sub: number;
-  /** The name of the object, or of the sub-object. */
-  name: string;
-  /** The name of the record or array that a sub-object belongs to. */
-  parent: string | null;
-  type: TypeName;
-  /** Length in bits; 0 where it varies. */
-  bits: number;
-  access: Access;
-  mappable: boolean;
-  default: Value;
-  low: Value;
-  high: Value;
-}
+export type { Builtin, Diagnostic, Field, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, ObjectRecord, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface DeviceInfo {
   /** Short name: `gxmm`, or the file's product name. */
@@ -40,91 +16,11 @@ export interface DeviceInfo {
   objects: ObjectRecord[];
 }
 
-/** A fault in an EDS file, or something that deserves a look. */
-export interface Diagnostic {
-  code: string;
-  severity: 'error' | 'warning' | 'info';
-  message: string;
-  /** How to mend it; empty if the message says so. */
-  help: string;
-  /** Counted from 1; 0 where something is missing altogether. */
-  line: number;
-  column: number;
-  /** The object it is about, as `6004h`, or an empty string. */
-  object: string;
-}
-
-export type Nmt = 'off' | 'initialising' | 'pre-operational' | 'operational' | 'stopped';
-
-export type Lamp = 'off' | 'on' | 'flashing';
-
-export interface Leds {
-  green: Lamp;
-  red: Lamp;
-}
-
-export interface Shaft {
-  /** Revolutions since the zero point, with the fraction. */
-  turns: number;
-  rpm: number;
-  /** What the sensor delivers, before scaling. */
-  raw: number;
-}
-
-export type Condition = 'error active' | 'error passive' | 'bus-off';
-
-/** What can be seen of a device from outside. */
-export interface Status {
-  nodeId: number;
-  powered: boolean;
-  nmt: Nmt;
-  leds: Leds;
-  shaft: Shaft | null;
-  /** Rotary switches, 0 to 99. */
-  nodeSwitch: number;
-  /** DIP switches, 0 to 7. */
-  rateSwitch: number;
-  /** Bit rate in kbit/s since the last start; null where it adapts itself. */
-  rate: number | null;
-  /** Names of what can break. */
-  canBreak: string[];
-  /** Names of what is broken. */
-  faults: string[];
-  transmitErrors: number;
-  receiveErrors: number;
-  controller: Condition;
-  /** Hangs on the line. */
-  plugged: boolean;
-  /** The shaft follows a profile. */
-  moves: boolean;
-}
-
-/** The wire, and the controller of the page. */
-export interface LineStatus {
-  real: boolean;
-  terminators: number;
-  /** Bit rate of the page in kbit/s; null: that of the first device. */
-  fixedRate: number | null;
-  rate: number | null;
-  transmitErrors: number;
-  receiveErrors: number;
-  controller: Condition;
-  plugged: boolean;
-}
-
-export type { Judgement, Lesson, LessonState };
-
 export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
 
 export interface Address {
   index: number;
   sub: number;
-}
-
-/** A device that needs no file. */
-export interface Builtin {
-  name: string;
-  title: string;
 }
 
 /**
@@ -180,7 +76,10 @@ export type Command =
   | { op: 'plot'; addresses: Address[] }
   | { op: 'look'; eeprom: boolean }
   | { op: 'describe'; ticket: number; frames: Uint8Array }
-  | { op: 'layout'; ticket: number; frame: Uint8Array }
+  | { op: 'fields'; ticket: number; frame: Uint8Array }
+  | { op: 'decode'; ticket: number; bytes: Uint8Array }
+  | { op: 'readLog'; ticket: number; bytes: Uint8Array }
+  | { op: 'writeLog'; ticket: number; ending: string; frames: Uint8Array }
   | { op: 'judge'; ticket: number; answer: string; given: string }
   | { op: 'replay'; frames: Uint8Array; speed: number }
   | { op: 'drawn' };
@@ -194,18 +93,12 @@ export interface Added {
 
 /** What the worker tells the page. */
 export type Report =
-  | { op: 'ready'; builtins: Builtin[] }
-  | { op: 'added'; ticket: number; added: Added }
+  | { op: 'ready'; builtins: Builtin[]; module: WebAssembly.Module }
+  /** What came of a command with this ticket. */
+  | { op: 'answer'; ticket: number; value: unknown }
   | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
-  /** Null: what was given is no frame. */
-  | { op: 'judged'; ticket: number; judgement: Judgement | null }
   | { op: 'rewound'; to: number }
   | { op: 'snapshot'; snapshot: Snapshot }
-  | { op: 'described'; ticket: number; words: string[] }
-  | { op: 'laid'; ticket: number; layout: Uint32Array }
-  | { op: 'values'; ticket: number; values: Value[] }
-  | { op: 'stood'; ticket: number; entries: Entry[] | null }
-  | { op: 'exported'; ticket: number; text: string | null }
   | { op: 'crashed'; message: string };
 
 /** The state of everything at one virtual moment. */

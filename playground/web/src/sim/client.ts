@@ -1,10 +1,9 @@
 // The page as SDO master: one transfer at a time, the others wait their turn.
 
 import { Transfer, type Outcome, type Request } from '../can/sdo';
-import { nodeId, powered } from '../state';
+import { nodeId, powered, ring } from '../state';
 import { T } from '../texts';
-import { act } from './link';
-import type { Frame } from './packed';
+import { act, listen } from './link';
 
 let active: Transfer | null = null;
 const waiting: (() => void)[] = [];
@@ -30,13 +29,14 @@ export function transfer(request: Request): Promise<Outcome> {
   });
 }
 
-export function frameArrived(frame: Frame): void {
-  active?.receive(frame.id, frame.data);
-}
-
-export function tick(now: number): void {
+listen(({ now }, first) => {
+  if (!active) return;
+  for (let number = first; number < ring.end; number++) {
+    const frame = ring.get(number);
+    if (frame && !frame.disturbed && !frame.fromPage) active?.receive(frame.id, frame.data);
+  }
   active?.tick(now);
-}
+});
 
 /** Why nobody answered. */
 export function silence(): string {

@@ -65,7 +65,7 @@ export class Engine {
         if (TELLING.has(command.input.op)) this.tellDevices();
         if (command.input.op === 'lesson') this.replay = null;
         this.pauseAtGoal();
-        if (command.ticket !== undefined) this.report({ op: 'added', ticket: command.ticket, added });
+        if (command.ticket !== undefined) this.answer(command.ticket, added);
         break;
       }
       case 'restore':
@@ -112,28 +112,37 @@ export class Engine {
         this.watchedAgain = true;
         break;
       case 'describe':
-        this.report({ op: 'described', ticket: command.ticket, words: this.describe(command.frames) });
+        this.answer(command.ticket, this.describe(command.frames));
         return;
-      case 'layout':
-        this.report({ op: 'laid', ticket: command.ticket, layout: world.bus.layout(command.frame) });
+      case 'fields':
+        this.answer(command.ticket, world.bus.fields(command.frame));
+        return;
+      case 'decode':
+        this.answer(command.ticket, (await world.tools()).decodeEds!(command.bytes));
+        return;
+      case 'readLog':
+        this.answer(command.ticket, await world.readLog(command.bytes));
+        return;
+      case 'writeLog':
+        this.answer(command.ticket, (await world.tools()).writeLog!(command.ending, command.frames));
         return;
       case 'judge':
-        this.report({ op: 'judged', ticket: command.ticket, judgement: world.judge(command.answer, command.given) });
+        this.answer(command.ticket, world.judge(command.answer, command.given));
         return;
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
         break;
       case 'read':
-        this.report({ op: 'values', ticket: command.ticket, values: command.addresses.map(({ index, sub }) => world.bus.read(this.selected, index, sub)) });
+        this.answer(command.ticket, command.addresses.map(({ index, sub }) => world.bus.read(this.selected, index, sub)));
         return;
       case 'still': {
         const { still } = await import('./still');
-        this.report({ op: 'stood', ticket: command.ticket, entries: still(world) });
+        this.answer(command.ticket, still(world));
         return;
       }
       case 'dcf':
         this.isBusy = true;
-        this.report({ op: 'exported', ticket: command.ticket, text: await world.dcf(command.node) });
+        this.answer(command.ticket, await world.dcf(command.node));
         this.isBusy = false;
         break;
       case 'drawn':
@@ -141,6 +150,10 @@ export class Engine {
         return;
     }
     this.changed = true;
+  }
+
+  private answer(ticket: number, value: unknown): void {
+    this.report({ op: 'answer', ticket, value });
   }
 
   private tellDevices(): void {

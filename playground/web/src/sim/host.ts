@@ -39,7 +39,7 @@ export async function host(modules: Modules): Promise<void> {
   };
   try {
     const world = new World(modules, await modules.core());
-    report({ op: 'ready', builtins: world.builtins() });
+    report({ op: 'ready', builtins: world.builtins(), module: modules.compiled() });
     engine = new Engine(world, report);
   } catch (reason) {
     crash(reason);

@@ -4,10 +4,9 @@
 import { batch } from '@preact/signals-core';
 import * as state from '../state';
 import { T } from '../texts';
-import { frameArrived, tick } from './client';
-import { forgetWords, noteWords } from './words';
-import type { Added, Address, Command, DeviceInfo, Entry, Input, Judgement, Lesson, Report, Snapshot, Value } from './api';
-import { DISTURBED, FRAME_BYTES, unpack } from './packed';
+import { begin } from '../codec';
+import type { Added, Address, Command, DeviceInfo, Entry, Field, Input, Judgement, Lesson, Log, Report, Snapshot, Value } from './api';
+import { FRAME_BYTES } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
 const MOST_CRASHES = 3;
@@ -15,13 +14,8 @@ const MOST_CRASHES = 3;
 let worker: Worker | null = null;
 let crashes = 0;
 let ticket = 0;
-const tickets = new Map<number, (words: string[]) => void>();
-const layouts = new Map<number, (layout: Uint32Array) => void>();
-const readings = new Map<number, (values: Value[]) => void>();
-const stills = new Map<number, (entries: Entry[] | null) => void>();
-const exports = new Map<number, (text: string | null) => void>();
-const judgements = new Map<number, (judgement: Judgement | null) => void>();
-const additions = new Map<number, (added: Added) => void>();
+/** Who waits for an answer, and what they get if the worker ends before. */
+const waiting = new Map<number, { resolve(value: unknown): void; otherwise: unknown }>();
 /** Who wants to see the frames as they come. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
 
@@ -47,23 +41,22 @@ export function act(input: Input): void {
   send({ op: 'do', input });
 }
 
-/** Puts a device on the bus, begins a lesson, plays a script; what was there stays when it cannot be. */
-export function add(input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added> {
+/** Asks the worker for something; `otherwise` is the answer when it ends before. */
+function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise<T> {
   return new Promise((resolve) => {
     ticket += 1;
-    additions.set(ticket, resolve);
-    send({ op: 'do', input, ticket });
+    waiting.set(ticket, { resolve: resolve as (value: unknown) => void, otherwise });
+    send(make(ticket));
   });
 }
 
+/** Puts a device on the bus, begins a lesson, plays a script; what was there stays when it cannot be. */
+export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added> =>
+  ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
+
 /** What is right about an answer to the question of a lesson; null where it is no frame. */
-export function judge(answer: string, given: string): Promise<Judgement | null> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    judgements.set(ticket, resolve);
-    send({ op: 'judge', ticket, answer, given });
-  });
-}
+export const judge = (answer: string, given: string): Promise<Judgement | null> =>
+  ask((ticket) => ({ op: 'judge', ticket, answer, given }), null);
 
 /** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false): void {
@@ -73,49 +66,29 @@ export function restore(entries: Entry[], until: number, quiet = false): void {
 }
 
 /** Values of the selected device, as they are now. */
-export function readNow(addresses: Address[]): Promise<Value[]> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    readings.set(ticket, resolve);
-    send({ op: 'read', ticket, addresses });
-  });
-}
+export const readNow = (addresses: Address[]): Promise<Value[]> => ask((ticket) => ({ op: 'read', ticket, addresses }), []);
 
 /** What makes an empty bench stand as this one does, without its past; null where nothing does. */
-export function still(): Promise<Entry[] | null> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    stills.set(ticket, resolve);
-    send({ op: 'still', ticket });
-  });
-}
+export const still = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'still', ticket }), null);
 
 /** A DCF of a device as it is set up. */
-export function exportDcf(node: number): Promise<string | null> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    exports.set(ticket, resolve);
-    send({ op: 'dcf', ticket, node });
-  });
-}
+export const exportDcf = (node: number): Promise<string | null> => ask((ticket) => ({ op: 'dcf', ticket, node }), null);
 
 /** The words of packed frames. */
-export function describe(frames: Uint8Array): Promise<string[]> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    tickets.set(ticket, resolve);
-    send({ op: 'describe', ticket, frames });
-  });
-}
+export const describe = (frames: Uint8Array): Promise<string[]> => ask((ticket) => ({ op: 'describe', ticket, frames }), []);
 
-/** The objects in a packed PDO: `index * 256 + sub`, first bit, number of bits, again and again. */
-export function layout(frame: Uint8Array): Promise<Uint32Array> {
-  return new Promise((resolve) => {
-    ticket += 1;
-    layouts.set(ticket, resolve);
-    send({ op: 'layout', ticket, frame });
-  });
-}
+/** The fields of a packed frame. */
+export const fieldsOf = (frame: Uint8Array): Promise<Field[]> => ask((ticket) => ({ op: 'fields', ticket, frame }), []);
+
+/** The text of an EDS file. */
+export const decodeEds = (bytes: Uint8Array): Promise<string> => ask((ticket) => ({ op: 'decode', ticket, bytes }), '');
+
+/** A log of another tool, or why it cannot be read. */
+export const readLog = (bytes: Uint8Array): Promise<Log | string> => ask((ticket) => ({ op: 'readLog', ticket, bytes }), T.app.unloaded);
+
+/** Packed frames as other tools read them. */
+export const writeLog = (ending: string, frames: Uint8Array): Promise<Uint8Array<ArrayBuffer> | null> =>
+  ask((ticket) => ({ op: 'writeLog', ticket, ending, frames }), null);
 
 /** Calls `listener` with every snapshot, and the number of its first frame. */
 export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {
@@ -126,19 +99,16 @@ export function listen(listener: (snapshot: Snapshot, first: number) => void): (
 function receive(report: Report): void {
   switch (report.op) {
     case 'ready':
+      begin(report.module);
       state.health.value = 'running';
       state.builtins.value = report.builtins;
       break;
-    case 'added':
-      additions.get(report.ticket)?.(report.added);
-      additions.delete(report.ticket);
+    case 'answer':
+      waiting.get(report.ticket)?.resolve(report.value);
+      waiting.delete(report.ticket);
       break;
     case 'devices':
       devices(report.devices, report.lesson);
-      break;
-    case 'judged':
-      judgements.get(report.ticket)?.(report.judgement);
-      judgements.delete(report.ticket);
       break;
     case 'rewound':
       rewound(report.to);
@@ -146,26 +116,6 @@ function receive(report: Report): void {
     case 'snapshot':
       apply(report.snapshot);
       requestAnimationFrame(() => send({ op: 'drawn' }));
-      break;
-    case 'described':
-      tickets.get(report.ticket)?.(report.words);
-      tickets.delete(report.ticket);
-      break;
-    case 'laid':
-      layouts.get(report.ticket)?.(report.layout);
-      layouts.delete(report.ticket);
-      break;
-    case 'values':
-      readings.get(report.ticket)?.(report.values);
-      readings.delete(report.ticket);
-      break;
-    case 'stood':
-      stills.get(report.ticket)?.(report.entries);
-      stills.delete(report.ticket);
-      break;
-    case 'exported':
-      exports.get(report.ticket)?.(report.text);
-      exports.delete(report.ticket);
       break;
     case 'crashed':
       crashed(report.message);
@@ -182,7 +132,6 @@ function devices(list: DeviceInfo[], lesson: Lesson | null): void {
     state.selected.value = null;
     state.values.value = new Map();
     state.lastPdo.value = null;
-    forgetWords();
   });
   document.title = list.length ? T.app.devices(list.map((one) => one.name).join(', ')) : T.app.empty;
 }
@@ -206,7 +155,6 @@ function rewound(to: number): void {
   let end = ring.end;
   while (end > ring.first && (ring.get(end - 1)?.time ?? 0) > to) end -= 1;
   ring.truncate(end);
-  forgetWords();
   batch(() => {
     state.pausedAt.value = null;
     state.chosenFrame.value = null;
@@ -247,7 +195,6 @@ function apply(snapshot: Snapshot): void {
       state.journaled.value += 1;
     }
     if (snapshot.frames.length > 0) frames(snapshot);
-    tick(snapshot.now);
   });
   for (const listener of listeners) listener(snapshot, first);
 }
@@ -255,14 +202,11 @@ function apply(snapshot: Snapshot): void {
 function frames(snapshot: Snapshot): void {
   const { ring } = state;
   ring.append(snapshot.frames);
-  noteWords(ring.end - snapshot.words.length, snapshot.words);
-  const pdo = 0x180 + state.nodeId.value;
-  for (let at = 0; at < snapshot.frames.length; at += FRAME_BYTES) {
-    const flags = snapshot.frames[at + 12]!;
-    if (flags & (DISTURBED | 4)) continue;
-    const frame = unpack(snapshot.frames, at);
-    if (frame.id === pdo) state.lastPdo.value = { time: frame.time, data: frame.data };
-    else frameArrived(frame);
+  const node = state.nodeId.value;
+  for (let number = ring.end - snapshot.frames.length / FRAME_BYTES; number < ring.end; number++) {
+    const frame = ring.get(number);
+    const isOurs = frame?.tag.text === 'PDO1' && frame.node === node && !frame.fromPage;
+    if (isOurs) state.lastPdo.value = { time: frame.time, data: frame.data };
   }
   state.captured.value = ring.end;
 }
@@ -291,17 +235,8 @@ function crashed(message: string): void {
   worker?.terminate();
   worker = null;
   crashes += 1;
-  tickets.clear();
-  layouts.clear();
-  for (const resolve of readings.values()) resolve([]);
-  readings.clear();
-  for (const resolve of [...stills.values(), ...exports.values()]) resolve(null);
-  for (const resolve of judgements.values()) resolve(null);
-  stills.clear();
-  exports.clear();
-  judgements.clear();
-  for (const resolve of additions.values()) resolve({ node: null, diagnostics: [] });
-  additions.clear();
+  for (const { resolve, otherwise } of waiting.values()) resolve(otherwise);
+  waiting.clear();
   if (crashes > MOST_CRASHES) {
     state.health.value = 'failed';
     state.toast.value = { text: T.app.crashed(message), tone: 'error' };

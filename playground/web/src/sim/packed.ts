@@ -18,7 +18,7 @@ export const FROM_PAGE = 4;
 export const DISTURBED = 8;
 
 /** One CAN frame, unpacked. */
-export interface Frame {
+export interface Packed {
   /** Virtual microseconds. */
   time: number;
   id: number;
@@ -34,7 +34,7 @@ export interface Frame {
   data: Uint8Array;
 }
 
-export function unpack(bytes: Uint8Array, at: number): Frame {
+export function unpack(bytes: Uint8Array, at: number): Packed {
   const view = new DataView(bytes.buffer, bytes.byteOffset + at, FRAME_BYTES);
   const flags = view.getUint8(12);
   const dlc = view.getUint8(13);
@@ -51,7 +51,7 @@ export function unpack(bytes: Uint8Array, at: number): Frame {
   };
 }
 
-export function pack(frame: Omit<Frame, 'dlc' | 'disturbed' | 'device'> & { dlc?: number; device?: number }): Uint8Array {
+export function pack(frame: Omit<Packed, 'dlc' | 'disturbed' | 'device'> & { dlc?: number; device?: number }): Uint8Array {
   const bytes = new Uint8Array(FRAME_BYTES);
   const view = new DataView(bytes.buffer);
   view.setFloat64(0, frame.time, true);

@@ -1,6 +1,7 @@
 // What came of an SDO transfer, in words.
 
-import { address, decode, otherSpelling, showValue } from '../can/values';
+import { decode } from '../codec';
+import { address, otherSpelling, showValue } from '../format';
 import type { Outcome } from '../can/sdo';
 import { nodeId } from '../state';
 import { T } from '../texts';

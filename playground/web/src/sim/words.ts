@@ -1,11 +1,11 @@
 // Plain words of the frames on screen. The last frames of a batch arrive with theirs;
 // for older ones the worker is asked when they come into view.
 
-import { signal } from '@preact/signals-core';
-import { ring } from '../state';
-import { describe } from './link';
+import { effect, signal } from '@preact/signals-core';
+import { cleared, devices, ring } from '../state';
+import { describe, listen } from './link';
 import { T } from '../texts';
-import { FRAME_BYTES, type Frame } from './packed';
+import { FRAME_BYTES, type Packed } from './packed';
 
 /** As many as frames are kept, while a filter looks at all of them. */
 const MOST_KEPT = 220_000;
@@ -16,10 +16,11 @@ const asked = new Set<number>();
 /** Changes when words arrived late. */
 export const wordsArrived = signal(0);
 
-export function noteWords(from: number, words: string[]): void {
+listen(({ words }) => {
   if (known.size > MOST_KEPT) known.clear();
+  const from = ring.end - words.length;
   words.forEach((text, i) => known.set(from + i, text));
-}
+});
 
 /** The words of these frames, as far as they are known; asks for the others. */
 export function wordsOf(numbers: number[]): (string | undefined)[] {
@@ -47,11 +48,13 @@ export async function learnWords(most: number): Promise<boolean> {
   return missing.length > 0;
 }
 
-/** Forgets everything, when another device changes what the bytes mean. */
-export function forgetWords(): void {
+// Another device changes what the bytes mean, and numbers come again after a step back.
+effect(() => {
+  void devices.value;
+  void cleared.value;
   known.clear();
-  wordsArrived.value += 1;
-}
+  wordsArrived.value = wordsArrived.peek() + 1;
+});
 
 async function ask(numbers: number[]): Promise<void> {
   const frames = new Uint8Array(numbers.length * FRAME_BYTES);
@@ -68,7 +71,7 @@ async function ask(numbers: number[]): Promise<void> {
 }
 
 /** What became of a frame that was disturbed on the wire. */
-export function troubleWords({ data }: Frame): string {
+export function troubleWords({ data }: Packed): string {
   const [why = 0, attempts = 0, delivered = 0, busOff = 0] = data;
   return T.trouble.text(T.trouble.why[why] ?? '', attempts, delivered !== 0, busOff !== 0);
 }

@@ -2,7 +2,7 @@
 // bench can be made again up to any moment: for a step back, from a link, after a reload.
 
 import type { Added, Builtin, DeviceInfo, Diagnostic, Entry, Input, Judgement, Lesson, LessonState, Source } from './api';
-import type { Bus as Simulation, LessonResult } from '../wasm/od_playground';
+import type { Bus as Simulation, LessonResult, Log } from '../wasm/od_playground';
 
 /** One of the two WebAssembly modules; the small one knows no EDS texts and no lessons. */
 export interface Module {
@@ -12,9 +12,14 @@ export interface Module {
   whole: boolean;
   parseLesson?(text: string): LessonResult;
   judgeAnswer?(answer: string, given: string): Judgement;
+  decodeEds?(bytes: Uint8Array): string;
+  readLog?(bytes: Uint8Array): Log;
+  writeLog?(ending: string, frames: Uint8Array): Uint8Array;
 }
 
 export interface Modules {
+  /** The small module, for others to use once it is there. */
+  compiled(): WebAssembly.Module;
   core(): Promise<Module>;
   whole(): Promise<Module>;
 }
@@ -26,7 +31,7 @@ const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave',
 const needsWhole = (input: Input): boolean => WHOLE.has(input.op) || (input.op === 'add' && input.source.kind === 'eds');
 
 const fault = (error: unknown): Diagnostic => ({
-  code: '', severity: 'error', message: error instanceof Error ? error.message : String(error), help: '', line: 0, column: 0, object: '',
+  code: '', severity: 'error', message: error instanceof Error ? error.message : String(error), help: '', line: 0, column: 0, object: '', fix: null,
 });
 
 export class World {
@@ -124,6 +129,21 @@ export class World {
     this.told = 0;
     this.begin();
     if (quiet) this.catchUp(0);
+  }
+
+  /** The whole module, for what has nothing to do with the bench: that stays in the small one. */
+  async tools(): Promise<Module> {
+    return this.module.whole ? this.module : this.modules.whole();
+  }
+
+  /** A log, or why it cannot be read. */
+  async readLog(bytes: Uint8Array): Promise<Log | string> {
+    const { readLog } = await this.tools();
+    try {
+      return readLog!(bytes);
+    } catch (error) {
+      return fault(error).message;
+    }
   }
 
   /** A DCF of a device as it is set up. */
@@ -263,7 +283,7 @@ export class World {
   private startLesson(text: string): Added {
     const { lesson, problems } = this.module.parseLesson!(text);
     if (!lesson) {
-      return { node: null, diagnostics: problems.map((one) => ({ ...one, code: '', severity: 'error' as const, object: '' })) };
+      return { node: null, diagnostics: problems.map((one) => ({ ...one, code: '', severity: 'error' as const, object: '', fix: null })) };
     }
     try {
       this.bus.startLesson(text);

@@ -1,10 +1,13 @@
 import { assert, test } from '../testing';
 import { parseFilter } from './filter';
-import type { Frame } from '../sim/packed';
+import { pack, type Packed } from '../sim/packed';
+import { Ring, type Frame } from './ring';
 
-const frame = (id: number, bytes: number[], more: Partial<Frame> = {}): Frame => ({
-  time: 0, id, extended: false, remote: false, fromPage: false, disturbed: false, device: 1, dlc: bytes.length, data: Uint8Array.from(bytes), ...more,
-});
+function frame(id: number, bytes: number[], more: Partial<Packed> = {}): Frame {
+  const ring = new Ring();
+  ring.append(pack({ time: 0, id, extended: false, remote: false, fromPage: false, device: 1, data: Uint8Array.from(bytes), ...more }));
+  return ring.get(0)!;
+}
 
 const passes = (text: string, one: Frame, words?: string): boolean => {
   const parsed = parseFilter(text);

@@ -1,10 +1,9 @@
 // The filter of the console: `node:5 sdo`, `185:7FF`, `position`, `!hb`, `(emcy or err) tx`.
 // Terms side by side all have to hold; `or` and parentheses do what they say.
 
-import type { Frame } from '../sim/packed';
+import { hexBytes } from '../format';
 import { T } from '../texts';
-import { tagOf } from './service';
-import { hexBytes } from './text';
+import type { Frame } from './ring';
 
 /** Does a frame pass? Without its words, terms that need them let it pass. */
 export type Test = (frame: Frame, words: string | undefined) => boolean;
@@ -28,12 +27,6 @@ const SERVICES: Record<string, string[]> = {
 };
 
 const hex = (text: string): number | null => (/^(?:0x)?[0-9a-f]{1,8}h?$/i.test(text) ? Number.parseInt(text.replace(/^0x/i, ''), 16) : null);
-
-/** The node that an identifier of the predefined connection set belongs to. */
-export function nodeOf(id: number, extended: boolean): number | null {
-  if (extended || id === 0 || id === 0x80 || id === 0x100 || id >= 0x7e4) return null;
-  return id & 0x7f || null;
-}
 
 class Failure {
   constructor(
@@ -141,10 +134,10 @@ class Parser {
     if (field && !/^[0-9a-f]{1,3}$/i.test(field[1]!)) return this.field(field[1]!.toLowerCase(), field[2]!, field[3]!, at + text.length - field[3]!.length, at);
     const plain = text.toLowerCase();
     const service = SERVICES[plain] ?? /^r?pdo[1-4]$/.test(plain);
-    if (service) return Array.isArray(service) ? (frame) => service.includes(tagOf(frame).service) : (frame) => tagOf(frame).text.toLowerCase() === plain;
+    if (service) return Array.isArray(service) ? (frame) => service.includes(frame.tag.service) : (frame) => frame.tag.text.toLowerCase() === plain;
     if (plain === 'tx' || plain === 'rx') return (frame) => frame.fromPage === (plain === 'tx');
     if (plain === 'rtr') return (frame) => frame.remote;
-    if (plain === 'abort') return (frame) => tagOf(frame).service === 'SDO' && frame.data[0] === 0x80;
+    if (plain === 'abort') return (frame) => frame.tag.service === 'SDO' && frame.data[0] === 0x80;
     const masked = /^(?:0x)?([0-9a-f]{1,8}):(?:0x)?([0-9a-f]{1,8})$/i.exec(plain);
     if (masked) {
       const mask = Number.parseInt(masked[2]!, 16);
@@ -175,8 +168,8 @@ class Parser {
       case 'canopen.node_id': {
         const node = /^0x/i.test(value) ? hex(value) : /^\d+$/.test(value) ? Number(value) : null;
         if (node === null || node < 1 || node > 127) throw new Failure(T.filter.node, at);
-        return (frame) =>
-          nodeOf(frame.id, frame.extended) === node || (frame.id === 0 && !frame.extended && (frame.data[1] === node || frame.data[1] === 0));
+        // An NMT command may be for all.
+        return (frame) => frame.node === node || (frame.tag.service === 'NMT' && frame.node === 0);
       }
       case 'id':
       case 'cob':
@@ -214,10 +207,10 @@ class Parser {
   private object(text: string, at: number): Test {
     const match = /^(?:0x)?([0-9a-f]{4})h?(?:[:.](?:0x)?([0-9a-f]{1,2})h?)?$/i.exec(text);
     if (!match) throw new Failure(T.filter.object, at);
-    const index = Number.parseInt(match[1]!, 16);
-    const sub = match[2] === undefined ? null : Number.parseInt(match[2], 16);
-    return (frame) =>
-      tagOf(frame).service === 'SDO' && frame.data.length >= 4 && (frame.data[1]! | (frame.data[2]! << 8)) === index && (sub === null || frame.data[3] === sub) && (frame.data[0]! & 0xe0) !== 0;
+    const first = Number.parseInt(match[1]!, 16) * 256;
+    if (match[2] === undefined) return ({ object }) => object !== null && object >= first && object < first + 256;
+    const key = first + Number.parseInt(match[2], 16);
+    return (frame) => frame.object === key;
   }
 
   private words(text: string): Test {

@@ -1,12 +1,24 @@
 // The capture: the last frames in one flat buffer. Every frame has a number that
 // never changes, so a view can hold its place while old frames fall out.
 
-import { FRAME_BYTES, unpack, type Frame } from '../sim/packed';
+import { ERROR, tagAt, tags, type Tag } from '../codec';
+import { DISTURBED, FRAME_BYTES, unpack, type Packed } from '../sim/packed';
 
 export const CAPACITY = 200_000;
 
+/** A captured frame, with what its identifier and its bytes say. */
+export interface Frame extends Packed {
+  tag: Tag;
+  /** The node that it is from or for; 0: none, or all. */
+  node: number;
+  /** The object that an SDO frame names, as `keyOf`. */
+  object: number | null;
+}
+
 export class Ring {
   private bytes = new Uint8Array(4096 * FRAME_BYTES);
+  /** Two numbers for each frame, as `tags` gives them. */
+  private marks = new Uint32Array(4096 * 2);
   /** Number of the oldest frame that is kept. */
   first = 0;
   /** Number that the next frame will get. */
@@ -25,11 +37,13 @@ export class Ring {
       count = CAPACITY;
     }
     this.grow(this.end - this.first + count);
+    const marks = tags(batch);
     let at = this.end % this.room;
     let from = 0;
     while (from < count) {
       const run = Math.min(count - from, this.room - at);
       this.bytes.set(batch.subarray(from * FRAME_BYTES, (from + run) * FRAME_BYTES), at * FRAME_BYTES);
+      this.marks.set(marks.subarray(from * 2, (from + run) * 2), at * 2);
       from += run;
       at = (at + run) % this.room;
     }
@@ -42,6 +56,7 @@ export class Ring {
     const kept = this.slice(this.first, this.end);
     const room = Math.min(CAPACITY, Math.max(needed, this.room * 4));
     this.bytes = new Uint8Array(room * FRAME_BYTES);
+    this.marks = new Uint32Array(room * 2);
     const end = this.end;
     this.end = this.first;
     this.append(kept);
@@ -60,7 +75,19 @@ export class Ring {
   /** The frame with this number, if it is still there. */
   get(number: number): Frame | undefined {
     if (number < this.first || number >= this.end) return undefined;
-    return unpack(this.bytes, (number % this.room) * FRAME_BYTES);
+    const at = number % this.room;
+    const mark = this.marks[at * 2]!;
+    const frame = unpack(this.bytes, at * FRAME_BYTES) as Frame;
+    frame.tag = frame.disturbed ? ERROR : tagAt(mark & 255);
+    frame.node = (mark >> 8) & 255;
+    frame.object = mark >> 16 ? this.marks[at * 2 + 1]! : null;
+    return frame;
+  }
+
+  /** Is it an SDO frame? Quicker than to ask the frame. */
+  isSdo(number: number): boolean {
+    const at = number % this.room;
+    return (this.bytes[at * FRAME_BYTES + 12]! & DISTURBED) === 0 && tagAt(this.marks[at * 2]! & 255).service === 'SDO';
   }
 
   /** The packed bytes of one frame. */
@@ -69,7 +96,8 @@ export class Ring {
     return this.bytes.subarray(at, at + FRAME_BYTES);
   }
 
-  private slice(from: number, to: number): Uint8Array {
+  /** The packed bytes of all frames from one number to before another. */
+  slice(from: number, to: number): Uint8Array {
     const out = new Uint8Array((to - from) * FRAME_BYTES);
     for (let number = from; number < to; number++) out.set(this.raw(number), (number - from) * FRAME_BYTES);
     return out;

@@ -1,10 +1,11 @@
 // The views of the capture: its rows in order (filtered, folded), its identifiers with
 // their rhythm, and the load of the bus. All of them follow one store.
 
-import { EXTENDED, FRAME_BYTES, DISTURBED, REMOTE, type Frame } from '../sim/packed';
+import { Transfers } from '../codec';
+import { EXTENDED, FRAME_BYTES, DISTURBED, REMOTE } from '../sim/packed';
+import type { Transfer } from '../sim/api';
 import type { Filter } from './filter';
-import { Folder, type Fold } from './fold';
-import { CAPACITY, type Ring } from './ring';
+import { CAPACITY, type Frame, type Ring } from './ring';
 
 /** One identifier: how often, how regularly, and what it said last. */
 export interface Identifier {
@@ -37,8 +38,9 @@ export class Trace {
   private head = 0;
   /** The next frame that is to be looked at. */
   private next = 0;
-  private readonly folder = new Folder();
-  private readonly foldOf = new Map<number, Fold>();
+  private made: Transfers | undefined;
+  /** Numbers of the first frames of transfers that have several. */
+  private readonly folded = new Set<number>();
   /** For each kept frame, the one before with its identifier; by number modulo capacity. */
   private readonly previous = new Int32Array(CAPACITY).fill(-1);
   readonly identifiers = new Map<number, Identifier>();
@@ -61,8 +63,14 @@ export class Trace {
     return this.rows[this.head + row] ?? -1;
   }
 
-  fold(number: number): Fold | undefined {
-    return this.foldOf.get(number);
+  /** Made when the first frame is there: by then the module is, too. */
+  private get transfers(): Transfers {
+    return (this.made ??= new Transfers());
+  }
+
+  /** The transfer that is folded into the row of this frame. */
+  fold(number: number): Transfer | null {
+    return this.folded.has(number) ? this.transfers.transfer(number) : null;
   }
 
   /** How many rows begin with a frame before this one. */
@@ -95,10 +103,11 @@ export class Trace {
     for (; this.next < ring.end; this.next++) this.take(this.next);
     let lost = 0;
     while (this.head < this.rows.length && this.rows[this.head]! < ring.first) {
-      this.foldOf.delete(this.rows[this.head]!);
+      this.folded.delete(this.rows[this.head]!);
       this.head += 1;
       lost += 1;
     }
+    if (lost > 0) this.made?.forgetBefore(ring.first);
     if (this.head > 50_000) {
       this.rows = this.rows.slice(this.head);
       this.head = 0;
@@ -116,14 +125,15 @@ export class Trace {
     if (flags & DISTURBED) this.errors += 1;
     else this.note(id, (flags & EXTENDED) !== 0, number, time);
     this.load(time, bitsOf(flags, bytes[13]!));
-    if (!this.filter && (!this.folds || id < 0x581 || id > 0x67f)) {
-      this.rows.push(number);
-      return;
-    }
-    const frame = this.ring.get(number)!;
-    const fold = this.folds ? this.folder.take(frame, number) : null;
-    if (fold) this.foldOf.set(fold.frames[0]!, fold);
-    else if (!this.filter || this.filter.test(frame, this.filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
+    this.place(number);
+  }
+
+  /** Gives a frame a row, unless it belongs to that of another or the filter hides it. */
+  private place(number: number): void {
+    const { ring, filter } = this;
+    const first = this.folds && ring.isSdo(number) ? this.transfers.take(ring.raw(number), number) : undefined;
+    if (first !== undefined) this.folded.add(first);
+    else if (!filter || filter.test(ring.get(number)!, filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
   }
 
   private note(id: number, extended: boolean, number: number, time: number): void {
@@ -171,23 +181,18 @@ export class Trace {
   refilter(): void {
     this.rows = [];
     this.head = 0;
-    this.foldOf.clear();
-    this.folder.clear();
+    this.folded.clear();
+    this.made?.clear();
     const { ring } = this;
-    for (let number = ring.first; number < this.next && number < ring.end; number++) {
-      const frame = ring.get(number)!;
-      const fold = this.folds ? this.folder.take(frame, number) : null;
-      if (fold) this.foldOf.set(fold.frames[0]!, fold);
-      else if (!this.filter || this.filter.test(frame, this.filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
-    }
+    for (let number = ring.first; number < this.next && number < ring.end; number++) this.place(number);
   }
 
   /** The capture was cleared or cut: everything is taken from what is left. */
   restart(): void {
     this.rows = [];
     this.head = 0;
-    this.foldOf.clear();
-    this.folder.clear();
+    this.folded.clear();
+    this.made?.clear();
     this.identifiers.clear();
     this.recent = [];
     this.errors = 0;

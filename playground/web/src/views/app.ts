@@ -50,6 +50,9 @@ class App extends View {
       if (state.lesson.value) void import('./lesson');
     });
     effect(() => {
+      if (state.lessonDialog.value) void import('./lessons');
+    });
+    effect(() => {
       const { value } = state.toast;
       if (value) setTimeout(() => state.toast.value === value && (state.toast.value = null), value.action ? 20_000 : 6000);
     });

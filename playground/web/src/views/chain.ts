@@ -2,8 +2,8 @@
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
-import { hexByte } from '../can/text';
-import { grouped } from '../can/values';
+import { hexByte } from '../format';
+import { grouped } from '../format';
 import { T } from '../texts';
 import { View } from './view';
 

@@ -5,7 +5,7 @@ import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { find, filterError, filterText, folds, nextBookmark, setFilter, setFolds, trace, view } from '../capture';
 import { clearConsole, saveLog, togglePause } from '../actions';
-import { grouped } from '../can/values';
+import { grouped } from '../format';
 import { T } from '../texts';
 import { openFile } from './files';
 import { icons } from './icons';

@@ -3,8 +3,8 @@
 
 import { html, nothing } from 'lit';
 import * as state from '../state';
-import { hexByte } from '../can/text';
-import { address } from '../can/values';
+import { hexByte } from '../format';
+import { address } from '../format';
 import { act, send } from '../sim/link';
 import { T } from '../texts';
 import { View } from './view';

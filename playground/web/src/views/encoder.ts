@@ -4,7 +4,7 @@ import { html, nothing, type TemplateResult } from 'lit';
 import * as state from '../state';
 import { nmt, setPower, setRpm, turnTo } from '../actions';
 import type { Lamp } from '../sim/api';
-import { grouped } from '../can/values';
+import { grouped } from '../format';
 import { T } from '../texts';
 import { choose, motionOf, parseMotion, PROFILES } from './motion';
 import { icons } from './icons';

@@ -1,6 +1,7 @@
 // An EDS file from the user's disk to the bus.
 
 import { openDevice, openLog } from '../actions';
+import { decodeEds } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
 
@@ -28,7 +29,7 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     const share = await import('../share/make');
     return share.openText(await file.text(), file.name);
   }
-  return openText(file.name, decodeText(new Uint8Array(await file.arrayBuffer())), nodeId, false, place);
+  return openText(file.name, await decodeEds(new Uint8Array(await file.arrayBuffer())), nodeId, false, place);
 }
 
 /** Runs an EDS text; a lenient try leaves out what is wrong with it. */
@@ -46,13 +47,4 @@ export async function openText(name: string, text: string, nodeId: number, lenie
     state.deviceDialog.value ??= place;
   }
   return isOpen;
-}
-
-/** EDS files come as UTF-8 or Windows-1252. */
-function decodeText(bytes: Uint8Array): string {
-  try {
-    return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
-  } catch {
-    return new TextDecoder('windows-1252').decode(bytes);
-  }
 }

@@ -5,28 +5,26 @@ import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { sendFrame } from '../actions';
 import { toggleBookmark, trace } from '../capture';
-import { fieldsOf, type Field } from '../can/fields';
-import { tagOf } from '../can/service';
-import { hexByte, hexId, typedForm } from '../can/text';
-import { layout } from '../sim/link';
-import type { Frame } from '../sim/packed';
+import { hexByte, hexId, typedForm } from '../format';
+import { fieldsOf } from '../sim/link';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { T } from '../texts';
+import type { Field } from '../sim/api';
 import { icons } from './icons';
 import { addToList } from './send-list';
 import { View } from './view';
 
 class FrameDetail extends View {
-  static override properties = { mapping: { state: true }, lit: { state: true } };
-  /** The mapping of the chosen PDO. */
-  declare mapping: Uint32Array;
+  static override properties = { fields: { state: true }, lit: { state: true } };
+  /** The fields of the chosen frame. */
+  declare fields: Field[];
   /** The field under the pointer. */
   declare lit: Field | null;
   private stopEffect: (() => void) | undefined;
 
   constructor() {
     super();
-    this.mapping = new Uint32Array(0);
+    this.fields = [];
     this.lit = null;
   }
 
@@ -34,11 +32,11 @@ class FrameDetail extends View {
     super.connectedCallback();
     this.stopEffect = effect(() => {
       const number = state.chosenFrame.value;
-      this.mapping = new Uint32Array(0);
+      this.fields = [];
       this.lit = null;
       if (number === null || !state.ring.get(number)) return;
-      void layout(state.ring.raw(number).slice()).then((mapping) => {
-        if (state.chosenFrame.value === number) this.mapping = mapping;
+      void fieldsOf(state.ring.raw(number).slice()).then((fields) => {
+        if (state.chosenFrame.value === number) this.fields = fields;
       });
     });
   }
@@ -48,16 +46,8 @@ class FrameDetail extends View {
     this.stopEffect?.();
   }
 
-  /** The fields of a frame, with the names of the device that it is from or for. */
-  private fields(frame: Frame): Field[] {
-    const node = frame.id & 0x7f;
-    const number = frame.device ? frame.device - 1 : state.statuses.peek().findIndex((one) => one.nodeId === node);
-    const objects = state.devices.peek()[number]?.objects ?? [];
-    return fieldsOf(frame, (index, sub) => objects.find((one) => one.index === index && one.sub === sub), this.mapping);
-  }
-
   private showObject({ object }: Field): void {
-    const found = object && state.objectsByKey.value.get(state.keyOf(object.index, object.sub));
+    const found = object === null ? undefined : state.objectsByKey.value.get(object);
     if (!found) return;
     state.selected.value = found;
     state.tab.value = 'objects';
@@ -68,9 +58,9 @@ class FrameDetail extends View {
     const frame = number === null ? undefined : state.ring.get(number);
     if (number === null || !frame) return nothing;
     void wordsArrived.value;
-    const tag = tagOf(frame);
+    const tag = frame.tag;
     const text = typedForm(frame);
-    const fields = this.fields(frame);
+    const { fields } = this;
     const fold = trace.fold(number);
     const isMarked = state.bookmarks.value.has(number);
     const t = T.frames;
@@ -87,14 +77,14 @@ class FrameDetail extends View {
       ${fields.length
         ? html`<ul class="fields">${fields.map((field) => html`<li data-lit=${field === this.lit || (this.lit !== null && this.lit.from === field.from)} @pointerenter=${() => (this.lit = field)} @pointerleave=${() => (this.lit = null)}>
             <span class="num muted">${field.to - field.from > 1 ? `${field.from}–${field.to - 1}` : field.from}</span>
-            ${field.object && state.objectsByKey.value.has(state.keyOf(field.object.index, field.object.sub)) ? html`<button class="link" @click=${() => this.showObject(field)}>${field.name}</button>` : html`<span>${field.name}</span>`}
+            ${field.object !== null && state.objectsByKey.value.has(field.object) ? html`<button class="link" @click=${() => this.showObject(field)}>${field.name}</button>` : html`<span>${field.name}</span>`}
             <span class="num">${field.value}</span></li>`)}</ul>`
         : nothing}
       ${fold ? html`<div class="fold num scroll" tabindex="0" role="region" aria-label=${t.fold(fold.frames.length, fold.bytes.length)}>${fold.frames.map((one) => { const part = state.ring.get(one); return part ? html`<div>${part.fromPage ? 'Tx' : 'Rx'} ${typedForm(part)}</div>` : nothing; })}</div>` : nothing}
       <div class="frame-actions">
         ${frame.disturbed
           ? nothing
-          : html`<button class="small" title=${`${t.again}: ${text}`} @click=${() => sendFrame({ id: frame.id, extended: frame.extended, remote: frame.remote, data: frame.data.slice(), dlc: frame.dlc })}>${t.again}</button>
+          : html`<button class="small" title=${`${t.again}: ${text}`} @click=${() => sendFrame({ ...frame, data: frame.remote ? new Uint8Array(frame.dlc) : frame.data.slice() })}>${t.again}</button>
             <button class="small" title=${T.send.toLine(text)} @click=${() => (state.draft.value = { text })}>${icons.send} ${t.toLine}</button>
             <button class="small" @click=${() => addToList(text)}>${icons.plus} ${t.toList}</button>`}
         <button class="icon-button" aria-pressed=${isMarked} aria-label=${t.mark} title=${`${t.mark} (B)`} @click=${() => toggleBookmark(number)}>${icons.mark}</button>

@@ -5,12 +5,12 @@ import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { gap, refiltered, reveal, revealed, toggleBookmark, trace } from '../capture';
 import { nmt } from '../actions';
-import type { Fold } from '../can/fold';
-import { tagOf } from '../can/service';
-import { hexByte, hexId } from '../can/text';
-import { address, decode, showValue } from '../can/values';
+import { hexByte, hexId } from '../format';
+import { decode } from '../codec';
+import { address, showValue } from '../format';
 import { transfer } from '../sim/client';
-import type { Frame } from '../sim/packed';
+import type { Frame } from '../trace/ring';
+import type { Transfer } from '../sim/api';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -171,12 +171,12 @@ class FrameList extends View {
     row.dataset['version'] = version;
     row.dataset['number'] = String(number);
     row.setAttribute('aria-rowindex', String(number + 1));
-    const tag = tagOf(frame);
+    const tag = frame.tag;
     const cells = row.children;
     row.dataset['service'] = tag.service;
     row.dataset['dir'] = frame.fromPage ? 'tx' : 'rx';
     row.toggleAttribute('data-marked', state.bookmarks.peek().has(number));
-    row.toggleAttribute('data-fold', fold !== undefined);
+    row.toggleAttribute('data-fold', fold !== null);
     setText(cells[0], (frame.time / 1e6).toFixed(frame.time < 1e10 ? 6 : 3));
     const before = gap.peek() === 'cycle' ? trace.before(number) : state.ring.get(number - 1);
     setText(cells[1], before ? `+${delta(frame.time - before.time)}` : '');
@@ -257,7 +257,7 @@ class FrameList extends View {
 }
 
 /** The bytes; those that differ from the frame before with this identifier stand out. */
-function fillData(cell: Element, frame: Frame, fold: Fold | undefined, before: Frame | undefined): void {
+function fillData(cell: Element, frame: Frame, fold: Transfer | null | undefined, before: Frame | undefined): void {
   if (frame.disturbed || frame.remote || fold) {
     setText(cell, frame.disturbed ? '' : fold ? T.frames.fold(fold.frames.length, fold.bytes.length) : T.frames.remote);
     return;
@@ -276,13 +276,13 @@ function fillData(cell: Element, frame: Frame, fold: Fold | undefined, before: F
 }
 
 /** A folded transfer in words: what was read or written, and its value. */
-function foldWords(fold: Fold | undefined, words: string | undefined): string {
+function foldWords(fold: Transfer | null | undefined, words: string | undefined): string {
   if (!fold) return words ?? '';
   const device = state.devices.peek().find((_, number) => state.statuses.peek()[number]?.nodeId === fold.node);
   const object = device?.objects.find(({ index, sub }) => index === fold.index && sub === fold.sub);
   const name = `${address(fold.index, fold.sub)}${object ? ` ${object.parent ? `${object.parent}.` : ''}${object.name}` : ''}`;
   if (fold.state === 'aborted') return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}: ${words ?? ''}`;
-  const value = object ? showValue(decode(Uint8Array.from(fold.bytes), object), object) : Array.from(fold.bytes.slice(0, 32), hexByte).join(' ');
+  const value = object ? showValue(decode(fold.bytes, object), object) : Array.from(fold.bytes.subarray(0, 32), hexByte).join(' ');
   return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}${fold.state === 'done' ? ` = ${value}` : ' …'}`;
 }
 

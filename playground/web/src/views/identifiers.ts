@@ -4,9 +4,8 @@ import { html } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { reveal, trace, view } from '../capture';
-import { tagOf } from '../can/service';
-import { hexByte, hexId } from '../can/text';
-import { grouped } from '../can/values';
+import { hexByte, hexId } from '../format';
+import { grouped } from '../format';
 import { knownWords, wordsOf } from '../sim/words';
 import { T } from '../texts';
 import { delta } from './frame-list';
@@ -51,7 +50,7 @@ class Identifiers extends View {
         <thead><tr>${T.frames.idColumns.map((name) => html`<th scope="col">${name}</th>`)}</tr></thead>
         <tbody>${shown.map((one, i) => {
           const frame = state.ring.get(one.last)!;
-          const tag = tagOf(frame);
+          const tag = frame.tag;
           return html`<tr class="frame-id" data-service=${tag.service} @click=${() => { view.value = 'order'; reveal(one.last); }}>
             <td class="num"><b>${hexId(one.id, one.extended)}</b></td><td class="tag"><b>${tag.text}</b></td><td class="num">${grouped(one.count)}</td>
             <td class="num">${one.count > 1 ? delta(one.cycle) : ''}</td><td class="num muted">${one.count > 1 ? delta(one.least) : ''}</td><td class="num muted">${one.count > 1 ? delta(one.most) : ''}</td>

@@ -17,7 +17,7 @@ import { View } from './view';
 
 type Step = Lesson['steps'][number];
 
-const choose = (): void => void import('./lessons').then(() => (state.lessonDialog.value = true));
+const choose = (): void => void (state.lessonDialog.value = true);
 
 class LessonPanel extends View {
   static override properties = { seen: { state: true }, hints: { state: true } };

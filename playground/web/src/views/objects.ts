@@ -5,7 +5,7 @@ import { effect } from '@preact/signals-core';
 import { download } from '../actions';
 import { isMapping } from '../can/mapping';
 import type { ObjectRecord, Value } from '../sim/api';
-import { address, hexIndex, sameValue, showValue } from '../can/values';
+import { address, hexIndex, sameValue, showValue } from '../format';
 import { exportDcf, readNow, watch } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';

@@ -3,7 +3,8 @@
 import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import type { ObjectRecord } from '../sim/api';
-import { address, encode, showValue } from '../can/values';
+import { encode } from '../codec';
+import { address, showValue } from '../format';
 import { transfer } from '../sim/client';
 import { inWords, type Said } from '../sim/words-of-sdo';
 import * as state from '../state';

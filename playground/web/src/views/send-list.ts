@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { signal } from '@preact/signals-core';
 import * as state from '../state';
-import { parseSend } from '../can/send-text';
+import { readLine } from '../codec';
 import { act } from '../sim/link';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -50,13 +50,13 @@ export function addToList(text: string): void {
 }
 
 const parse = (text: string) =>
-  parseSend(text, { nodeId: state.nodeId.value, object: (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)) });
+  readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
 
 function send(item: Item): void {
   const parsed = parse(item.text);
   if (!('frame' in parsed)) return;
-  const { id, extended, remote, data, dlc } = parsed.frame;
-  act({ op: 'send', id, data: remote ? new Uint8Array(dlc) : data, extended, remote });
+  const { id, extended, remote, data } = parsed.frame;
+  act({ op: 'send', id, data, extended, remote });
 }
 
 /** Starts or ends the rhythm of a row. */
@@ -65,7 +65,7 @@ function repeat(item: Item, isOn: boolean): void {
   const frame = 'frame' in parsed ? parsed.frame : null;
   if (!frame && isOn) return;
   act({
-    op: 'repeat', key: item.key, id: frame?.id ?? 0, data: frame ? (frame.remote ? new Uint8Array(frame.dlc) : frame.data) : new Uint8Array(0),
+    op: 'repeat', key: item.key, id: frame?.id ?? 0, data: frame?.data ?? new Uint8Array(0),
     extended: frame?.extended ?? false, remote: frame?.remote ?? false, micros: isOn ? item.every * 1000 : 0,
   });
   set(item, { isOn });

@@ -4,7 +4,7 @@ import { html } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { NMT_COMMANDS, nmt, sendFrame } from '../actions';
-import { parseFrame } from '../can/text';
+import { readLine } from '../codec';
 import { describe } from '../sim/link';
 import { pack } from '../sim/packed';
 import { icons } from './icons';
@@ -14,6 +14,14 @@ import { addToList } from './send-list';
 import { T } from '../texts';
 
 const MOST_REMEMBERED = 50;
+
+/** What a line says, for the chosen node. */
+const read = (text: string) => readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
+
+function sendText(text: string): void {
+  const parsed = read(text);
+  if ('frame' in parsed) sendFrame(parsed.frame);
+}
 
 class Send extends View {
   protected override render() {
@@ -32,7 +40,7 @@ class Send extends View {
             if (select.value) state.draft.value = { text: select.value };
             select.value = '';
           }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(([text, frame]) => html`<option value=${frame}>${text}</option>`)}</select></label>
-          <button class="small sync" title=${T.send.sync} @click=${() => sendFrame({ id: 0x80, extended: false, remote: false, data: new Uint8Array(0), dlc: 0 })}>SYNC</button>
+          <button class="small sync" title=${T.send.sync} @click=${() => sendText('sync')}>SYNC</button>
         </div>
       </div>
       <od-send-list></od-send-list>
@@ -102,19 +110,19 @@ class RawFrame extends View {
   private async onInput(text: string): Promise<void> {
     this.text = text;
     this.isTouched = false;
-    const parsed = parseFrame(text);
+    const parsed = read(text);
     if ('error' in parsed) {
       this.meaning = '';
       return;
     }
     const { frame } = parsed;
-    const [words] = await describe(pack({ ...frame, time: 0, fromPage: true }));
+    const [words] = await describe(pack({ ...frame, data: frame.remote ? new Uint8Array(0) : frame.data, dlc: frame.data.length, time: 0, fromPage: true }));
     if (this.text === text) this.meaning = words ?? '';
   }
 
   private submit(event: Event): void {
     event.preventDefault();
-    const parsed = parseFrame(this.text);
+    const parsed = read(this.text);
     this.isTouched = true;
     if ('error' in parsed) return;
     sendFrame(parsed.frame);
@@ -132,10 +140,10 @@ class RawFrame extends View {
   }
 
   protected override render() {
-    const parsed = parseFrame(this.text);
+    const parsed = read(this.text);
     const isEmpty = this.text.trim() === '';
     const error = 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
-    const bytes = 'frame' in parsed ? T.send.bytes(parsed.frame.dlc) : '';
+    const bytes = 'frame' in parsed ? T.send.bytes(parsed.frame.data.length) : '';
     const node = (0x600 + state.nodeId.value).toString(16).toUpperCase();
     return html`<form class="dock-row" @submit=${this.submit} novalidate>
       <label class="dock-label" for="raw-frame">${T.send.frame}</label>

@@ -13,8 +13,7 @@ const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
 /** The dialog comes when it is asked for. */
 const openShare = (): void => void import('./share').then(() => (state.shareDialog.value = true));
 
-/** Lessons come when somebody wants to learn. */
-const openLessons = (): void => void import('./lessons').then(() => (state.lessonDialog.value = true));
+const openLessons = (): void => void (state.lessonDialog.value = true);
 
 /** From a frame to a tab of its own, with the bench as it stands. */
 async function openFull(event: Event): Promise<void> {
