@@ -7,8 +7,7 @@
 //! | `{low}` | the fact of this name |
 //! | `{id:03X}` | a number, hexadecimal with at least three digits |
 //! | `{count:entry\|entries}` | a count and its noun: "1 entry", "2 entries" |
-//! | `{key}` | the key that the finding is about |
-//! | `{LowLimit}` | this key |
+//! | `{LowLimit}`, `{key}` | this key, and the one that the finding is about |
 //! | `{DataType={right}}` | this key set to a value, which may have blanks too |
 //! | `{{`, `}}` | a brace |
 
@@ -19,8 +18,7 @@ use alloc::vec::Vec;
 
 use od_model::{Address, DataType, Kind};
 
-use crate::description::Value;
-use crate::fact::{Fact, Key};
+use crate::fact::{Fact, Key, shown};
 use crate::finding::{Finding, Severity};
 use crate::fix::Fix;
 use crate::span::Span;
@@ -152,17 +150,17 @@ impl Blanks<'_> {
     }
 
     fn blank(&self, blank: &str, written: bool) -> String {
-        if let Some((key, value)) = blank.split_once('=')
-            && let Some(key) = Key::of(key)
+        let key = |name| match name {
+            "key" => self.finding.key,
+            name => Key::of(name),
+        };
+        if let Some((name, value)) = blank.split_once('=')
+            && let Some(key) = key(name)
         {
             return self.words.set(key, &self.fill(value, true));
         }
-        if let Some(key) = Key::of(blank) {
+        if let Some(key) = key(blank) {
             return self.words.key(key).into();
-        }
-        if blank == "key" {
-            let key = self.finding.key;
-            return key.map_or("", |key| self.words.key(key)).into();
         }
         let (name, form) = blank.split_once(':').unwrap_or((blank, ""));
         let facts = &self.finding.facts;
@@ -180,7 +178,7 @@ impl Blanks<'_> {
     fn shown(&self, fact: &Fact, form: &str) -> String {
         match fact {
             Fact::Number(number) => counted(*number, form),
-            Fact::Value(value) => self::value(value),
+            Fact::Value(value) => shown(value),
             Fact::Type(data_type) => data_type.name().into(),
             Fact::FormOf(data_type) => self.words.form_of(*data_type),
             Fact::Code(code) => code.name().into(),
@@ -207,19 +205,6 @@ fn counted(number: i128, form: &str) -> String {
     match form.strip_suffix('X') {
         Some(width) => format!("{number:0width$X}", width = width.parse().unwrap_or(0)),
         None => number.to_string(),
-    }
-}
-
-/// A value as an EDS would write it.
-fn value(value: &Value) -> String {
-    match value {
-        Value::Unsigned(v) => v.to_string(),
-        Value::Signed(v) => v.to_string(),
-        Value::Real(v) => format!("{v:?}"),
-        Value::NodeId(0) => "$NODEID".into(),
-        Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
-        Value::Text(text) => format!("{text:?}"),
-        Value::Bytes(_) => "bytes".into(),
     }
 }
 
@@ -262,3 +247,6 @@ fn end(text: &str) -> Option<usize> {
         (depth == 0).then_some(at)
     })
 }
+
+#[cfg(test)]
+mod tests;

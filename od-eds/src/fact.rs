@@ -1,6 +1,7 @@
 //! What fills a sentence: facts of a finding, and the keys that it is about.
 
-use alloc::string::String;
+use alloc::format;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use od_model::{Access, Address, DataType, ObjectCode};
@@ -62,6 +63,11 @@ impl Key {
             Self::ObjFlags => "ObjFlags",
             Self::StorageLocation => "StorageLocation",
         }
+    }
+
+    /// Is this its name, in any case?
+    pub fn is(self, name: &str) -> bool {
+        self.name().eq_ignore_ascii_case(name)
     }
 
     /// The key with this name, written as in the standard.
@@ -130,5 +136,18 @@ impl From<usize> for Fact {
     fn from(count: usize) -> Self {
         // A count of what is in memory.
         Self::Number(count as i128)
+    }
+}
+
+/// A value as an EDS would write it.
+pub(crate) fn shown(value: &Value) -> String {
+    match value {
+        Value::Unsigned(v) => v.to_string(),
+        Value::Signed(v) => v.to_string(),
+        Value::Real(v) => format!("{v:?}"),
+        Value::NodeId(0) => "$NODEID".into(),
+        Value::NodeId(offset) => format!("$NODEID+0x{offset:X}"),
+        Value::Text(text) => format!("{text:?}"),
+        Value::Bytes(_) => "bytes".into(),
     }
 }

@@ -6,9 +6,11 @@ use core::fmt;
 
 use od_model::Address;
 
+use crate::description::Description;
 use crate::fact::{Fact, Key};
 use crate::fix::Fix;
 use crate::span::{Span, token, token_of};
+use crate::subject::{Entry, Object, Subject};
 
 /// Severity of a finding.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -67,7 +69,23 @@ pub struct Form {
     pub help: &'static str,
 }
 
-/// One rule: what a code means, and what its findings say.
+/// How the findings of a rule are found.
+#[derive(Clone, Copy)]
+pub(crate) enum Check {
+    /// By looking at each value.
+    Entry(fn(&Entry<'_>, &mut Vec<Finding>)),
+    /// By looking at each object.
+    Object(fn(&Object<'_>, &mut Vec<Finding>)),
+    /// By looking at the whole description.
+    Device(fn(&Description, &mut Vec<Finding>)),
+    /// While the text is read.
+    ByReader,
+    /// While edits are applied, and by the macro.
+    #[allow(dead_code)] // rules about edits say so when they move
+    ByEdit,
+}
+
+/// One rule: what a code means, what its findings say, and how they are found.
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rule {
@@ -85,12 +103,18 @@ pub struct Rule {
     pub fixability: Fixability,
     /// A statement of a macro call that breaks the rule; empty for a rule with a pair of files.
     pub example: &'static str,
-    /// What a finding says, unless it takes one of `also`.
+    /// What is wrong, unless a finding takes one of `also`: one clause without a full stop.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub form: Form,
+    pub says: &'static str,
+    /// What to write instead, or what is allowed.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub help: &'static str,
     /// What else a finding of this rule can say.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub also: &'static [Form],
+    /// How the findings are found.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) check: Check,
 }
 
 impl PartialEq for Rule {
@@ -116,15 +140,20 @@ impl Rule {
         source: "",
         fixability: Fixability::None,
         example: "",
-        form: TOLD,
+        says: TOLD.says,
+        help: TOLD.help,
         also: &[],
+        check: Check::ByReader,
     };
 
     /// A finding of this rule; place and facts are added to it.
     pub(crate) fn finding(&'static self) -> Finding {
         Finding {
             rule: self,
-            form: self.form,
+            form: Form {
+                says: self.says,
+                help: self.help,
+            },
             place: Place::Nowhere,
             object: None,
             key: None,
@@ -140,6 +169,11 @@ impl Rule {
             place: Place::from(span),
             ..self.finding()
         }
+    }
+
+    /// A finding about a value or an object; there if `span` is in no text.
+    pub(crate) fn on(&'static self, subject: &impl Subject, span: Span) -> Finding {
+        self.at(span.or(subject.span())).about(subject.address())
     }
 
     /// A finding with a sentence that was made where it was found.
@@ -236,6 +270,23 @@ impl Finding {
     #[must_use]
     pub(crate) fn about(mut self, object: Address) -> Self {
         self.object = Some(object);
+        self
+    }
+
+    /// Says another of the rule's sentences.
+    #[must_use]
+    pub(crate) fn form(mut self, form: &Form) -> Self {
+        self.form = *form;
+        self
+    }
+
+    /// Adds a second place and its label, which may have blanks.
+    #[must_use]
+    pub(crate) fn related(mut self, span: Span, says: &'static str) -> Self {
+        if span.line != 0 {
+            let says = says.into();
+            self.related.push(Related { span, says });
+        }
         self
     }
 

@@ -40,6 +40,7 @@ mod read;
 mod rules;
 mod scan;
 mod span;
+mod subject;
 mod write;
 #[cfg(feature = "xdd")]
 pub mod xdd;

@@ -11,31 +11,23 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
-use crate::finding::{Finding, sort};
+use crate::finding::{Check, Finding, sort};
 use crate::span::{Span, Spanned};
+use crate::subject::objects;
 use od_model::Address;
 
 mod allow;
-mod cob_ids;
-mod data_types;
-mod entries;
 mod identity;
-mod limits;
 mod mandatory;
 mod members;
 mod modules;
-mod node_id;
-mod pdo_communication;
 mod pdo_counts;
-mod pdo_mapping;
 mod profile;
 mod sections;
 mod services;
 mod shape;
 mod standard;
 mod sub_index_0;
-pub(crate) mod text;
-mod values;
 
 pub use crate::finding::{Fixability, Rule};
 #[cfg(feature = "explain")]
@@ -55,15 +47,7 @@ pub fn check(description: &Description) -> Vec<Finding> {
         members::check,
         shape::check,
         sub_index_0::check,
-        data_types::check,
-        values::check,
-        node_id::check,
-        limits::check,
-        entries::check,
-        pdo_communication::check,
-        pdo_mapping::check,
         pdo_counts::check,
-        cob_ids::check,
         identity::check,
         sections::check,
         modules::check,
@@ -71,9 +55,32 @@ pub fn check(description: &Description) -> Vec<Finding> {
     ] {
         check(description, &mut findings);
     }
+    run(description, &mut findings);
     once(description, &mut findings);
     sort(&mut findings);
     findings
+}
+
+/// Runs the checks of all rules, in one pass over the objects.
+fn run(description: &Description, findings: &mut Vec<Finding>) {
+    let (mut of_entries, mut of_objects, mut of_device) = (Vec::new(), Vec::new(), Vec::new());
+    for rule in RULES {
+        match rule.check {
+            Check::Entry(check) => of_entries.push(check),
+            Check::Object(check) => of_objects.push(check),
+            Check::Device(check) => of_device.push(check),
+            Check::ByReader | Check::ByEdit => {}
+        }
+    }
+    for object in objects(description) {
+        for entry in object.entries() {
+            of_entries.iter().for_each(|check| check(&entry, findings));
+        }
+        of_objects.iter().for_each(|check| check(&object, findings));
+    }
+    of_device
+        .iter()
+        .for_each(|check| check(description, findings));
 }
 
 /// Of members that one section stands for (CompactSubObj), the first is told about.

@@ -6,8 +6,8 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use super::{place, start_number, start_value};
-use crate::description::{Description, Value};
+use super::place;
+use crate::description::Description;
 use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::rules;
@@ -59,8 +59,6 @@ pub(super) fn check(description: &Description, findings: &mut Vec<Finding>) {
     }
     error_history(description, findings);
     lss(description, findings);
-    sync(description, findings);
-    sdo_server(description, findings);
     commissioning(description, findings);
 }
 
@@ -116,67 +114,6 @@ fn lss(description: &Description, findings: &mut Vec<Finding>) {
                 .with_label(identity.span, "1018h is here")
                 .with_help("write the missing sections, or `LSS_Supported=0`"),
         );
-    }
-}
-
-fn sync(description: &Description, findings: &mut Vec<Finding>) {
-    if description.objects.contains_key(&0x1005) {
-        return;
-    }
-    for (index, object) in description.objects.range(0x1400..=0x19FF) {
-        if !matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF) {
-            continue;
-        }
-        let address = Address::new(*index, 2);
-        let Some(kind) = start_number(description, address) else {
-            continue;
-        };
-        if matches!(kind.value, 0..=240 | 252 | 253) {
-            findings.push(
-                rules::W0529
-                    .told(
-                        place(&[kind.span, object.span]),
-                        format!(
-                            "transmission type {} waits for SYNC, but there is no 1005h",
-                            kind.value
-                        ),
-                    )
-                    .about(address)
-                    .with_help("write a section [1005], or another transmission type such as 255"),
-            );
-        }
-    }
-}
-
-fn sdo_server(description: &Description, findings: &mut Vec<Finding>) {
-    for (sub, base) in [(1, 0x600), (2, 0x580)] {
-        let address = Address::new(0x1200, sub);
-        let Some(entry) = description.entry(address) else {
-            continue;
-        };
-        let Some(value) = start_value(entry) else {
-            continue;
-        };
-        let right = match &value.value {
-            Value::NodeId(offset) => *offset == base,
-            Value::Unsigned(number) => {
-                let id = description.commissioned_node_id();
-                id.is_some_and(|id| *number == u64::from(base) + u64::from(id))
-            }
-            _ => true,
-        };
-        if !right {
-            findings.push(
-                rules::W0530
-                    .told(
-                        place(&[value.span, entry.span]),
-                        format!("the first SDO server has {base:X}h plus the node ID here"),
-                    )
-                    .about(address)
-                    .with_help(format!("write `$NODEID+0x{base:X}`"))
-                    .fix(Fix::unsafe_fix().replace(value.span, format!("$NODEID+0x{base:X}"))),
-            );
-        }
     }
 }
 

@@ -6,6 +6,7 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, Value};
+use crate::fact::Key;
 use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::entry::{Reader, Unread, extra};
@@ -31,7 +32,7 @@ pub(crate) fn count(
     unread: &mut Unread,
 ) -> Option<Spanned<u8>> {
     let given = fields.take("CompactSubObj")?;
-    let number = reader.number("CompactSubObj", &given);
+    let number = reader.number(Key::CompactSubObj, &given);
     let count = match number {
         Some(0) => return None,
         Some(number) if (1..=i128::from(HIGHEST)).contains(&number) => {
@@ -159,7 +160,7 @@ fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, 
         Compact::Value => {
             let mut unread = core::mem::take(&mut entry.extra);
             unread.retain(|(key, _)| key != "ParameterValue");
-            entry.parameter = reader.typed("ParameterValue", value, entry.data_type, None);
+            entry.parameter = reader.typed(Key::ParameterValue, value, entry.data_type, None);
             if entry.parameter.is_none() {
                 unread.push(("ParameterValue".into(), value.to_string()));
             }

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
 use crate::finding::Finding;
-use crate::rules;
+use crate::rules::pdo::i0515;
 use crate::scan::number::number;
 use crate::span::{Span, Spanned};
 use od_model::{Access, DataType, ObjectCode};
@@ -87,14 +87,7 @@ pub(crate) fn objects(
         }
         if made.len() > before {
             let (word, count) = (direction.word, made.len() - before);
-            log.push(
-                rules::I0515
-                    .told(
-                        span,
-                        format!("CompactPDO stands for {count} objects of {word}s"),
-                    )
-                    .with_help("they are made; a reader that does not know CompactPDO lacks them"),
-            );
+            log.push(i0515::finding(span, count, word));
         }
     }
     made

@@ -4,20 +4,20 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::check::text;
 use crate::description::{EntryDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
-use crate::fix::Fix;
 use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
 use crate::rules;
+use crate::rules::text::w0109;
+use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416};
 use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
 use crate::scan::placed::Text;
-use crate::span::{Span, Spanned};
+use crate::span::Spanned;
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// Where the diagnostics of one section go, and what it is about.
@@ -56,7 +56,7 @@ impl Reader<'_> {
     }
 
     /// A number without a type of its own: ObjectType, SubNumber, ObjFlags …
-    pub(crate) fn number(&mut self, key: &str, from: &Text<'_>) -> Option<i128> {
+    pub(crate) fn number(&mut self, key: Key, from: &Text<'_>) -> Option<i128> {
         let mut notes = Vec::new();
         let text = number::without_comment(from, &mut notes);
         let number = number::integer(text, &mut notes)?;
@@ -80,10 +80,10 @@ impl Reader<'_> {
         let access = self.access(fields, &mut unread);
         let mappable = self.mappable(fields, &mut unread);
         let mut value = |key, low| self.value(fields, key, data_type, low, &mut unread);
-        let default = value("DefaultValue", None);
-        let low = value("LowLimit", None);
-        let high = value("HighLimit", low.as_ref().map(|low| &low.value));
-        let parameter = value("ParameterValue", None);
+        let default = value(Key::DefaultValue, None);
+        let low = value(Key::LowLimit, None);
+        let high = value(Key::HighLimit, low.as_ref().map(|low| &low.value));
+        let parameter = value(Key::ParameterValue, None);
         let entry = EntryDescription {
             name,
             data_type,
@@ -107,22 +107,21 @@ impl Reader<'_> {
         unread: &mut Unread,
     ) -> Option<Spanned<DataType>> {
         let given = fields.take("DataType")?;
-        let number = self.number("DataType", &given);
+        let number = self.number(Key::DataType, &given);
         let known = number
             .and_then(|code| u16::try_from(code).ok())
             .and_then(DataType::from_code);
         let known = known.or_else(|| {
             let data_type = words::data_type(&given)?;
-            self.word("DataType", &given, &format!("0x{:04X}", data_type.code()));
+            self.word(
+                Key::DataType,
+                &given,
+                &format!("0x{:04X}", data_type.code()),
+            );
             Some(data_type)
         });
         if known.is_none() {
-            self.report(
-                rules::E0402
-                    .told(given.span, format!("`{}` is no data type", given.value))
-                    .key(Key::DataType)
-                    .with_help("write the code of a type, for example `0x0007` for UNSIGNED32"),
-            );
+            self.report(e0402::finding(&given));
             unread.push(("DataType".into(), given.value.into_owned()));
         }
         known.map(|data_type| Spanned::new(data_type, given.span))
@@ -130,12 +129,7 @@ impl Reader<'_> {
 
     fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
         let Some(given) = fields.take("AccessType") else {
-            self.report(
-                rules::W0404
-                    .told(fields.header, "there is no AccessType")
-                    .with_help("write `AccessType=ro`, which is taken now, or what it is")
-                    .fix(Fix::unsafe_fix().below(fields.header, "AccessType=ro")),
-            );
+            self.report(w0404::finding(fields.header));
             return Spanned::from(Access::Ro);
         };
         let mut notes = Vec::new();
@@ -152,21 +146,16 @@ impl Reader<'_> {
         .find(|access| word.eq_ignore_ascii_case(access.name()))
         .or_else(|| {
             let access = words::access(&given)?;
-            self.word("AccessType", &given, access.name());
+            self.word(Key::AccessType, &given, access.name());
             Some(access)
         });
         match known {
             Some(access) => {
-                self.notes(&notes, "AccessType", &given, || access.name().into());
+                self.notes(&notes, Key::AccessType, &given, || access.name().into());
                 Spanned::new(access, given.span)
             }
             None => {
-                self.report(
-                    rules::E0405
-                        .told(given.span, format!("`{}` is no AccessType", given.value))
-                        .key(Key::AccessType)
-                        .with_help("write ro, wo, rw, rwr, rww or const; `ro` is taken now"),
-                );
+                self.report(e0405::finding(&given));
                 let span = given.span;
                 unread.push(("AccessType".into(), given.value.into_owned()));
                 Spanned::new(Access::Ro, span)
@@ -178,19 +167,11 @@ impl Reader<'_> {
         let Some(given) = fields.take("PDOMapping") else {
             return Spanned::from(false);
         };
-        let mappable = match self.number("PDOMapping", &given) {
+        let mappable = match self.number(Key::PdoMapping, &given) {
             Some(0) => false,
             Some(1) => true,
             _ => self.mappable_word(&given).unwrap_or_else(|| {
-                self.report(
-                    rules::W0406
-                        .told(
-                            given.span,
-                            format!("PDOMapping is 0 or 1, not `{}`", given.value),
-                        )
-                        .with_help("write `PDOMapping=0`, which is taken now, or `PDOMapping=1`")
-                        .fix(Fix::unsafe_fix().replace(given.span, "0")),
-                );
+                self.report(w0406::finding(&given));
                 unread.push(("PDOMapping".into(), given.to_string()));
                 false
             }),
@@ -200,34 +181,26 @@ impl Reader<'_> {
 
     fn mappable_word(&mut self, given: &Text<'_>) -> Option<bool> {
         let mappable = words::mappable(given)?;
-        self.word("PDOMapping", given, if mappable { "1" } else { "0" });
+        self.word(Key::PdoMapping, given, if mappable { "1" } else { "0" });
         Some(mappable)
     }
 
     /// ObjectType, as a number or as a word.
     pub(crate) fn object_code(&mut self, given: &Text<'_>) -> Option<ObjectCode> {
-        let number = self.number("ObjectType", given);
+        let number = self.number(Key::ObjectType, given);
         let code = number
             .and_then(|code| u8::try_from(code).ok())
             .and_then(ObjectCode::from_code);
         code.or_else(|| {
             let code = words::object_code(given)?;
-            self.word("ObjectType", given, &format!("0x{:X}", code.code()));
+            self.word(Key::ObjectType, given, &format!("0x{:X}", code.code()));
             Some(code)
         })
     }
 
     /// Reports a word that is read as this value.
-    fn word(&mut self, key: &str, given: &Text<'_>, right: &str) {
-        self.report(
-            rules::W0424
-                .told(
-                    given.span,
-                    format!("`{}` is read as `{right}`", given.value),
-                )
-                .with_help(format!("write `{key}={right}`"))
-                .fix(Fix::safe().replace(given.span, right)),
-        );
+    fn word(&mut self, key: Key, given: &Text<'_>, right: &str) {
+        self.report(shared::read_as(&rules::W0424, key, given, right));
     }
 
     /// ObjFlags; 0 where it is missing.
@@ -235,16 +208,11 @@ impl Reader<'_> {
         let Some(given) = fields.take("ObjFlags") else {
             return 0;
         };
-        let number = self.number("ObjFlags", &given);
+        let number = self.number(Key::ObjFlags, &given);
         number
             .and_then(|flags| u32::try_from(flags).ok())
             .unwrap_or_else(|| {
-                self.report(
-                    rules::W0407
-                        .told(given.span, format!("`{}` are no ObjFlags", given.value))
-                        .with_help("write `ObjFlags=0`, or leave the line out")
-                        .fix(Fix::unsafe_fix().replace(given.span, "0")),
-                );
+                self.report(w0407::finding(&given));
                 unread.push(("ObjFlags".into(), given.value.into_owned()));
                 0
             })
@@ -253,24 +221,23 @@ impl Reader<'_> {
     fn value(
         &mut self,
         fields: &mut Fields<'_>,
-        key: &'static str,
+        key: Key,
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
         unread: &mut Unread,
     ) -> Option<Spanned<Value>> {
-        let given = fields.take(key)?;
+        let given = fields.take(key.name())?;
         if let Some(data_type) = data_type
             && matches!(data_type.kind(), Kind::Text | Kind::Bytes)
-            && matches!(key, "LowLimit" | "HighLimit")
+            && matches!(key, Key::LowLimit | Key::HighLimit)
         {
-            let finding = text::no_limit(key, &given, data_type);
-            self.report(finding);
-            unread.push((key.into(), given.value.into_owned()));
+            self.report(w0416::no_limits(key, &given, data_type));
+            unread.push((key.name().into(), given.value.into_owned()));
             return None;
         }
         let value = self.typed(key, &given, data_type, low);
         if value.is_none() {
-            unread.push((key.into(), given.value.into_owned()));
+            unread.push((key.name().into(), given.value.into_owned()));
         }
         value
     }
@@ -279,7 +246,7 @@ impl Reader<'_> {
     /// with the LowLimit: between 0 and FFh of an INTEGER8, FFh is not -1.
     pub(crate) fn typed(
         &mut self,
-        key: &str,
+        key: Key,
         given: &Text<'_>,
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
@@ -301,8 +268,7 @@ impl Reader<'_> {
                 Some(Spanned::new(value, given.span))
             }
             None => {
-                let finding = text::no_value(key, given, given.span, data_type);
-                self.report(finding);
+                self.report(unfit(key, given, data_type));
                 None
             }
         }
@@ -312,58 +278,49 @@ impl Reader<'_> {
     fn notes(
         &mut self,
         notes: &[Note],
-        key: &str,
+        key: Key,
         given: &Text<'_>,
         canonical: impl Fn() -> String,
     ) {
         for note in notes {
-            let finding = note_finding(*note, given, given.span);
-            let mended: String = match note {
-                Note::Comment => number::without_comment(given, &mut Vec::new()).into(),
-                _ => canonical(),
-            };
-            let fix = match note {
-                // The comment keeps a line of its own.
+            let rule = match note {
                 Note::Comment => {
-                    let comment = given.get(mended.len()..).unwrap_or_default().trim();
-                    let comment = format!(";{}", &comment[comment.len().min(1)..]);
-                    Fix::safe().replace(given.span, format!("{mended}\n{comment}"))
+                    let value = number::without_comment(given, &mut Vec::new());
+                    self.report(w0109::finding(key, given, value));
+                    continue;
                 }
-                _ => Fix::safe().replace(given.span, mended.clone()),
+                Note::Octal => &rules::I0408,
+                Note::NotOctal => &rules::W0409,
+                Note::TwosComplement => &rules::I0410,
+                Note::NodeId => &rules::I0411,
+                Note::Characters => &rules::W0419,
+                Note::Suffix => &rules::W0420,
+                Note::BareHex => &rules::W0422,
+                Note::Comma => &rules::W0423,
+                Note::Word => &rules::W0421,
             };
-            let help = format!("write `{key}={mended}`");
-            self.report(finding.with_help(help).fix(fix));
+            self.report(shared::read_as(rule, key, given, &canonical()));
         }
     }
 }
 
-fn note_finding(note: Note, given: &str, span: Span) -> Finding {
-    let (rule, message) = match note {
-        Note::Comment => (
-            &rules::W0109,
-            format!("a comment stands behind the value: `{given}`"),
-        ),
-        Note::Octal => (&rules::I0408, format!("`{given}` is read as octal")),
-        Note::NotOctal => (&rules::W0409, format!("`{given}` is read as decimal")),
-        Note::TwosComplement => (
-            &rules::I0410,
-            format!("`{given}` is read as a negative number"),
-        ),
-        Note::NodeId => (
-            &rules::I0411,
-            format!("`{given}` is read as `$NODEID` plus a number"),
-        ),
-        Note::Characters => (
-            &rules::W0419,
-            format!("`{given}` is no string of hexadecimal bytes"),
-        ),
-        Note::Suffix => (&rules::W0420, format!("`{given}` is read as an integer")),
-        Note::BareHex => (&rules::W0422, format!("`{given}` is read as hexadecimal")),
-        Note::Comma => (
-            &rules::W0423,
-            format!("`{given}` is read with a decimal point"),
-        ),
-        Note::Word => (&rules::W0421, format!("`{given}` is read as a number")),
+/// The finding about a value that is none of its type.
+fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
+    let formula = given.to_ascii_uppercase().contains("$NODEID");
+    if formula && !data_type.holds_node_id() {
+        return e0417::finding(key, &*given.value, given.span, data_type);
+    }
+    let rule = match key {
+        Key::DefaultValue => &rules::E0412,
+        Key::ParameterValue => &rules::E0413,
+        _ => &rules::W0416,
     };
-    rule.told(span, message)
+    let finding = match formula {
+        true => shared::unfit_formula(rule, key, given, data_type),
+        false => shared::unfit(rule, key, &*given.value, given.span, data_type),
+    };
+    match key {
+        Key::LowLimit | Key::HighLimit => w0416::emptied(finding),
+        _ => finding,
+    }
 }

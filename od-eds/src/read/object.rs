@@ -6,6 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, ObjectDescription};
+use crate::fact::Key;
 use crate::finding::Finding;
 use crate::fix::Fix;
 use crate::read::compact;
@@ -287,7 +288,7 @@ fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unr
         return SubNumber::Missing;
     };
     let number = reader
-        .number("SubNumber", &given)
+        .number(Key::SubNumber, &given)
         .and_then(|number| u32::try_from(number).ok());
     match number {
         Some(number) => SubNumber::Given(Spanned::new(number, given.span)),

@@ -5,12 +5,11 @@
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
-use alloc::format;
 use alloc::vec::Vec;
 
 use crate::finding::Finding;
 use crate::read::object::Sections;
-use crate::rules;
+use crate::rules::values::i0425;
 use crate::scan::number::{self, number};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
@@ -52,14 +51,8 @@ pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut V
             let Some(found) = code.and_then(|code| own.get(&code)) else {
                 continue;
             };
-            let message = format!("`{}` is a type that the file defines", given.value);
-            log.push(
-                rules::I0425
-                    .told(given.span, message)
-                    .about(Address::new(*index, sub))
-                    .with_label(found.data_type.span, "it stands for this type")
-                    .with_help(format!("write `DataType={}`", found.data_type.value)),
-            );
+            let finding = i0425::finding(&given, &found.data_type);
+            log.push(finding.about(Address::new(*index, sub)));
             section.pairs[at].1.value = found.data_type.value.clone();
             add(section, "LowLimit", &found.low);
             add(section, "HighLimit", &found.high);

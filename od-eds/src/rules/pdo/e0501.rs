@@ -1,7 +1,9 @@
-//! E0501: PDO maps an object that does not exist.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::pdo::shared::mapped;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0501",
@@ -9,5 +11,17 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO maps an object that does not exist",
     why: "The PDO cannot be made.",
     source: "CiA 301, PDO mapping parameter",
+    says: "{object} does not exist",
+    help: "map an object that exists, or add it",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        let index = mapped.target.index;
+        if !mapped.is_dummy() && !object.description.objects.contains_key(&index) {
+            findings.push(mapped.finding(&RULE).fact("object", Fact::Index(index)));
+        }
+    }
+}

@@ -1,7 +1,9 @@
-//! E0502: PDO maps an object that is not mappable.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::fix::Fix;
+use crate::rules::pdo::shared::mapped;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0502",
@@ -10,5 +12,20 @@ pub(crate) static RULE: Rule = Rule {
     why: "PDOMapping=0 forbids it.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
+    says: "{object} \"{name}\" is not mappable",
+    help: "write `{PDOMapping=1}` for {object}, or map another object",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        let Some(value) = mapped.value().filter(|value| !*value.mappable) else {
+            continue;
+        };
+        let fix = Fix::unsafe_fix().replace(value.mappable.span, "1");
+        let finding = mapped.finding(&RULE).fact("object", value.shown());
+        let finding = finding.fact("name", value.name.as_str()).fix(fix);
+        findings.push(finding.related(value.mappable.span.or(value.span), "the object is here"));
+    }
+}

@@ -1,7 +1,8 @@
-//! E0503: PDO maps an object of the wrong direction.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::rules::pdo::shared::mapped;
+use crate::subject::{Entry, Object};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0503",
@@ -9,5 +10,34 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO maps an object of the wrong direction",
     why: "A TPDO carries what can be read (ro, rw, rwr, const), an RPDO what can be written (wo, rw, rww).",
     source: "CiA 306-1, AccessType",
+    says: "{object} \"{name}\" is {access} and not for a TPDO",
+    help: "a TPDO maps ro, rw, rwr and const",
+    also: &[RPDO],
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+/// What an RPDO says.
+const RPDO: Form = Form {
+    says: "{object} \"{name}\" is {access} and not for an RPDO",
+    help: "an RPDO maps wo, rw and rww",
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        let wrong = |value: &Entry<'_>| *value.mappable && !mapped.takes(value);
+        let Some(value) = mapped.value().filter(wrong) else {
+            continue;
+        };
+        let finding = mapped.finding(&RULE).fact("object", value.shown());
+        let finding = finding
+            .fact("name", value.name.as_str())
+            .fact("access", *value.access);
+        let finding = finding.related(value.access.span.or(value.span), "its {AccessType} is here");
+        findings.push(if mapped.rpdo {
+            finding.form(&RPDO)
+        } else {
+            finding
+        });
+    }
+}

@@ -1,7 +1,8 @@
-//! E0504: PDO maps an object with a wrong length.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::rules::pdo::shared::mapped;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0504",
@@ -10,5 +11,18 @@ pub(crate) static RULE: Rule = Rule {
     why: "The last byte of a mapping entry is the object's length in bits.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
+    says: "{object} has {right:bit|bits}, but is mapped with {bits}",
+    help: "write `{entry}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        if let Some(wrong) = mapped.wrong_length()
+            && !wrong.is_boolean(&mapped)
+        {
+            findings.push(wrong.finding(&RULE, &mapped));
+        }
+    }
+}

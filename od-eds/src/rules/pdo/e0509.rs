@@ -1,7 +1,12 @@
-//! E0509: PDO communication parameter lacks COB-ID or transmission type.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
+use crate::fix::Fix;
+use crate::rules::pdo::shared::is_communication;
+use crate::subject::Object;
+use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0509",
@@ -10,5 +15,41 @@ pub(crate) static RULE: Rule = Rule {
     why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
     source: "CiA 301, PDO communication parameter",
     fixability: Fixability::Unsafe,
+    says: "there is no sub-index {sub} ({what})",
+    help: "write {missing}",
+    also: &[TYPE],
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+/// What a value of another type says.
+const TYPE: Form = Form {
+    says: "the {what} must be {right}, but is {given}",
+    help: "write `{DataType={right}}`",
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    if !is_communication(object.index) {
+        return;
+    }
+    for (sub, what, right) in [
+        (1, "COB-ID", DataType::Unsigned32),
+        (2, "transmission type", DataType::Unsigned8),
+    ] {
+        let mut entries = object.entries().filter(|_| object.code.has_members());
+        let Some(entry) = entries.find(|entry| entry.address.sub == sub) else {
+            let finding = RULE
+                .on(object, object.span)
+                .fact("sub", sub)
+                .fact("what", what);
+            findings.push(finding.fact("missing", Fact::Section(object.index, Some(sub))));
+            continue;
+        };
+        if let Some(given) = entry.data_type.filter(|given| **given != right) {
+            let code = format!("0x{:04X}", right.code());
+            let finding = RULE.on(&entry, given.span).form(&TYPE).fact("what", what);
+            let finding = finding.fact("right", right).fact("given", *given);
+            findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, code)));
+        }
+    }
+}

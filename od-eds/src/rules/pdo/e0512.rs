@@ -1,7 +1,9 @@
-//! E0512: PDO maps a sub-index that does not exist.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::pdo::shared::mapped;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0512",
@@ -9,5 +11,20 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO maps a sub-index that does not exist",
     why: "The PDO cannot be made.",
     source: "CiA 301, PDO mapping parameter",
+    says: "{sub} does not exist",
+    help: "map a sub-index that exists, or add it",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        let object = object.description.objects.get(&mapped.target.index);
+        let Some(object) = object.filter(|_| mapped.value().is_none() && !mapped.is_dummy()) else {
+            continue;
+        };
+        let finding = mapped.finding(&RULE).fact("sub", mapped.target);
+        let finding = finding.fact("object", Fact::Index(mapped.target.index));
+        findings.push(finding.related(object.span, "{object} is here"));
+    }
+}

@@ -1,7 +1,9 @@
-//! I0528: PDO carries an object twice.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Info;
-use crate::finding::Rule;
+use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::rules::pdo::shared::mapped;
+use crate::span::Span;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0528",
@@ -9,5 +11,25 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO carries an object twice",
     why: "That is allowed, and hardly ever meant.",
     source: "CiA 301, PDO mapping parameter",
+    says: "this PDO carries the same object twice",
+    help: "map it once, if twice is not meant",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let mut seen: Vec<(u32, Span)> = Vec::new();
+    for mapped in mapped(object) {
+        let same = |(number, _): &&(u32, Span)| *number == mapped.number && number >> 21 != 0;
+        match seen.iter().find(same) {
+            Some((_, first)) => {
+                findings.push(
+                    mapped
+                        .finding(&RULE)
+                        .related(*first, "it is mapped here, too"),
+                );
+            }
+            None => seen.push((mapped.number, mapped.span)),
+        }
+    }
+}

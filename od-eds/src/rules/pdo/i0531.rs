@@ -1,7 +1,8 @@
-//! I0531: COB-ID does not follow the node ID.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Info;
-use crate::finding::Rule;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0531",
@@ -9,5 +10,27 @@ pub(crate) static RULE: Rule = Rule {
     title: "COB-ID does not follow the node ID",
     why: "Two such devices in one network send on one identifier. The first four PDOs usually have $NODEID in their COB-IDs.",
     source: "CiA 301, predefined connection set",
+    says: "{id:03X}h does not follow the node ID",
+    help: "write `$NODEID+0x{base:X}`, if every device has its own",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    for cob_id in cob_ids(description).filter(CobId::is_pdo) {
+        let id = cob_id.identifier;
+        let index = cob_id.entry.address.index;
+        let fixed =
+            description.commissioned_node_id().is_none() && cob_id.entry.parameter.is_none();
+        let predefined = matches!(id, 0x181..=0x57F) && !cob_id.extended;
+        let first_four = matches!(index, 0x1400..=0x1403 | 0x1800..=0x1803);
+        if !cob_id.formula && fixed && predefined && first_four {
+            findings.push(
+                cob_id
+                    .finding(&RULE)
+                    .fact("id", id)
+                    .fact("base", id & 0x780),
+            );
+        }
+    }
+}

@@ -1,5 +1,8 @@
 //! 05: PDOs. One file a rule.
 
+mod cob_ids;
+pub(crate) mod shared;
+
 catalogue! {
     e0501 E0501
     e0502 E0502

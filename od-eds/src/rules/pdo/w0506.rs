@@ -1,7 +1,12 @@
-//! W0506: RPDO maps a dummy that [DummyUsage] does not allow.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::pdo::shared::mapped;
+use crate::scan::number::number;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0506",
@@ -10,5 +15,30 @@ pub(crate) static RULE: Rule = Rule {
     why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
     source: "CiA 306-1, DummyUsage",
     fixability: Fixability::Unsafe,
+    says: "[DummyUsage] does not allow the dummy {dummy}",
+    help: "write `{line}` in [DummyUsage]",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    for mapped in mapped(object) {
+        let rightly = mapped.is_dummy() && mapped.rpdo && mapped.wrong_length().is_none();
+        let key = format!("Dummy{:04X}", mapped.target.index);
+        let usage = object.description.section("DummyUsage");
+        let given = usage.and_then(|usage| usage.get(&key));
+        if !rightly || given.and_then(|given| number(given)) == Some(1) {
+            continue;
+        }
+        let line = format!("{key}=1");
+        let fix = match (given, usage) {
+            (Some(given), _) => Fix::unsafe_fix().replace(given.span, "1"),
+            (None, Some(usage)) => Fix::unsafe_fix().below(usage.name.span, line.as_str()),
+            (None, None) => Fix::unsafe_fix(),
+        };
+        let finding = mapped
+            .finding(&RULE)
+            .fact("dummy", Fact::Index(mapped.target.index));
+        findings.push(finding.fact("line", line).fix(fix));
+    }
+}

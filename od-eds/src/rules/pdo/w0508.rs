@@ -1,7 +1,8 @@
-//! W0508: PDO has only one of its two objects.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0508",
@@ -9,5 +10,23 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO has only one of its two objects",
     why: "A PDO has a communication and a mapping parameter, 200h apart.",
     source: "CiA 301, PDO communication parameter",
+    says: "{object} has no {what} parameter {other}",
+    help: "write {missing}",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let (other, what) = match object.index {
+        0x1400..=0x15FF | 0x1800..=0x19FF => (object.index + 0x200, "mapping"),
+        0x1600..=0x17FF | 0x1A00..=0x1BFF => (object.index - 0x200, "communication"),
+        _ => return,
+    };
+    if !object.description.objects.contains_key(&other) {
+        let finding = RULE
+            .on(object, object.span)
+            .fact("object", Fact::Index(object.index));
+        let finding = finding.fact("what", what).fact("other", Fact::Index(other));
+        findings.push(finding.fact("missing", Fact::Section(other, None)));
+    }
+}

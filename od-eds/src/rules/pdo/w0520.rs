@@ -1,7 +1,8 @@
-//! W0520: COB-ID is kept for another service.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::pdo::cob_ids::cob_ids;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0520",
@@ -9,5 +10,17 @@ pub(crate) static RULE: Rule = Rule {
     title: "COB-ID is kept for another service",
     why: "A PDO, SYNC, TIME or EMCY on an identifier of NMT, SDO, error control or LSS disturbs that service in every device of the network.",
     source: "CiA 301, restricted CAN-IDs",
+    says: "{id:03X}h is an identifier of another service",
+    help: "write an identifier that CiA 301 leaves free, such as 0x181 to 0x57F for PDOs",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    for cob_id in cob_ids(description) {
+        // 0 is how many files say "not used".
+        if cob_id.is_restricted() && !cob_id.is_too_long() && cob_id.identifier != 0 {
+            findings.push(cob_id.finding(&RULE).fact("id", cob_id.identifier));
+        }
+    }
+}

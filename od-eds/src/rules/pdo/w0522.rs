@@ -1,7 +1,8 @@
-//! W0522: identifier has more bits than it says.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0522",
@@ -9,5 +10,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "identifier has more bits than it says",
     why: "Bit 29 of a COB-ID says that the identifier has 29 bits; without it bits 11 to 28 are 0.",
     source: "CiA 301, COB-ID",
+    says: "0x{id:X} has more than 11 bits, and bit 29 is 0",
+    help: "write an identifier up to 0x7FF, or set bit 29 (0x20000000)",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    for cob_id in cob_ids(description).filter(CobId::is_too_long) {
+        findings.push(cob_id.finding(&RULE).fact("id", cob_id.identifier));
+    }
+}

@@ -1,7 +1,8 @@
-//! W0524: mapping counts more than 64 objects.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::pdo::shared::{count, maps_rpdo};
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0524",
@@ -9,5 +10,15 @@ pub(crate) static RULE: Rule = Rule {
     title: "mapping counts more than 64 objects",
     why: "A PDO has 64 bits, so at most 64 objects; 254 and 255 say that it is multiplexed.",
     source: "CiA 301, PDO mapping parameter",
+    says: "{count} objects cannot be mapped into 64 bits",
+    help: "write a number up to 64, or 254 or 255 for a multiplexed PDO",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let is_mapping = maps_rpdo(object.index).is_some() && object.code.has_members();
+    if let (true, Err(given)) = (is_mapping, count(object)) {
+        findings.push(RULE.on(object, given.span).fact("count", given.value));
+    }
+}

@@ -1,7 +1,10 @@
-//! W0526: mapping is finer than the granularity.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::pdo::shared::mapped;
+use crate::scan::number::number;
+use crate::subject::objects;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0526",
@@ -9,5 +12,23 @@ pub(crate) static RULE: Rule = Rule {
     title: "mapping is finer than the granularity",
     why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
     source: "CiA 306-1, DeviceInfo",
+    says: "{bits} bits are mapped, but Granularity is {granularity}",
+    help: "map a multiple of the granularity, or mend it in [DeviceInfo]",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+/// The first such entry is enough: most of a device's mappings are alike.
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let info = description.section("DeviceInfo");
+    let given = info.and_then(|info| number(info.get("Granularity")?));
+    let given = given.and_then(|given| u8::try_from(given).ok());
+    let Some(granularity) = given.filter(|given| (2..=64).contains(given)) else {
+        return;
+    };
+    let mut all = objects(description).flat_map(|object| mapped(&object));
+    if let Some(fine) = all.find(|mapped| !mapped.bits.is_multiple_of(granularity)) {
+        let finding = fine.finding(&RULE).fact("bits", fine.bits);
+        findings.push(finding.fact("granularity", granularity));
+    }
+}

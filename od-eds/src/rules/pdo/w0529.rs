@@ -1,7 +1,9 @@
-//! W0529: PDO waits for SYNC, but there is no 1005h.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::pdo::shared::is_communication;
+use crate::subject::{Object, start_number};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0529",
@@ -9,5 +11,25 @@ pub(crate) static RULE: Rule = Rule {
     title: "PDO waits for SYNC, but there is no 1005h",
     why: "Transmission types 0 to 240, 252 and 253 follow SYNC, whose identifier stands in 1005h.",
     source: "CiA 301, PDO communication parameter",
+    says: "transmission type {given} waits for SYNC, but there is no 1005h",
+    help: "write a section [1005], or another transmission type such as 255",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let description = object.description;
+    if !is_communication(object.index) || description.objects.contains_key(&0x1005) {
+        return;
+    }
+    let address = Address::new(object.index, 2);
+    if let Some(given) = start_number(description, address)
+        && matches!(given.value, 0..=240 | 252 | 253)
+    {
+        findings.push(
+            RULE.on(object, given.span)
+                .about(address)
+                .fact("given", given.value),
+        );
+    }
+}

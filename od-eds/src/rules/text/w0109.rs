@@ -1,7 +1,9 @@
-//! W0109: comment behind a value.
+use alloc::format;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Key;
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0109",
@@ -10,5 +12,17 @@ pub(crate) static RULE: Rule = Rule {
     why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
+    says: "a comment stands behind the value: `{given}`",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };
+
+/// The finding about a value with a comment behind it, which gets a line of its own.
+pub(crate) fn finding(key: Key, given: &Text<'_>, value: &str) -> Finding {
+    let comment = given.get(value.len()..).unwrap_or_default().trim();
+    let comment = format!("{value}\n;{}", &comment[comment.len().min(1)..]);
+    let finding = RULE.at(given.span).key(key).fact("given", &*given.value);
+    finding
+        .fact("right", value)
+        .fix(Fix::safe().replace(given.span, comment))
+}

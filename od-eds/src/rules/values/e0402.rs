@@ -1,7 +1,6 @@
-//! E0402: DataType is no data type.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0402",
@@ -9,5 +8,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "DataType is no data type",
     why: "DataType is the index of one of CiA 301's types. The value is left out of the dictionary.",
     source: "CiA 301, data types",
+    says: "`{given}` is no data type",
+    help: "write the code of a type, for example `0x0007` for UNSIGNED32",
     ..Rule::NEW
 };
+
+/// The finding about a DataType that no type has.
+pub(crate) fn finding(given: &Text<'_>) -> Finding {
+    RULE.at(given.span)
+        .key(Key::DataType)
+        .fact("given", &*given.value)
+}

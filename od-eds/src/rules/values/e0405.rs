@@ -1,7 +1,6 @@
-//! E0405: AccessType is none.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0405",
@@ -9,5 +8,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "AccessType is none",
     why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
     source: "CiA 306-1, object sections",
+    says: "`{given}` is no {AccessType}",
+    help: "write ro, wo, rw, rwr, rww or const; `ro` is taken now",
     ..Rule::NEW
 };
+
+/// The finding about an AccessType that there is not.
+pub(crate) fn finding(given: &Text<'_>) -> Finding {
+    RULE.at(given.span)
+        .key(Key::AccessType)
+        .fact("given", &*given.value)
+}

@@ -1,7 +1,10 @@
-//! E0414: value is outside its limits.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::values::shared::{ABOVE, Outside, outside};
+use crate::span::token_of;
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0414",
@@ -9,5 +12,21 @@ pub(crate) static RULE: Rule = Rule {
     title: "value is outside its limits",
     why: "A device refuses to be set to what its own default is.",
     source: "CiA 306-1, LowLimit and HighLimit",
+    says: "{key} {value} is below {LowLimit} {limit}",
+    help: "write a {key} within the limits, or mend the limit",
+    also: &[ABOVE],
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let fails = outside(entry).filter(fails);
+    findings.extend(fails.map(|outside| outside.finding(&RULE, entry)));
+}
+
+/// A master that configures by a DCF gets an abort; a default is only odd. A value of a macro
+/// call is the author's own to correct.
+pub(super) fn fails(outside: &Outside<'_>) -> bool {
+    let own = |span| token_of(span).is_some();
+    outside.key == Key::ParameterValue || own(outside.value.span) || own(outside.limit.span)
+}

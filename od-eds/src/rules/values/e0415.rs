@@ -1,7 +1,10 @@
-//! E0415: LowLimit is greater than HighLimit.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::fact::{Key, shown};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::fix::Fix;
+use crate::rules::values::shared::{crossed, limits};
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0415",
@@ -10,5 +13,22 @@ pub(crate) static RULE: Rule = Rule {
     why: "No value lies between them.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
+    says: "{LowLimit} {low} is greater than {HighLimit} {high}",
+    help: "swap the two, or leave both empty",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let (low, high) = limits(entry);
+    if let (Some(low), Some(high), true) = (low, high, crossed(low, high)) {
+        let swap = Fix::unsafe_fix()
+            .replace(low.span, shown(high))
+            .replace(high.span, shown(low));
+        let finding = RULE.on(entry, low.span).key(Key::LowLimit);
+        let finding = finding
+            .fact("low", low.value.clone())
+            .fact("high", high.value.clone());
+        findings.push(finding.related(high.span, "{HighLimit} is here").fix(swap));
+    }
+}

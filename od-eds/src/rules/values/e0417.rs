@@ -1,7 +1,12 @@
-//! E0417: $NODEID where it cannot be.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::description::Value;
+use crate::fact::{Fact, Key};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::values::shared::{DECLARED, data_type, values};
+use crate::span::{Span, Spanned};
+use crate::subject::Entry;
+use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0417",
@@ -9,5 +14,34 @@ pub(crate) static RULE: Rule = Rule {
     title: "$NODEID where it cannot be",
     why: "Only an UNSIGNED8, UNSIGNED16, UNSIGNED24 or UNSIGNED32 can depend on the node ID.",
     source: "CiA 306-1, $NODEID",
+    says: "{key} `{given}`: {type} holds no $NODEID",
+    help: "write a number, or `{DataType=0x0007}` (UNSIGNED32)",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let Some(data_type) = data_type(entry).filter(|given| !given.holds_node_id()) else {
+        return;
+    };
+    for (key, value) in values(entry) {
+        if matches!(value.value, Value::NodeId(_)) {
+            let span = value.span.or(entry.span);
+            let finding = finding(key, value.value.clone(), span, data_type);
+            findings.push(finding.about(entry.address));
+        }
+    }
+}
+
+/// The finding about a formula, as it is given, under a type that holds none.
+pub(crate) fn finding(
+    key: Key,
+    given: impl Into<Fact>,
+    span: Span,
+    data_type: Spanned<DataType>,
+) -> Finding {
+    let finding = RULE.at(span).key(key).fact("given", given);
+    finding
+        .fact("type", *data_type)
+        .related(data_type.span, DECLARED)
+}

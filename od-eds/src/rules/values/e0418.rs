@@ -1,7 +1,9 @@
-//! E0418: $NODEID formula does not fit its type for every node ID.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::description::Value;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::values::shared::{DECLARED, data_type, values};
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0418",
@@ -9,5 +11,28 @@ pub(crate) static RULE: Rule = Rule {
     title: "$NODEID formula does not fit its type for every node ID",
     why: "The sum with the highest node ID, 127, must fit.",
     source: "CiA 306-1, $NODEID",
+    says: "{key} `{given}` is {sum} for node 127, which is no {type}",
+    help: "write at most `$NODEID+0x{most:X}`",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let Some(data_type) = data_type(entry).filter(|given| given.holds_node_id()) else {
+        return;
+    };
+    for (key, value) in values(entry) {
+        if let Value::NodeId(offset) = value.value
+            && !value.fits(*data_type)
+        {
+            let high = data_type.integer_range().map_or(0, |(_, high)| high);
+            let finding = RULE.on(entry, value.span).key(key);
+            let finding = finding
+                .fact("given", value.value.clone())
+                .fact("sum", i128::from(offset) + 127)
+                .fact("type", *data_type)
+                .fact("most", high - 127);
+            findings.push(finding.related(data_type.span, DECLARED));
+        }
+    }
+}

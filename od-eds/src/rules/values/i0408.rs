@@ -1,7 +1,4 @@
-//! I0408: number with a leading 0 is octal.
-
-use crate::finding::Severity::Info;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0408",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "`010` is 8. It is read so, as C reads it; not every reader does.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as octal",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

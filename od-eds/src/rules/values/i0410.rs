@@ -1,7 +1,4 @@
-//! I0410: two's complement for a negative number.
-
-use crate::finding::Severity::Info;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0410",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "In a signed type a hexadecimal number may be the bit pattern: FFh is -1 in an INTEGER8. It is read so; not every reader does.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as a negative number",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

@@ -1,7 +1,4 @@
-//! I0411: $NODEID is not written as `$NODEID+n`.
-
-use crate::finding::Severity::Info;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0411",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "Another order, other case or blanks are read the same; not every reader does.",
     source: "CiA 306-1, $NODEID",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as `$NODEID` plus a number",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

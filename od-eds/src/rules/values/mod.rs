@@ -1,5 +1,7 @@
 //! 04: types, values, limits. One file a rule.
 
+pub(crate) mod shared;
+
 catalogue! {
     e0401 E0401
     e0402 E0402

@@ -1,7 +1,4 @@
-//! W0409: number with a leading 0 is not octal.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0409",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as decimal",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

@@ -1,7 +1,13 @@
-//! W0416: limit is no value of its type.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Key;
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::values::shared::{DECLARED, FORMULA, report_unfit};
+use crate::scan::placed::Text;
+use crate::span::Spanned;
+use crate::subject::Entry;
+use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0416",
@@ -10,5 +16,40 @@ pub(crate) static RULE: Rule = Rule {
     why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
+    says: "{key} `{given}` is no {type}",
+    help: "write {form}, or leave it empty",
+    also: &[FORMULA, NO_LIMITS],
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+/// What a limit says whose type has no order.
+const NO_LIMITS: Form = Form {
+    says: "{key} `{given}`: a {type} has no limits",
+    help: "write `{key=}`, or leave the line out",
+};
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let first = findings.len();
+    report_unfit(&RULE, entry, &[Key::LowLimit, Key::HighLimit], findings);
+    for finding in &mut findings[first..] {
+        *finding = emptied(finding.clone());
+    }
+}
+
+/// The finding with a fix: a limit that is no value limits nothing, and others leave it out.
+pub(crate) fn emptied(finding: Finding) -> Finding {
+    match finding.span() {
+        Some(span) => finding.fix(Fix::unsafe_fix().replace(span, "")),
+        None => finding,
+    }
+}
+
+/// The finding about a limit of a type that has none.
+pub(crate) fn no_limits(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
+    let finding = RULE.at(given.span).form(&NO_LIMITS).key(key);
+    let finding = finding
+        .fact("given", &*given.value)
+        .fact("type", *data_type);
+    emptied(finding.related(data_type.span, DECLARED))
+}

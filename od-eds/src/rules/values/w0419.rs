@@ -1,7 +1,4 @@
-//! W0419: byte string is not hexadecimal.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0419",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "An OCTET_STRING or a DOMAIN is written as hexadecimal bytes. The characters are taken for the bytes.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
+    says: "`{given}` is no string of hexadecimal bytes",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

@@ -1,7 +1,4 @@
-//! W0420: number has a suffix or a decimal point.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0420",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "`0x10L` and `5.0` are how other languages write integers. The integer is taken; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as an integer",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

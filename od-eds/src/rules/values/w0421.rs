@@ -1,7 +1,4 @@
-//! W0421: BOOLEAN is neither 0 nor 1.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0421",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "`true` and `false` are words of other formats. They are read as 1 and 0.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as a number",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

@@ -1,7 +1,4 @@
-//! W0423: decimal comma.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0423",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "It is read as a decimal point; many readers refuse it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
+    says: "`{given}` is read with a decimal point",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

@@ -1,7 +1,4 @@
-//! W0424: word where CiA 306 has another.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Fixability, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0424",
@@ -10,5 +7,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "Types and object codes are numbers, PDOMapping is 0 or 1, and AccessType has six words. What is meant is read; many readers refuse it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
+    says: "`{given}` is read as `{right}`",
+    help: "write `{key={right}}`",
     ..Rule::NEW
 };

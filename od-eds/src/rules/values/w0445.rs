@@ -1,7 +1,9 @@
-//! W0445: rwr or rww, but not mappable.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::subject::Entry;
+use od_model::Access;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0445",
@@ -10,5 +12,21 @@ pub(crate) static RULE: Rule = Rule {
     why: "rwr and rww say into which PDO an object may be mapped; of an object that is not mappable they say nothing.",
     source: "CiA 306-1, AccessType",
     fixability: Fixability::Unsafe,
+    says: "`{access}` says which PDO may map it, but it is not mappable",
+    help: "write `{PDOMapping=1}`, or `{AccessType=rw}`",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    if matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable {
+        let fix = match entry.mappable.span.line {
+            0 => Fix::unsafe_fix().below(entry.access.span, "PDOMapping=1"),
+            _ => Fix::unsafe_fix().replace(entry.mappable.span, "1"),
+        };
+        let finding = RULE
+            .on(entry, entry.access.span)
+            .fact("access", *entry.access);
+        findings.push(finding.fix(fix));
+    }
+}

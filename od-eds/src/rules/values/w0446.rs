@@ -1,7 +1,9 @@
-//! W0446: text is not ASCII.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::description::Value;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0446",
@@ -9,5 +11,17 @@ pub(crate) static RULE: Rule = Rule {
     title: "text is not ASCII",
     why: "A VISIBLE_STRING has the characters of ISO 646; on the bus others become whatever the reader takes them for.",
     source: "CiA 301, data types",
+    says: "{odd} is no character of a VISIBLE_STRING",
+    help: "use the characters of ISO 646 (ASCII), from the blank to `~`",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let Some(value) = &entry.default else { return };
+    if let Value::Text(text) = &value.value
+        && let Some(odd) = text.chars().find(|c| !matches!(c, ' '..='~'))
+    {
+        findings.push(RULE.on(entry, value.span).fact("odd", format!("{odd:?}")));
+    }
+}

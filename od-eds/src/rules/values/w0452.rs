@@ -1,7 +1,9 @@
-//! W0452: default is outside its limits.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::values::e0414::fails;
+use crate::rules::values::shared::{ABOVE, outside};
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0452",
@@ -9,5 +11,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "default is outside its limits",
     why: "A device refuses to be set to what its own default is. The default is taken as it is.",
     source: "CiA 306-1, LowLimit and HighLimit",
+    says: "{key} {value} is below {LowLimit} {limit}",
+    help: "write a {key} within the limits, or mend the limit",
+    also: &[ABOVE],
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let odd = outside(entry).filter(|outside| !fails(outside));
+    findings.extend(odd.map(|outside| outside.finding(&RULE, entry)));
+}

@@ -1,7 +1,10 @@
-//! W0453: constant has no value.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::span::Spanned;
+use crate::subject::Entry;
+use od_model::{Access, DataType};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0453",
@@ -9,5 +12,19 @@ pub(crate) static RULE: Rule = Rule {
     title: "constant has no value",
     why: "What is const never changes; without a DefaultValue nobody knows what it is. 0 is taken.",
     source: "CiA 306-1, AccessType",
+    says: "a constant has no {DefaultValue}",
+    help: "write the value, or `{AccessType=ro}` if it can change",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let none = entry.default.is_none() && entry.parameter.is_none();
+    let none = none && !entry.is_unread(Key::DefaultValue);
+    // An empty string is a value, and is not written.
+    let text =
+        |given: Spanned<DataType>| matches!(*given, DataType::VisibleString | DataType::Domain);
+    if *entry.access == Access::Const && none && !entry.data_type.is_some_and(text) {
+        findings.push(RULE.on(entry, entry.access.span));
+    }
+}

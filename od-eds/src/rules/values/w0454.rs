@@ -1,7 +1,9 @@
-//! W0454: mappable, but of no fixed length.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::values::shared::DECLARED;
+use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0454",
@@ -10,5 +12,18 @@ pub(crate) static RULE: Rule = Rule {
     why: "A string or a DOMAIN has no place in a PDO.",
     source: "CiA 301, data types and PDO mapping parameter",
     fixability: Fixability::Unsafe,
+    says: "a {type} has no fixed length, and no place in a PDO",
+    help: "write `{PDOMapping=0}`",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    if let Some(data_type) = entry.data_type.filter(|given| given.bits().is_none())
+        && *entry.mappable
+    {
+        let finding = RULE.on(entry, entry.mappable.span).fact("type", *data_type);
+        let finding = finding.related(data_type.span, DECLARED);
+        findings.push(finding.fix(Fix::unsafe_fix().replace(entry.mappable.span, "0")));
+    }
+}

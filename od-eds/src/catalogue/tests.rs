@@ -1,0 +1,137 @@
+//! Every sentence against the findings that say it: in all cases of this crate and of the tests.
+
+extern crate std;
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::document::Document;
+use crate::rules::RULES;
+
+/// The names of the facts that a text has blanks for; `key` for one that the finding must have.
+fn blanks<'a>(text: &'a str, names: &mut BTreeSet<&'a str>) {
+    for piece in pieces(text) {
+        let Piece::Blank(blank) = piece else { continue };
+        let (name, value) = blank.split_once('=').unwrap_or((blank, ""));
+        let (name, _) = name.split_once(':').unwrap_or((name, ""));
+        blanks(value, names);
+        if Key::of(name).is_none() {
+            names.insert(name);
+        }
+    }
+}
+
+/// Blanks without a fact, and facts without a blank.
+fn gaps(finding: &Finding) -> Vec<String> {
+    let mut names = BTreeSet::new();
+    let labels = finding.related.iter().map(|related| &*related.says);
+    let labels: Vec<&str> = labels.collect();
+    for text in [finding.form.says, finding.form.help]
+        .into_iter()
+        .chain(labels)
+    {
+        blanks(text, &mut names);
+    }
+    let mut facts: BTreeSet<&str> = finding.facts.iter().map(|(name, _)| *name).collect();
+    if finding.key.is_some() && names.contains("key") {
+        facts.insert("key");
+    }
+    let gaps = names.symmetric_difference(&facts);
+    gaps.map(|name| format!("{}: `{name}`", finding.code()))
+        .collect()
+}
+
+fn files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let ending = path.extension().unwrap_or_default();
+        if path.is_dir() {
+            files(&path, found);
+        } else if ["eds", "dcf", "xdd"].iter().any(|known| ending == *known) {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_sentence_is_said_and_filled() {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut paths = Vec::new();
+    files(&crate_folder.join("cases"), &mut paths);
+    files(&crate_folder.join("../tests/cases"), &mut paths);
+    files(&crate_folder.join("../tests/ui"), &mut paths);
+    let mut faults = BTreeSet::new();
+    let mut said: BTreeMap<&str, BTreeSet<(&str, &str)>> = BTreeMap::new();
+    for path in paths {
+        for finding in Document::new(fs::read(path).unwrap()).load().diagnostics {
+            faults.extend(gaps(&finding));
+            let forms = said.entry(finding.code()).or_default();
+            forms.insert((finding.form.says, finding.form.help));
+        }
+    }
+    for rule in RULES.iter().filter(|rule| !rule.code.starts_with("E07")) {
+        let own = (rule.says, rule.help);
+        let also = rule.also.iter().map(|form| (form.says, form.help));
+        for form in core::iter::once(own).chain(also) {
+            if form.0 != "{message}"
+                && !said
+                    .get(rule.code)
+                    .is_some_and(|forms| forms.contains(&form))
+            {
+                faults.insert(format!("{}: no case says {form:?}", rule.code));
+            }
+        }
+        for form in said.get(rule.code).into_iter().flatten() {
+            let known =
+                *form == own || rule.also.iter().any(|also| (also.says, also.help) == *form);
+            if form.0 != "{message}" && !known {
+                faults.insert(format!(
+                    "{}: not a sentence of the rule: {form:?}",
+                    rule.code
+                ));
+            }
+        }
+    }
+    let faults: Vec<String> = faults.into_iter().collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn blanks_are_filled_once() {
+    let rule = &crate::rules::E0415;
+    let finding = rule
+        .finding()
+        .key(Key::LowLimit)
+        .fact("text", "{low}")
+        .fact("count", 1u8);
+    let finding = finding
+        .fact("low", 0x1Fu32)
+        .fact("type", DataType::Unsigned8);
+    for (text, expected) in [
+        ("{text} is {low}", "{low} is 31"),
+        ("0x{low:X} {low:04X}h", "0x1F 001Fh"),
+        (
+            "{count:entry|entries}, {low:entry|entries}",
+            "1 entry, 31 entries",
+        ),
+        (
+            "{key}, {HighLimit}, {key={low}}",
+            "LowLimit, HighLimit, LowLimit=31",
+        ),
+        (
+            "{DataType={type}} is {type}",
+            "DataType=0x0005 is UNSIGNED8",
+        ),
+        ("add {{ … }} }", "add { … } }"),
+        ("{nothing} {low", "{nothing} {low"),
+    ] {
+        let blanks = Blanks {
+            finding: &finding,
+            words: &Eds,
+        };
+        assert_eq!(blanks.fill(text, false), expected);
+    }
+}

@@ -1,0 +1,177 @@
+//! What the rules about PDOs share: the entries of a mapping.
+
+use alloc::vec::Vec;
+
+use od_model::{Address, DataType};
+
+use crate::fact::Fact;
+use crate::finding::{Finding, Rule};
+use crate::span::{Span, Spanned};
+use crate::subject::{Entry, Object, shown, start_number};
+
+/// Does this object hold the mapping of an RPDO? `None` if it holds no mapping.
+pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
+    match index {
+        0x1600..=0x17FF => Some(true),
+        0x1A00..=0x1BFF => Some(false),
+        _ => None,
+    }
+}
+
+/// Is this the communication parameter of a PDO?
+pub(crate) const fn is_communication(index: u16) -> bool {
+    matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)
+}
+
+/// How many objects a mapping says that it maps; an error if so many do not fit into a PDO. 254
+/// and 255 are multiplexed PDOs, of which nothing is known, as of a mapping without a number.
+pub(super) fn count(object: &Object<'_>) -> Result<u8, Spanned<u64>> {
+    let address = Address::new(object.index, 0);
+    let Some(count) = start_number(object.description, address) else {
+        return Ok(0);
+    };
+    match u8::try_from(count.value) {
+        Ok(count @ ..=64) => Ok(count),
+        Ok(254 | 255) => Ok(0),
+        _ => Err(count),
+    }
+}
+
+/// The entries of a mapping that its number counts.
+pub(super) fn counted<'a>(object: &Object<'a>) -> impl Iterator<Item = Entry<'a>> + use<'a> {
+    let is_mapping = maps_rpdo(object.index).is_some() && object.code.has_members();
+    let count = match is_mapping {
+        true => count(object).unwrap_or(0),
+        false => 0,
+    };
+    let entries = object.entries();
+    entries.filter(move |entry| (1..=count).contains(&entry.address.sub))
+}
+
+/// The numbers in those of the entries that can hold one.
+pub(super) fn numbers<'a>(
+    object: &Object<'a>,
+) -> impl Iterator<Item = (Entry<'a>, Spanned<u32>)> + use<'a> {
+    counted(object).filter_map(|entry| {
+        let typed = entry
+            .data_type
+            .is_none_or(|given| *given == DataType::Unsigned32);
+        let number = start_number(entry.description, entry.address).filter(|_| typed)?;
+        let span = number.span.or(entry.span);
+        Some((entry, Spanned::new(u32::try_from(number.value).ok()?, span)))
+    })
+}
+
+/// A mapping entry, and what it maps.
+pub(super) struct Mapped<'a> {
+    pub(super) entry: Entry<'a>,
+    pub(super) span: Span,
+    pub(super) number: u32,
+    /// Into an RPDO?
+    pub(super) rpdo: bool,
+    pub(super) target: Address,
+    pub(super) bits: u8,
+}
+
+/// What a mapping maps.
+pub(super) fn mapped<'a>(object: &Object<'a>) -> Vec<Mapped<'a>> {
+    let rpdo = maps_rpdo(object.index) == Some(true);
+    let numbers = numbers(object).filter(|(_, number)| number.value != 0);
+    let mapped = numbers.map(|(entry, number)| {
+        let [bits, sub, low, high] = number.to_le_bytes();
+        Mapped {
+            entry,
+            span: number.span,
+            number: number.value,
+            rpdo,
+            target: Address::new(u16::from_le_bytes([low, high]), sub),
+            bits,
+        }
+    });
+    mapped.collect()
+}
+
+/// An object that is mapped with another length than it has.
+pub(super) struct WrongLength {
+    /// The object in a sentence.
+    shown: Fact,
+    right: u8,
+    data_type: Option<Spanned<DataType>>,
+}
+
+impl<'a> Mapped<'a> {
+    /// Is a data type mapped, to fill a gap?
+    pub(super) fn is_dummy(&self) -> bool {
+        (1..=0x1F).contains(&self.target.index)
+    }
+
+    /// The value that is mapped; `None` if it is a dummy or does not exist.
+    pub(super) fn value(&self) -> Option<Entry<'a>> {
+        let description = self.entry.description;
+        let object = Object::of(description, self.target.index)?;
+        let mut entries = object.entries().filter(|_| !self.is_dummy());
+        entries.find(|entry| entry.address == self.target)
+    }
+
+    /// Can the value be mapped, and in this direction?
+    pub(super) fn takes(&self, value: &Entry<'_>) -> bool {
+        let direction = match self.rpdo {
+            true => value.access.maps_to_rpdo(),
+            false => value.access.maps_to_tpdo(),
+        };
+        *value.mappable && direction
+    }
+
+    /// The length that it should be mapped with, if that is another; only of what can be mapped.
+    pub(super) fn wrong_length(&self) -> Option<WrongLength> {
+        let (shown, data_type, own) = match self.value() {
+            Some(value) if self.takes(&value) => {
+                let data_type = value.data_type?;
+                (
+                    shown(value.object, self.target),
+                    *data_type,
+                    Some(data_type),
+                )
+            }
+            None if self.is_dummy() && self.rpdo => {
+                let index = self.target.index;
+                (Fact::Index(index), DataType::from_code(index)?, None)
+            }
+            _ => return None,
+        };
+        let right = data_type.bits().filter(|right| *right != self.bits)?;
+        Some(WrongLength {
+            shown,
+            right,
+            data_type: own,
+        })
+    }
+
+    /// A finding about this entry.
+    pub(super) fn finding(&self, rule: &'static Rule) -> Finding {
+        rule.on(&self.entry, self.span)
+    }
+}
+
+impl WrongLength {
+    /// Is it a BOOLEAN in a byte of its own?
+    pub(super) const fn is_boolean(&self, mapped: &Mapped<'_>) -> bool {
+        self.right == 1 && mapped.bits == 8
+    }
+
+    /// The finding of it.
+    pub(super) fn finding(self, rule: &'static Rule, mapped: &Mapped<'_>) -> Finding {
+        let Address { index, sub } = mapped.target;
+        let right = alloc::format!("0x{index:04X}{sub:02X}{:02X}", self.right);
+        let fix = crate::fix::Fix::unsafe_fix().replace(mapped.span, right.as_str());
+        let finding = mapped.finding(rule).fact("object", self.shown);
+        let finding = finding.fact("right", self.right).fact("bits", mapped.bits);
+        let finding = finding.fact("entry", right).fix(fix);
+        match self.data_type {
+            Some(data_type) => finding
+                .fact("type", *data_type)
+                .related(data_type.span, "{type} is declared here"),
+            None => finding,
+        }
+    }
+}

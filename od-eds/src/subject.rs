@@ -1,0 +1,142 @@
+//! What a check is about: one value or one object, with the description it belongs to.
+
+use core::ops::Deref;
+
+use od_model::{Address, ObjectCode};
+
+use crate::description::{Description, EntryDescription, ObjectDescription, Value};
+use crate::fact::{Fact, Key};
+use crate::span::{Span, Spanned};
+
+/// Something in a description that a finding can be about.
+pub(crate) trait Subject {
+    /// The address that the finding gets.
+    fn address(&self) -> Address;
+    /// Where the finding is if its own place is in no text.
+    fn span(&self) -> Span;
+}
+
+/// One value of an object.
+pub(crate) struct Entry<'a> {
+    pub(crate) description: &'a Description,
+    pub(crate) object: &'a ObjectDescription,
+    pub(crate) address: Address,
+    pub(crate) entry: &'a EntryDescription,
+}
+
+impl Deref for Entry<'_> {
+    type Target = EntryDescription;
+    fn deref(&self) -> &EntryDescription {
+        self.entry
+    }
+}
+
+impl Subject for Entry<'_> {
+    fn address(&self) -> Address {
+        self.address
+    }
+    fn span(&self) -> Span {
+        self.entry.span
+    }
+}
+
+impl Entry<'_> {
+    /// Does it have a text under this key that the reader could not make a value of?
+    pub(crate) fn is_unread(&self, key: Key) -> bool {
+        self.extra.iter().any(|(name, _)| key.is(name))
+    }
+
+    /// Its address in a sentence.
+    pub(crate) fn shown(&self) -> Fact {
+        shown(self.object, self.address)
+    }
+}
+
+/// One object.
+pub(crate) struct Object<'a> {
+    pub(crate) description: &'a Description,
+    pub(crate) index: u16,
+    pub(crate) object: &'a ObjectDescription,
+}
+
+impl Deref for Object<'_> {
+    type Target = ObjectDescription;
+    fn deref(&self) -> &ObjectDescription {
+        self.object
+    }
+}
+
+impl Subject for Object<'_> {
+    fn address(&self) -> Address {
+        Address::new(self.index, 0)
+    }
+    fn span(&self) -> Span {
+        self.object.span
+    }
+}
+
+impl<'a> Object<'a> {
+    /// The object at an index.
+    pub(crate) fn of(description: &'a Description, index: u16) -> Option<Self> {
+        let object = description.objects.get(&index)?;
+        Some(Self {
+            description,
+            index,
+            object,
+        })
+    }
+
+    /// Each of its values.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = Entry<'a>> + use<'a> {
+        let (description, index, object) = (self.description, self.index, self.object);
+        object.entries.iter().map(move |(sub, entry)| Entry {
+            description,
+            object,
+            address: Address::new(index, *sub),
+            entry,
+        })
+    }
+}
+
+/// All objects, in order.
+pub(crate) fn objects(description: &Description) -> impl Iterator<Item = Object<'_>> {
+    let objects = description.objects.iter();
+    objects.map(|(index, object)| Object {
+        description,
+        index: *index,
+        object,
+    })
+}
+
+/// Is it the description of a type, without a value?
+pub(crate) fn is_definition(object: &ObjectDescription) -> bool {
+    matches!(
+        *object.code,
+        ObjectCode::Null | ObjectCode::DefType | ObjectCode::DefStruct
+    )
+}
+
+/// An address in a sentence: without sub-index if the object has only one value.
+pub(crate) fn shown(object: &ObjectDescription, address: Address) -> Fact {
+    match !object.code.has_members() && address.sub == 0 {
+        true => Fact::Index(address.index),
+        false => Fact::Object(address),
+    }
+}
+
+/// The value that an entry starts with: a DCF's ParameterValue, else the default.
+pub(crate) fn start_value(entry: &EntryDescription) -> Option<&Spanned<Value>> {
+    entry.parameter.as_ref().or(entry.default.as_ref())
+}
+
+/// The unsigned number that an entry starts with.
+pub(crate) fn start_number(description: &Description, address: Address) -> Option<Spanned<u64>> {
+    let value = start_value(description.entry(address)?)?;
+    match value.value.integer(0) {
+        Some(number) if !matches!(value.value, Value::NodeId(_)) => {
+            let number = u64::try_from(number).ok()?;
+            Some(Spanned::new(number, value.span))
+        }
+        _ => None,
+    }
+}
