@@ -15,6 +15,9 @@ pub enum Led {
 }
 
 impl Led {
+    /// Every one.
+    pub const ALL: [Self; 3] = [Self::Off, Self::Flashing, Self::On];
+
     /// Is it lit at this moment? Every LED of a bench flashes in step, as CiA 303-3 wants.
     pub const fn lit(self, now: Instant) -> bool {
         match self {
@@ -31,13 +34,6 @@ impl Led {
             Self::Flashing => "flashing",
             Self::On => "on",
         }
-    }
-
-    /// The one with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        [Self::Off, Self::Flashing, Self::On]
-            .into_iter()
-            .find(|led| led.name() == name)
     }
 }
 

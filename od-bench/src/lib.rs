@@ -8,12 +8,14 @@
 
 #![forbid(unsafe_code)]
 
+mod bench;
 pub mod bus;
 #[cfg(feature = "eds")]
 mod configured;
 mod device;
 mod eeprom;
 pub mod faults;
+pub mod grammar;
 mod leds;
 pub mod lesson;
 pub mod links;
@@ -23,7 +25,7 @@ pub mod script;
 #[cfg(feature = "serve")]
 pub mod serve;
 pub mod shaft;
-#[cfg(test)]
+#[cfg(all(test, feature = "eds"))]
 mod tests;
 mod view;
 pub mod wire;

@@ -1,13 +1,16 @@
-//! What a checkpoint asks for.
+//! What a checkpoint asks for: its lines, as data.
 
+use std::format;
 use std::prelude::v1::*;
 
-use od_model::Address;
-use od_runtime::AbortCode;
-use od_wire::nmt::Command;
+use od_runtime::Frame;
 
-use crate::leds::Led;
-use crate::script::Pattern;
+use crate::device::VirtualDevice;
+use crate::grammar::fact::Fact;
+use crate::grammar::frames::Frames;
+use crate::grammar::pattern::Pattern;
+use crate::grammar::shown::duration;
+use crate::script::Origin;
 
 /// One line of a checkpoint: one of its alternatives has to hold.
 #[derive(Clone, PartialEq, Debug)]
@@ -21,18 +24,14 @@ pub(super) struct Line {
     pub(super) say: Option<String>,
 }
 
-impl Line {
-    /// Does it wait for a frame, whichever alternative comes?
-    pub(super) fn waits(&self) -> bool {
-        let seen = |one: &Alternative| !one.not && matches!(one.what, What::Seen(_));
-        self.alternatives.iter().all(seen)
-    }
-}
-
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Alternative {
     pub(super) not: bool,
     pub(super) what: What,
+    /// Number or label of the device; `None`: any sender, or the first device.
+    pub(super) device: Option<String>,
+    /// For so many microseconds without a break.
+    pub(super) lasting: u64,
 }
 
 #[derive(Clone, PartialEq, Debug)]
@@ -41,6 +40,10 @@ pub(super) enum What {
     Seen(Seen),
     /// Something is so now.
     Fact(Fact),
+    /// No such frame comes.
+    Quiet(Pattern),
+    /// No frame is disturbed on the bus line.
+    Undisturbed,
 }
 
 /// Who put a frame on the bus.
@@ -56,8 +59,6 @@ pub(super) enum Who {
 pub(super) struct Seen {
     pub(super) who: Who,
     pub(super) what: Frames,
-    /// Number or label of the device that sends it; `None`: any.
-    pub(super) device: Option<String>,
     pub(super) times: u32,
     /// Microseconds from one to the next, at least and at most.
     pub(super) every: Option<(u64, u64)>,
@@ -65,85 +66,86 @@ pub(super) struct Seen {
     pub(super) within: Option<u64>,
 }
 
-#[derive(Clone, PartialEq, Debug)]
-pub(super) enum Frames {
-    Pattern(Pattern),
-    Nmt(Command, Option<u8>),
-    BootUp,
-    Emcy(Option<u16>),
-    Abort(Option<AbortCode>),
-    /// An SDO upload of the object was answered.
-    Read(Address),
-    /// An SDO download of the object was taken.
-    Written(Address),
+impl Line {
+    /// Does it wait for a frame, whichever alternative comes?
+    pub(super) fn waits(&self) -> bool {
+        let seen = |one: &Alternative| !one.not && matches!(one.what, What::Seen(_));
+        self.alternatives.iter().all(seen)
+    }
+
+    /// The line in words, without what is missing of it.
+    pub(super) fn words(&self, devices: &[VirtualDevice], at: impl Fn(&str) -> usize) -> String {
+        if let Some(say) = &self.say {
+            return say.clone();
+        }
+        let words = |one: &Alternative| {
+            let device = devices.get(one.device.as_deref().map_or(0, &at));
+            one.words(devices, device)
+        };
+        let all: Vec<_> = self.alternatives.iter().map(words).collect();
+        let then = if self.then { "after that " } else { "" };
+        format!("{then}{}", all.join(", or "))
+    }
 }
 
-/// What is so at one moment.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct Fact {
-    pub(super) kind: Kind,
-    /// Number or label of the device; `None`: the first.
-    pub(super) device: Option<String>,
-    /// For so many microseconds without a break.
-    pub(super) lasting: u64,
+impl Alternative {
+    fn words(&self, devices: &[VirtualDevice], device: Option<&VirtualDevice>) -> String {
+        let mut text = match &self.what {
+            What::Seen(seen) if self.not => {
+                return format!("meanwhile nobody sends {}", seen.what.words(devices));
+            }
+            What::Seen(seen) => return seen.words(devices, self.device.as_deref()),
+            What::Fact(fact) => {
+                let name = self.device.as_ref();
+                let whose = name.map_or(String::new(), |name| format!(" of device {name}"));
+                fact.words(device, &whose, self.not)
+            }
+            What::Quiet(one) if self.not => format!("`{one}` comes"),
+            What::Quiet(one) => format!("`{one}` no longer comes"),
+            What::Undisturbed => "no frame is disturbed on the bus line".into(),
+        };
+        if self.lasting > 0 {
+            text.push_str(&format!(", for {}", duration(self.lasting)));
+        }
+        text
+    }
 }
 
-#[derive(Clone, PartialEq, Debug)]
-pub(super) enum Kind {
-    /// The value now.
-    Value(Address, Test),
-    /// The value after the next start; `None`: the one it has now.
-    Saved(Address, Option<Test>),
-    /// `operational`, … or `off`.
-    State(&'static str),
-    Led {
-        green: bool,
-        led: Led,
-    },
-    NodeId(Test),
-    /// In kbit/s.
-    BitRate(Test),
-    /// Revolutions since the step began, without their sign.
-    Turned(Test),
-    /// Revolutions a minute.
-    Rpm(Test),
-    Broken(String),
-    /// No such frame comes.
-    Quiet(Pattern),
-    /// No frame is disturbed on the wire.
-    Undisturbed,
-    /// Resistors at the ends of the wire.
-    Terminators(Test),
-}
+impl Seen {
+    /// Is it such a frame? `device` is the number of the device that has to send it.
+    pub(super) fn matches(&self, origin: Origin, device: Option<usize>, frame: &Frame) -> bool {
+        let by = match (self.who, origin) {
+            (Who::Learner, Origin::Script) | (Who::Anybody, _) => true,
+            (Who::Device, Origin::Device(sender)) => device.is_none_or(|wanted| wanted == sender),
+            _ => false,
+        };
+        by && self.what.matches(frame)
+    }
 
-/// How a value is compared.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Test {
-    pub(super) how: How,
-    /// As the lesson writes it.
-    pub(super) text: String,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum How {
-    Equal,
-    Unequal,
-    Below,
-    AtMost,
-    Above,
-    AtLeast,
-    /// `low..high`, both included.
-    Between,
-}
-
-impl How {
-    pub(super) const ALL: [(&'static str, Self); 7] = [
-        ("=", Self::Equal),
-        ("!=", Self::Unequal),
-        ("<", Self::Below),
-        ("<=", Self::AtMost),
-        (">", Self::Above),
-        (">=", Self::AtLeast),
-        ("in", Self::Between),
-    ];
+    fn words(&self, devices: &[VirtualDevice], device: Option<&str>) -> String {
+        let what = self.what.words(devices);
+        let mut text = match (self.who, device, &self.what) {
+            (_, _, Frames::Read(_) | Frames::Written(_)) => what,
+            (Who::Learner, _, _) => format!("you send {what}"),
+            (Who::Device, Some(device), _) => format!("device {device} sends {what}"),
+            (Who::Device, None, _) => format!("a device sends {what}"),
+            (Who::Anybody, ..) => format!("somebody sends {what}"),
+        };
+        if self.times > 1 {
+            text.push_str(&format!(", {} times", self.times));
+        }
+        match self.every {
+            Some((low, high)) if low == high => {
+                text.push_str(&format!(", every {}", duration(low)));
+            }
+            Some((low, high)) => {
+                text.push_str(&format!(", {} to {} apart", duration(low), duration(high)));
+            }
+            None => {}
+        }
+        if let Some(within) = self.within {
+            text.push_str(&format!(", within {}", duration(within)));
+        }
+        text
+    }
 }

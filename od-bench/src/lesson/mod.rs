@@ -16,24 +16,21 @@
 //! assert_eq!(progress.poll(), Some(0), "the first step is done");
 //! ```
 
+mod checkpoint;
 mod condition;
-mod facts;
 mod front;
 mod links;
 mod parse;
-mod parse_condition;
 mod progress;
 mod proof;
 mod quiz;
-mod seen;
 #[cfg(test)]
 mod tests;
 mod watch;
-mod wording;
 
 use std::prelude::v1::*;
 
-pub use crate::script::Problem;
+pub use crate::grammar::problem::Problem;
 pub use progress::{Progress, Requirement};
 pub use proof::prove;
 pub use quiz::{Judgement, Quiz, judge};

@@ -3,8 +3,9 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::{Block, Lesson, Problem, Quiz, Step, front, links, parse_condition};
-use crate::script::{Pattern, Script};
+use super::{Block, Lesson, Problem, Quiz, Step, checkpoint, front, links};
+use crate::grammar::pattern::Pattern;
+use crate::script::Script;
 
 /// A lesson is a text for people; what is longer is something else.
 const LONGEST: usize = 256 * 1024;
@@ -148,7 +149,7 @@ impl Reader {
             "Predict" => {
                 step.quiz = Some(Quiz {
                     question: String::new(),
-                    answer: Pattern::nothing(),
+                    answer: Pattern::NOTHING,
                     reveal: String::new(),
                     line: 0,
                 });
@@ -240,7 +241,7 @@ impl Reader {
             return;
         };
         for (number, text) in (fence.line..).zip(&fence.lines) {
-            match parse_condition::line(number, text, step.checkpoint.last()) {
+            match checkpoint::line(number, text, step.checkpoint.last()) {
                 Ok(line) => step.checkpoint.extend(line),
                 Err(problem) => self.problems.push(problem),
             }

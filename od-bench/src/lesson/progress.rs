@@ -6,11 +6,13 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
 
-use super::condition::{Alternative, Fact, Kind, Line, What};
+use super::condition::{Alternative, Line, What};
 use super::{Lesson, Step};
+use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::script::{Bench, Origin};
+use crate::grammar::fact::Fact;
+use crate::script::Origin;
 
 /// One thing that the present step asks for.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -162,7 +164,7 @@ impl Progress {
                     continue;
                 };
                 match &one.what {
-                    What::Seen(seen) if seen.matches(origin, device(&seen.device), frame) => {
+                    What::Seen(seen) if seen.matches(origin, device(&one.device), frame) => {
                         if one.not {
                             again = true;
                             continue;
@@ -176,10 +178,7 @@ impl Progress {
                         }
                         note.count(at, seen.times, seen.every);
                     }
-                    What::Fact(Fact {
-                        kind: Kind::Quiet(pattern),
-                        ..
-                    }) if pattern.matches(frame) => note.last = Some(at),
+                    What::Quiet(pattern) if pattern.matches(frame) => note.last = Some(at),
                     _ => {}
                 }
             }
@@ -201,8 +200,7 @@ impl Progress {
             let mut any = false;
             for (one, note) in line.alternatives.iter().zip(notes) {
                 // What has to last is looked at each time; the rest only where it decides.
-                let lasts = matches!(&one.what, What::Fact(fact) if fact.lasting > 0);
-                if lasts || (all && !any) {
+                if one.lasting > 0 || (all && !any) {
                     let device = device_of(&self.devices, one);
                     let turns = self.turns.get(device).copied().flatten();
                     any |= holds(one, note, bus, device, turns, since).0;
@@ -254,8 +252,7 @@ impl Progress {
         let mut found = Vec::new();
         for line in self.lesson.steps.iter().flat_map(|step| &step.checkpoint) {
             for one in &line.alternatives {
-                let name = one.device();
-                if let Some(name) = name
+                if let Some(name) = &one.device
                     && number(&self.devices, Some(name)).is_none()
                 {
                     found.push((line.line, format!("the set-up has no device `{name}`")));
@@ -288,21 +285,12 @@ impl Note {
     }
 }
 
-impl Alternative {
-    fn device(&self) -> Option<&str> {
-        match &self.what {
-            What::Seen(seen) => seen.device.as_deref(),
-            What::Fact(fact) => fact.device.as_deref(),
-        }
-    }
-}
-
 impl Lesson {
     fn devices_named(&self) -> impl Iterator<Item = &str> {
         let lines = self.steps.iter().flat_map(|step: &Step| &step.checkpoint);
         lines
             .flat_map(|line| &line.alternatives)
-            .filter_map(Alternative::device)
+            .filter_map(|one| one.device.as_deref())
     }
 }
 
@@ -314,7 +302,7 @@ fn number(devices: &[(String, usize)], name: Option<&str>) -> Option<usize> {
 
 /// The device that a fact is about: the first, where none is named.
 fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
-    number(devices, one.device()).unwrap_or(0)
+    number(devices, one.device.as_deref()).unwrap_or(0)
 }
 
 /// Does it hold, and how does it stand?
@@ -336,19 +324,24 @@ fn holds(
             };
             return (note.done.is_some(), state);
         }
+        What::Quiet(_) | What::Undisturbed => {
+            let last = match one.what {
+                What::Undisturbed => disturbed,
+                _ => note.last,
+            };
+            let since = last.map_or(began, |last| last.max(began));
+            let quiet = now.micros_since(since) >= one.lasting;
+            return (quiet != one.not, String::new());
+        }
         What::Fact(fact) => fact,
     };
-    if matches!(fact.kind, Kind::Quiet(_) | Kind::Undisturbed) {
-        let last = match fact.kind {
-            Kind::Undisturbed => disturbed,
-            _ => note.last,
-        };
-        let since = last.map_or(began, |last| last.max(began));
-        let quiet = now.micros_since(since) >= fact.lasting;
-        return (quiet != one.not, String::new());
-    }
+    let is_powered = |device: &VirtualDevice| device.is_powered();
+    let without_power = !bus.devices().get(device).is_none_or(is_powered);
     let (is, state) = match fact.look(bus, device, turns) {
-        Ok((is, state)) => (is != one.not, state),
+        Ok(_) if without_power && matches!(fact, Fact::Value(..)) => {
+            (one.not, "the device has no power".into())
+        }
+        Ok(found) => (found.holds != one.not, format!("it is {}", found.now)),
         Err(why) => (false, why),
     };
     if !is {
@@ -356,5 +349,5 @@ fn holds(
         return (false, state);
     }
     let since = *note.since.get_or_insert(now);
-    (now.micros_since(since) >= fact.lasting, state)
+    (now.micros_since(since) >= one.lasting, state)
 }

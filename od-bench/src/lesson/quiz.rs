@@ -4,8 +4,8 @@ use std::prelude::v1::*;
 use std::vec;
 
 use super::Problem;
+use crate::grammar::pattern::Pattern;
 use crate::logs::candump;
-use crate::script::Pattern;
 
 /// A question, its answer, and why.
 #[derive(Clone, PartialEq, Eq, Debug)]

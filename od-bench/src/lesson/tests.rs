@@ -2,8 +2,8 @@ use std::format;
 use std::string::ToString;
 
 use super::*;
+use crate::grammar::pattern::Pattern;
 use crate::script::Bare;
-use crate::script::Pattern;
 
 const GOOD: &str = "\
 +++
@@ -99,26 +99,30 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "device gxmm node 5",
         "device gxmm node 500",
-        "9:18: `500` does not fit",
+        "9:18: `500` is not valid",
     );
     check("```set-up", "```setup", "1:1: the lesson has no set-up");
     check("## Start it", "Start it", "1:1: the lesson has no step");
     check(
         "state operational",
         "state flying",
-        "18:7: there is no state `flying`",
+        "18:7: state `flying` does not exist",
     );
     check(
         "state operational",
         "stat operational",
-        "18:1: `stat` is no condition",
+        "18:1: `stat` is not a condition",
     );
     check(
         "state operational",
-        "value 1017h=5",
-        "18:7: an object is missing",
+        "value = 5",
+        "18:7: the object is missing",
     );
-    check("state operational", "came 705", "18:6: `705` is no frame");
+    check(
+        "state operational",
+        "came 705",
+        "18:6: `705` is not a frame",
+    );
     check(
         "state operational",
         "came 705#05 within 1s",
@@ -127,18 +131,22 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "state operational",
         "state off\nthen came 705#05",
-        "19:1: `then` stands between",
+        "19:1: `then` needs a frame before",
     );
     check(
         "state operational",
         "not came 1F",
-        "18:10: `1F` is no frame",
+        "18:10: `1F` is not a frame",
     );
-    check("state operational", "quiet 705#*", "18:1: how long; write");
+    check(
+        "state operational",
+        "quiet 705#*",
+        "18:1: the duration is missing; write",
+    );
     check(
         "state operational",
         "state operational --",
-        "18:21: there are no words",
+        "18:21: the words behind `--` are missing",
     );
     check("### Hint", "### Tip", "27:1: there is no part `Tip`");
     check(
@@ -155,7 +163,7 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "```solution",
         "```solution\nnmt explode",
-        "34:5: there is no NMT command",
+        "34:5: NMT command `explode` does not exist",
     );
 }
 
@@ -169,7 +177,7 @@ fn what_does_not_work_is_found() {
     check(
         "state operational",
         "value 2FF0h = 1",
-        "18:1: there is no object 2FF0h:00",
+        "18:1: object 2FF0h does not exist",
     );
     check(
         "state operational",
@@ -184,12 +192,12 @@ fn what_does_not_work_is_found() {
     check(
         "state operational",
         "broken overspeed",
-        "18:1: this device has no fault",
+        "18:1: this device does not support the fault",
     );
     check(
         "state operational",
         "saved 6004h = 1",
-        "18:1: 6004h:00 is not kept",
+        "18:1: 6004h:00 is not saved",
     );
     check(
         "1017h",

@@ -2,18 +2,15 @@
 //! outside the bus. What is expected belongs to scripts alone.
 
 use std::collections::VecDeque;
-use std::format;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant};
-use od_wire::nmt;
 
-use super::Problem;
-use super::parse::statement;
-use super::statement::{Action, Power, When};
-use super::words::Words;
-use crate::bus::Bus;
-use crate::device::VirtualDevice;
+use super::read::Reader;
+use crate::bench::Bench;
+use crate::grammar::action::{Action, When};
+use crate::grammar::deed::Deed;
+use crate::grammar::problem::Problem;
 
 /// Lines that wait for their moment; more are refused.
 const MOST: usize = 100_000;
@@ -21,33 +18,30 @@ const MOST: usize = 100_000;
 /// Takes lines and carries them out in order, each at its moment.
 ///
 /// ```
-/// use od_bench::script::Console;
+/// use od_bench::script::{Bench, Console};
 /// use od_bench::{Bus, VirtualDevice};
 /// use od_runtime::NodeId;
 ///
 /// let mut bus = Bus::new();
 /// bus.add(VirtualDevice::new(od_devices::find("gxmm").unwrap(), NodeId::ONE));
+/// let mut bench = Bench::new(bus);
 /// let mut console = Console::default();
 /// console.push("power on").unwrap();
-/// while let Some(done) = console.step(&mut bus) {
+/// while let Some(done) = console.step(&mut bench) {
 ///     done.unwrap();
 /// }
-/// assert!(bus.devices()[0].is_powered());
+/// assert!(bench.bus.devices()[0].is_powered());
 /// ```
 #[derive(Debug, Default)]
 pub struct Console {
-    /// Where the time stamps of a log begin.
-    origin: Option<u64>,
-    line: u32,
-    lines: VecDeque<(When, Action)>,
-    /// Device that lines are about.
-    current: usize,
+    reader: Reader,
+    lines: VecDeque<(When, Deed)>,
     /// When the line before was done.
     done: Option<Instant>,
     /// When it was first asked for something to do: stamps and `at` count from it.
     start: Option<Instant>,
     /// The rest of a line that takes time.
-    rest: VecDeque<(Instant, Action)>,
+    rest: Option<(Instant, Deed)>,
 }
 
 impl Console {
@@ -56,33 +50,35 @@ impl Console {
     /// # Errors
     /// What is wrong with it and what may stand there instead; nothing of it is done then.
     pub fn push(&mut self, text: &str) -> Result<(), Problem> {
-        self.line = self.line.saturating_add(1);
-        let words = Words::new(self.line, text.trim_start_matches('\u{feff}'));
-        if words.is_empty() {
+        let Some(statement) = self.reader.statement(text)? else {
             return Ok(());
-        }
-        let start = words;
-        let (when, action) = statement(words, &mut self.origin)?;
-        let only =
-            "frames, nmt, sync, power, shaft, switch, fault, bus, line, use and wait stand here";
-        if !is_for_a_live_bench(&action) {
-            return Err(start.problem("only a script can do that", only));
-        }
+        };
+        let Action::Deed(deed) = statement.action else {
+            return Err(Problem::new(
+                statement.line,
+                "only a script can do that",
+                "write it in a file for `odkit run`",
+            ));
+        };
         if self.lines.len() >= MOST {
-            return Err(start.problem("too many lines wait for their moment", "send fewer at once"));
+            return Err(Problem::new(
+                statement.line,
+                "too many lines wait for their moment",
+                "send fewer at once",
+            ));
         }
-        self.lines.push_back((when, action));
+        self.lines.push_back((statement.when, deed));
         Ok(())
     }
 
     /// Has everything been carried out?
     pub fn is_idle(&self) -> bool {
-        self.lines.is_empty() && self.rest.is_empty()
+        self.lines.is_empty() && self.rest.is_none()
     }
 
     /// When [`step`](Self::step) is due, seen from `now`.
     pub fn deadline(&self, now: Instant) -> Option<Instant> {
-        if let Some((at, _)) = self.rest.front() {
+        if let Some((at, _)) = &self.rest {
             return Some(*at);
         }
         let (when, _) = self.lines.front()?;
@@ -102,135 +98,33 @@ impl Console {
     /// sends is handed back; who calls puts it on the bus.
     ///
     /// The error says why a line could not be carried out; those after it still can.
-    pub fn step(&mut self, bus: &mut Bus) -> Option<Result<Option<Frame>, String>> {
-        let now = bus.now();
+    pub fn step(&mut self, bench: &mut Bench) -> Option<Result<Option<Frame>, String>> {
+        let now = bench.bus.now();
         self.start.get_or_insert(now);
         self.done.get_or_insert(now);
-        let (at, queue_of_rest) = match (self.rest.front(), self.lines.front()) {
-            (Some((at, _)), _) => (*at, true),
-            (None, Some((when, _))) => (self.moment(*when, now), false),
-            (None, None) => return None,
-        };
-        if at > now {
+        if self.deadline(now)? > now {
             return None;
         }
-        let action = match queue_of_rest {
-            true => self.rest.pop_front()?.1,
-            false => self.lines.pop_front()?.1,
+        let deed = match self.rest.take() {
+            Some((_, deed)) => deed,
+            None => self.lines.pop_front()?.1,
         };
         self.done = Some(now);
-        Some(self.act(&action, bus))
-    }
-
-    fn act(&mut self, action: &Action, bus: &mut Bus) -> Result<Option<Frame>, String> {
-        let now = bus.now();
-        match action {
-            Action::Use(name) => self.current = device_named(bus, name)?,
-            Action::Send {
-                frame,
-                times,
-                every,
-            } => {
-                if let Some(times) = times.checked_sub(1).filter(|times| *times > 0) {
-                    let again = Action::Send {
-                        frame: *frame,
-                        times,
-                        every: *every,
-                    };
-                    self.rest.push_front((now.plus_micros(*every), again));
-                }
-                return Ok(Some(*frame));
-            }
-            Action::Nmt { command, node } => {
-                let own = self.world(bus, |device, _| device.node_id().raw())?;
-                let repr = nmt::Repr {
-                    command: *command,
-                    node: node.unwrap_or(own),
-                };
-                return Ok(Some(Frame::standard(0, &repr.emit())));
-            }
-            Action::Power(Power::Cycle(micros)) => {
-                self.supply(bus, false)?;
-                let on = Action::Power(Power::On);
-                self.rest.push_front((now.plus_micros(*micros), on));
-            }
-            Action::Power(Power::On) => self.supply(bus, true)?,
-            Action::Power(Power::Off) => self.supply(bus, false)?,
-            Action::Shaft(shaft) => {
-                let turned = self.world(bus, |device, now| shaft.act(device, now))?;
-                if !turned {
-                    return Err("this device has no shaft".into());
-                }
-            }
-            Action::SwitchNode(number) => {
-                self.world(bus, |device, now| device.set_node_switch(*number, now))?;
-            }
-            Action::SwitchBitrate(number) => {
-                self.world(bus, |device, now| device.set_bitrate_switch(*number, now))?;
-            }
-            Action::Fault { name, on } => {
-                let known = self.world(bus, |device, now| device.set_fault(name, *on, now))?;
-                if !known {
-                    return Err(format!("this device has no fault `{name}`"));
-                }
-            }
-            Action::Bus(event) => self.world(bus, |device, now| device.handle_bus(*event, now))?,
-            Action::Line(wire) => {
-                self.world(bus, |_, _| ())?;
-                wire.act(&mut bus.line, self.current);
-            }
-            // A line that only waits; `push` lets nothing else in.
-            _ => {}
-        }
-        Ok(None)
-    }
-
-    fn supply(&self, bus: &mut Bus, on: bool) -> Result<(), String> {
-        self.world(bus, |_, _| ())?;
-        bus.set_power(self.current, on);
-        Ok(())
-    }
-
-    fn world<R>(
-        &self,
-        bus: &mut Bus,
-        act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
-    ) -> Result<R, String> {
-        bus.with(self.current, act)
-            .ok_or_else(|| format!("there is no device {}", self.current + 1))
-    }
-}
-
-fn is_for_a_live_bench(action: &Action) -> bool {
-    matches!(
-        action,
-        Action::Use(_)
-            | Action::Send { .. }
-            | Action::Nmt { .. }
-            | Action::Power(_)
-            | Action::Shaft(_)
-            | Action::SwitchNode(_)
-            | Action::SwitchBitrate(_)
-            | Action::Fault { .. }
-            | Action::Bus(_)
-            | Action::Line(_)
-            | Action::Wait
-    )
-}
-
-/// The device with this number, counted from 1, in the order of the command line.
-fn device_named(bus: &Bus, name: &str) -> Result<usize, String> {
-    let count = bus.devices().len();
-    match name.parse::<usize>() {
-        Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
-        _ => Err(format!("the devices are called 1 to {count}")),
+        let result = deed.act(bench);
+        // What did not work is not done again.
+        let rest = deed.rest().filter(|_| result.is_ok());
+        self.rest = rest.map(|(micros, rest)| (now.plus_micros(micros), rest));
+        Some(result)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bus::Bus;
+    use crate::device::VirtualDevice;
     use od_runtime::NodeId;
+    use std::format;
     use std::string::ToString;
 
     /// What the devices send while these lines are carried out, up to 10 s.
@@ -243,26 +137,27 @@ mod tests {
                 NodeId::new(node).expect("1 to 127"),
             ));
         }
+        let mut bench = Bench::new(bus);
         let mut console = Console::default();
         for line in lines {
             console.push(line).expect("a line");
         }
         let mut out = String::new();
         loop {
-            while let Some(done) = console.step(&mut bus) {
+            while let Some(done) = console.step(&mut bench) {
                 match done {
                     Ok(Some(frame)) => {
-                        bus.receive(&frame);
+                        bench.bus.receive(&frame);
                     }
                     Ok(None) => {}
                     Err(why) => out.push_str(&why),
                 }
-                while let Some(sent) = bus.poll() {
+                while let Some(sent) = bench.bus.poll() {
                     out.push_str(&format!("{:?} {}\n", sent.at, sent.frame));
                 }
             }
-            match console.deadline(bus.now()) {
-                Some(at) => bus.advance(at),
+            match console.deadline(bench.bus.now()) {
+                Some(at) => bench.bus.advance(at),
                 None => return out,
             }
         }
@@ -297,13 +192,17 @@ mod tests {
             ("expect 701#00", "only a script"),
             ("device gxmm", "only a script"),
             ("sdo read 1000h", "only a script"),
-            ("hello", "begins no statement"),
+            ("hello", "is not a verb"),
             ("601#4", "half a byte"),
         ] {
             let problem = console.push(line).expect_err("no such line here");
             assert!(problem.to_string().contains(why), "{line}: {problem}");
         }
         assert!(console.is_idle());
-        assert_eq!(run(&["use 3"]), "the devices are called 1 to 2");
+        assert_eq!(
+            run(&["use 3"]),
+            "device `3` does not exist; write its number, 1 to 2, or the name behind `as` in its \
+             `device` line"
+        );
     }
 }

@@ -3,15 +3,12 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_runtime::{AbortCode, Frame};
-use od_wire::sdo;
-
-use super::Pattern;
 use super::run::{Result, Runner, failed, impossible};
-use super::statement::{Expect, Timing};
 use crate::bus::Sent;
-use crate::leds::Led;
-use od_model::values;
+use crate::grammar::action::{Expect, Timing};
+use crate::grammar::fact::Fact;
+use crate::grammar::frames::Frames;
+use crate::grammar::shown::duration;
 
 /// So far ahead a failed expectation looks, to say what would have come.
 const LOOK_AHEAD: u64 = 10_000_000;
@@ -20,84 +17,48 @@ impl Runner<'_> {
     pub(super) fn expect(&mut self, expect: &Expect) -> Result<()> {
         match expect {
             Expect::Frame {
-                pattern,
+                frames,
                 times,
                 timing,
             } => {
                 for _ in 0..*times {
-                    self.frame(&Wanted::Frame(pattern), *timing)?;
+                    self.frame(frames, *timing)?;
                     self.held += 1;
                 }
                 return Ok(());
             }
-            Expect::Abort { code, timing } => self.frame(&Wanted::Abort(*code), *timing)?,
             Expect::Silence(micros) => self.silence(*micros)?,
-            Expect::State(name) => {
-                let device = self.device();
-                let state = match device.is_powered() {
-                    true => device.state().name().to_lowercase(),
-                    false => String::from("off"),
-                };
-                if state != *name {
-                    return failed(format!("state {name}"), format!("the state is {state}"));
-                }
-            }
-            Expect::Value { object, value } => {
-                let (data_type, bytes) = self.value(object)?;
-                let wanted = match values::parse(data_type, value) {
-                    Ok(wanted) => wanted,
-                    Err(why) => return impossible(why),
-                };
-                if wanted != bytes {
-                    return failed(
-                        format!("{object} = {}", values::show(data_type, &wanted)),
-                        format!("it is {}", values::show(data_type, &bytes)),
-                    );
-                }
-            }
-            Expect::Led { green, led } => self.led(*green, *led)?,
-            Expect::BitRate(wanted) => match self.device().bit_rate() {
-                Some(rate) if rate == *wanted => {}
-                Some(rate) => {
-                    return failed(format!("{wanted} kbit/s"), format!("it is {rate} kbit/s"));
-                }
-                None => return impossible("this device has no bit rate of its own"),
-            },
+            Expect::Fact(fact) => self.fact(fact)?,
         }
         self.held += 1;
         Ok(())
     }
 
-    fn led(&self, green: bool, wanted: Led) -> Result<()> {
-        if !self.device().has_leds() {
-            return impossible("this device has no LED");
+    fn fact(&mut self, fact: &Fact) -> Result<()> {
+        let bench = &mut *self.bench;
+        let found = fact.look(&mut bench.bus, bench.current, None);
+        self.collect();
+        let found = found.or_else(impossible)?;
+        match found.holds {
+            true => Ok(()),
+            false => failed(
+                fact.words(Some(self.device()?), "", false),
+                format!("it is {}", found.now),
+            ),
         }
-        let leds = self.device().leds();
-        let (colour, led) = if green {
-            ("green", leds.0)
-        } else {
-            ("red", leds.1)
-        };
-        if led == wanted {
-            return Ok(());
-        }
-        failed(
-            format!("the {colour} LED is {}", wanted.name()),
-            format!("it is {}", led.name()),
-        )
     }
 
     fn silence(&mut self, micros: u64) -> Result<()> {
         self.pass_greetings(|_| false);
-        self.advance_until_pending(self.bus.now().plus_micros(micros));
+        self.advance_until_pending(self.now().plus_micros(micros));
         match self.pending.front().copied() {
             None => Ok(()),
             Some(sent) => failed("silence", self.came(&sent)),
         }
     }
 
-    fn frame(&mut self, wanted: &Wanted<'_>, timing: Timing) -> Result<()> {
-        let from = self.bus.now();
+    fn frame(&mut self, wanted: &Frames, timing: Timing) -> Result<()> {
+        let from = self.now();
         let (until, when, exact) = match timing {
             Timing::Now => (from, String::new(), None),
             Timing::Within(micros) => (
@@ -111,34 +72,30 @@ impl Runner<'_> {
             }
         };
         self.advance_until_pending(until);
-        self.pass_greetings(|frame| wanted.is(frame));
+        self.pass_greetings(|frame| wanted.matches(frame));
         self.advance_until_pending(until);
         let wanted_text = format!("{wanted}{when}");
         let Some(sent) = self.pending.pop_front() else {
             let ahead = self.look_ahead();
             return failed(wanted_text, ahead);
         };
-        if wanted.is(&sent.frame) && exact.is_none_or(|at| at == sent.at) {
+        if wanted.matches(&sent.frame) && exact.is_none_or(|at| at == sent.at) {
             return Ok(());
         }
         failed(wanted_text, self.came(&sent))
     }
 
     fn came(&self, sent: &Sent) -> String {
-        let words = crate::words::explain(self.bus.devices(), &sent.frame);
+        let words = crate::words::explain(self.bench.bus.devices(), &sent.frame);
         format!("({:?}) {} came: {words}", sent.at, sent.frame)
     }
 
     /// Nothing came; what would come later?
     fn look_ahead(&mut self) -> String {
-        let now = self.bus.now();
+        let now = self.now();
         let far = now.plus_micros(LOOK_AHEAD);
-        match self
-            .bus
-            .advance_until_sent(far)
-            .then(|| self.bus.poll())
-            .flatten()
-        {
+        let bus = &mut self.bench.bus;
+        match bus.advance_until_sent(far).then(|| bus.poll()).flatten() {
             Some(sent) => {
                 let later = duration(sent.at.micros_since(now));
                 format!(
@@ -147,45 +104,6 @@ impl Runner<'_> {
                 )
             }
             None => format!("nothing came by {now:?} s, nor in the 10 s after it"),
-        }
-    }
-}
-
-/// Microseconds as a script writes them.
-pub(crate) fn duration(micros: u64) -> String {
-    match (micros % 1_000_000, micros % 1000) {
-        (0, _) if micros > 0 => format!("{}s", micros / 1_000_000),
-        (_, 0) => format!("{}ms", micros / 1000),
-        _ => format!("{micros}us"),
-    }
-}
-
-/// What a frame has to be.
-enum Wanted<'w> {
-    Frame(&'w Pattern),
-    Abort(AbortCode),
-}
-
-impl Wanted<'_> {
-    fn is(&self, frame: &Frame) -> bool {
-        match self {
-            Self::Frame(pattern) => pattern.matches(frame),
-            Self::Abort(wanted) => {
-                let id = frame.id().as_standard();
-                let answer = id.is_some_and(|id| (0x581..=0x5FF).contains(&id)) && frame.dlc() == 8;
-                let response = sdo::Response::parse(frame.bytes());
-                answer
-                    && matches!(response, sdo::Response::Abort { code, .. } if code == wanted.code())
-            }
-        }
-    }
-}
-
-impl core::fmt::Display for Wanted<'_> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Frame(pattern) => pattern.fmt(f),
-            Self::Abort(code) => write!(f, "SDO abort {code}"),
         }
     }
 }

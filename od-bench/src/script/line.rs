@@ -6,10 +6,10 @@ use od_model::{Address, DataType, values};
 use od_wire::sdo::Request;
 use od_wire::{Frame, NodeId, nmt};
 
-use super::Problem;
-use super::parse::command;
 use super::typed;
-use super::words::Words;
+use crate::grammar::names::nmt_command;
+use crate::grammar::problem::Problem;
+use crate::grammar::tokens::Tokens;
 use crate::logs::candump;
 
 /// What a line may refer to.
@@ -29,7 +29,7 @@ pub struct Known<'k> {
 /// # Errors
 /// What is wrong with it and what to write instead.
 pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
-    let start = Words::new(1, text);
+    let start = Tokens::new(1, text);
     let mut words = start;
     let mut verb = words.next().to_ascii_lowercase();
     if verb == "sdo" {
@@ -48,12 +48,8 @@ pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
             }
         }
         "nmt" => {
-            let command = command(&mut words)?;
-            let node = match words.is_empty() {
-                true => known.node.raw(),
-                false if words.take("all") => 0,
-                false => words.number(0, 127)? as u8,
-            };
+            let (command, node) = nmt_command(&mut words)?;
+            let node = node.unwrap_or(known.node.raw());
             Frame::standard(0, &nmt::Repr { command, node }.emit())
         }
         "read" => {
@@ -67,7 +63,7 @@ pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
     Ok(frame)
 }
 
-fn typed_or_logged(text: &str, start: Words<'_>) -> Result<Frame, Problem> {
+fn typed_or_logged(text: &str, start: Tokens<'_>) -> Result<Frame, Problem> {
     typed::frame(text).or_else(|error| {
         // A line of a log has a time or an interface.
         let line = candump::parse_line(text).map(|line| line.frame);
@@ -76,7 +72,7 @@ fn typed_or_logged(text: &str, start: Words<'_>) -> Result<Frame, Problem> {
 }
 
 /// `6001h = 4096`.
-fn write(mut words: Words<'_>, known: &Known<'_>) -> Result<Frame, Problem> {
+fn write(mut words: Tokens<'_>, known: &Known<'_>) -> Result<Frame, Problem> {
     let start = words;
     let object = words
         .split_at_equals()
@@ -104,7 +100,7 @@ fn request(node: NodeId, request: Request) -> Frame {
     Frame::full(node.plus(0x600), request.emit())
 }
 
-fn address(words: Words<'_>) -> Result<Address, Problem> {
+fn address(words: Tokens<'_>) -> Result<Address, Problem> {
     let text = words.rest();
     let message = || format!("an object is written as 6004 or 1018:01, not `{text}`");
     values::address(text).ok_or_else(|| words.problem(message(), "write the address of an object"))
@@ -154,7 +150,7 @@ mod tests {
             ("read position", "written as 6004"),
             ("write 6004 = 1", "not in the dictionary"),
             ("write 6001 = x", "not a whole number"),
-            ("sync 5 times", "too much"),
+            ("sync 5 times", "unexpected"),
             ("hello", "hexadecimal"),
         ] {
             let problem = read(text).expect_err(text);

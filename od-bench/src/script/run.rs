@@ -5,13 +5,16 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant, NodeId};
-use od_wire::nmt;
 
-use super::statement::{Action, Power, Shaft, Statement, When, Wire};
-use super::{Bench, Host, Origin, Pattern, Reason, Script, Stop, Summary};
-use crate::bus::{Bus, Sent};
+use super::host::{Host, Origin};
+use super::outcome::{Reason, Stop, Summary};
+use super::read::{Script, Statement};
+use crate::bench::Bench;
+use crate::bus::Sent;
 use crate::device::VirtualDevice;
-use od_model::values;
+use crate::grammar::action::{Action, Added, When};
+use crate::grammar::deed::{Deed, Wire};
+use crate::grammar::pattern::Pattern;
 
 /// What stops a line.
 pub(super) type Result<T> = core::result::Result<T, Reason>;
@@ -27,22 +30,10 @@ pub(super) fn failed<T>(expected: impl Into<String>, got: impl Into<String>) -> 
     })
 }
 
-/// What a `device` line asks for.
-#[derive(Default)]
-struct Wanted<'s> {
-    name: Option<&'s str>,
-    nodes: &'s [NodeId],
-    label: Option<&'s str>,
-    beside: Option<&'s str>,
-    serial: Option<u32>,
-}
-
 /// The bench while a script runs.
-pub(super) struct Runner<'h> {
-    host: &'h mut dyn Host,
-    pub(super) bus: Bus,
-    labels: Vec<Option<String>>,
-    current: usize,
+pub(super) struct Runner<'r> {
+    host: &'r mut dyn Host,
+    pub(super) bench: &'r mut Bench,
     /// Frames that the devices sent and no line has expected yet.
     pub(super) pending: VecDeque<Sent>,
     ignored: Vec<Pattern>,
@@ -71,68 +62,43 @@ pub fn run_on(
 ) -> core::result::Result<Summary, Box<Stop>> {
     let mut runner = Runner {
         host,
-        bus: core::mem::take(&mut bench.bus),
-        labels: core::mem::take(&mut bench.labels),
-        current: bench.current,
+        bench,
         pending: VecDeque::new(),
         ignored: Vec::new(),
         greetings: Vec::new(),
         held: 0,
         frames: 0,
     };
-    let result = runner.all(script);
-    (bench.bus, bench.labels, bench.current) = (runner.bus, runner.labels, runner.current);
-    result
-}
-
-/// The device with this label, or the `name.1` of a redundant one; else the one with this
-/// number, counted from 1.
-pub(super) fn named(labels: &[Option<String>], label: &str) -> Option<usize> {
-    let find = |name: &str| {
-        labels
-            .iter()
-            .position(|label| label.as_deref() == Some(name))
-    };
-    let number = || {
-        let number: usize = label.parse().ok()?;
-        (1..=labels.len()).contains(&number).then(|| number - 1)
-    };
-    find(label)
-        .or_else(|| find(label.strip_suffix(".1")?))
-        .or_else(number)
+    for statement in &script.statements {
+        let result = runner.statement(statement);
+        runner.host.look(&mut runner.bench.bus);
+        if let Err(reason) = result {
+            return Err(Box::new(Stop {
+                line: statement.line,
+                text: statement.text.clone(),
+                at: runner.now(),
+                reason,
+            }));
+        }
+    }
+    Ok(Summary {
+        held: runner.held,
+        frames: runner.frames,
+        end: runner.now(),
+    })
 }
 
 impl Runner<'_> {
-    fn all(&mut self, script: &Script) -> core::result::Result<Summary, Box<Stop>> {
-        for statement in &script.statements {
-            let result = self.statement(statement);
-            self.host.look(&mut self.bus);
-            if let Err(reason) = result {
-                return Err(Box::new(Stop {
-                    line: statement.line,
-                    text: statement.text.clone(),
-                    at: self.bus.now(),
-                    reason,
-                }));
-            }
-        }
-        Ok(Summary {
-            held: self.held,
-            frames: self.frames,
-            end: self.bus.now(),
-        })
-    }
-
     fn statement(&mut self, statement: &Statement) -> Result<()> {
-        let now = self.bus.now();
-        // The wire is there before the first device is.
-        let names_device = matches!(
-            statement.action,
-            Action::Device { .. }
-                | Action::Line(Wire::Real(_) | Wire::Terminators(_) | Wire::BitRate(_))
-        );
-        if self.bus.devices().is_empty() && !names_device {
-            self.add(&Wanted::default(), true)?;
+        let now = self.now();
+        // The bus line is there before the first device is.
+        let is_before_devices = match &statement.action {
+            Action::Device(_) => true,
+            Action::Deed(Deed::Line(wire)) => !matches!(wire, Wire::Plugged(_)),
+            _ => false,
+        };
+        if self.bench.bus.devices().is_empty() && !is_before_devices {
+            self.add(&Added::default())?;
         }
         match statement.when {
             When::Next => {}
@@ -142,141 +108,88 @@ impl Runner<'_> {
             When::At(at) => self.advance(at),
             When::After(micros) => self.advance(now.plus_micros(micros)),
         }
-        self.act(&statement.action)
-    }
-
-    fn act(&mut self, action: &Action) -> Result<()> {
-        match action {
-            Action::Device {
-                name,
-                nodes,
-                label,
-                beside,
-                serial,
-                powered,
-            } => {
-                let wanted = Wanted {
-                    name: Some(name),
-                    nodes,
-                    label: label.as_deref(),
-                    beside: beside.as_deref(),
-                    serial: *serial,
-                };
-                self.add(&wanted, *powered)?;
-            }
-            Action::Use(label) => self.current = self.labelled(label)?,
-            Action::Send {
-                frame,
-                times,
-                every,
-            } => {
-                for turn in 0..*times {
-                    if turn > 0 {
-                        self.advance(self.bus.now().plus_micros(*every));
-                    }
-                    self.send(frame);
-                }
-            }
-            Action::Shaft(shaft) => self.shaft(*shaft)?,
-            Action::Power(power) => self.power(*power),
-            Action::SwitchNode(number) => {
-                self.with(|device, now| device.set_node_switch(*number, now))
-            }
-            Action::SwitchBitrate(number) => {
-                self.with(|device, now| device.set_bitrate_switch(*number, now));
-            }
-            Action::Fault { name, on } => {
-                if !self.with(|device, now| device.set_fault(name, *on, now)) {
-                    let known = self.device().faults().join(", ");
-                    return impossible(format!(
-                        "this device has no fault `{name}`; there are {known}"
-                    ));
-                }
-            }
-            Action::Bus(event) => self.with(|device, now| device.handle_bus(*event, now)),
-            Action::Line(wire) => wire.act(&mut self.bus.line, self.current),
-            Action::BusRate(kbit) => self.bus.set_bit_rate(*kbit),
-            Action::Wait => {}
-            Action::Nmt { command, node } => {
-                let node = node.unwrap_or_else(|| self.device().node_id().raw());
-                let repr = nmt::Repr {
-                    command: *command,
-                    node,
-                };
-                self.send(&Frame::standard(0, &repr.emit()));
-            }
-            Action::Read { object, outcome } => self.read(object, outcome)?,
-            Action::Write {
-                object,
-                value,
-                type_name,
-                outcome,
-            } => {
-                self.write(object, value, type_name.as_deref(), outcome)?;
-            }
-            Action::Ignore(pattern) => {
+        match &statement.action {
+            Action::Deed(deed) => self.act(deed),
+            Action::Device(added) => self.add(added),
+            Action::Read { object, outcome } => self.read(object, outcome),
+            Action::Write { write, outcome } => self.write(write, outcome),
+            Action::Ignore(Some(pattern)) => {
                 self.pending.retain(|sent| !pattern.matches(&sent.frame));
                 self.ignored.push(pattern.clone());
+                Ok(())
             }
-            Action::IgnoreNothing => self.ignored.clear(),
-            Action::Skip => self.pending.clear(),
-            Action::Expect(expect) => self.expect(expect)?,
+            Action::Ignore(None) => {
+                self.ignored.clear();
+                Ok(())
+            }
+            Action::Skip => {
+                self.pending.clear();
+                Ok(())
+            }
+            Action::Expect(expect) => self.expect(expect),
         }
-        Ok(())
     }
 
-    /// The device of a `device … as` line above; of a redundant one, `name.2` is the second
-    /// channel.
-    fn labelled(&self, label: &str) -> Result<usize> {
-        match named(&self.labels, label) {
-            Some(device) => Ok(device),
-            None => impossible(format!("no `device … as {label}` line stands above")),
+    fn act(&mut self, deed: &Deed) -> Result<()> {
+        match deed.act(self.bench).or_else(impossible)? {
+            Some(frame) => self.send(&frame),
+            None => self.collect(),
+        }
+        match deed.rest() {
+            Some((micros, rest)) => {
+                self.advance(self.now().plus_micros(micros));
+                self.act(&rest)
+            }
+            None => Ok(()),
         }
     }
 
     /// Puts a device on the bus, all its channels.
-    fn add(&mut self, wanted: &Wanted<'_>, powered: bool) -> Result<()> {
-        let beside = match wanted.beside {
-            Some(label) => Some(self.labelled(label)?),
+    fn add(&mut self, wanted: &Added) -> Result<()> {
+        let beside = match &wanted.beside {
+            Some(label) => Some(self.bench.named(label).or_else(impossible)?),
             None => None,
         };
-        let node = wanted.nodes.first().copied();
-        let mut device = self.host.device(wanted.name, node).or_else(impossible)?;
-        if let Some(serial) = wanted.serial {
-            device = device.with_serial_number(serial);
-        }
-        let channels = device.channels();
-        if wanted.nodes.len() > usize::from(channels) {
-            return impossible(format!(
-                "{} has {channels} node ID, not {}",
-                device.title(),
-                wanted.nodes.len()
-            ));
-        }
-        let mut id = node.unwrap_or(NodeId::ONE);
-        let first = match beside {
-            Some(other) => self.bus.add_beside(device, other),
-            None => self.bus.add(device),
-        };
-        self.labels.push(wanted.label.map(str::to_owned));
-        for channel in 1..channels {
-            let next = wanted.nodes.get(usize::from(channel)).copied();
-            // The next free number, where the line gives none.
-            id = next.or(NodeId::new(id.raw() + 1)).unwrap_or(NodeId::ONE);
-            let device = self
+        let mut id = wanted.nodes.first().copied();
+        let mut first = None;
+        let (mut channel, mut channels) = (0, 1);
+        while channel < channels {
+            let mut device = self
                 .host
-                .device(wanted.name, Some(id))
+                .device(wanted.name.as_deref(), id)
                 .or_else(impossible)?;
-            let serial_number = wanted.serial.unwrap_or(1).wrapping_add(u32::from(channel));
-            self.bus
-                .add_beside(device.with_serial_number(serial_number), first);
-            let label = wanted.label.map(|label| format!("{label}.{}", channel + 1));
-            self.labels.push(label);
+            channels = device.channels();
+            if wanted.nodes.len() > usize::from(channels) {
+                return impossible(format!(
+                    "{} has {channels} node ID, not {}",
+                    device.title(),
+                    wanted.nodes.len()
+                ));
+            }
+            if wanted.serial.is_some() || channel > 0 {
+                let serial = wanted.serial.unwrap_or(1);
+                device = device.with_serial_number(serial.wrapping_add(u32::from(channel)));
+            }
+            let number = match first.or(beside) {
+                Some(other) => self.bench.bus.add_beside(device, other),
+                None => self.bench.bus.add(device),
+            };
+            first.get_or_insert(number);
+            let label = wanted.label.as_ref();
+            self.bench.labels.push(label.map(|label| match channel {
+                0 => label.clone(),
+                channel => format!("{label}.{}", channel + 1),
+            }));
+            channel += 1;
+            // The next free number, where the line gives none.
+            let next = wanted.nodes.get(usize::from(channel)).copied();
+            let raw = id.unwrap_or(NodeId::ONE).raw();
+            id = next.or(NodeId::new(raw + 1)).or(Some(NodeId::ONE));
         }
-        self.current = first;
-        if powered {
+        self.bench.current = first.unwrap_or_default();
+        if !wanted.off {
             let before = self.pending.len();
-            self.power(Power::On);
+            self.act(&Deed::Power(true))?;
             self.greetings.extend(self.pending.iter().skip(before));
         }
         Ok(())
@@ -292,98 +205,50 @@ impl Runner<'_> {
         }
     }
 
-    /// The device that lines of the world outside are about.
-    pub(super) fn device(&self) -> &VirtualDevice {
-        // `statement` adds a device before anything asks for one.
-        &self.bus.devices()[self.current]
+    /// The device that lines are about.
+    pub(super) fn device(&self) -> Result<&VirtualDevice> {
+        self.bench.present().or_else(impossible)
     }
 
-    fn with<R>(&mut self, act: impl FnOnce(&mut VirtualDevice, Instant) -> R) -> R {
-        // As above: there is a current device.
-        let result = self
-            .bus
-            .with(self.current, act)
-            .expect("a device was added first");
-        self.collect();
-        result
+    pub(super) fn now(&self) -> Instant {
+        self.bench.bus.now()
     }
 
     /// Puts a frame on the bus.
     pub(super) fn send(&mut self, frame: &Frame) {
-        let at = self.bus.now();
+        let at = self.now();
         // The answers wait in the bus until `collect`, so the frame is seen before them.
-        if self.bus.receive(frame) {
+        if self.bench.bus.receive(frame) {
             self.host.frame(at, Origin::Script, frame);
-            self.host.look(&mut self.bus);
+            self.host.look(&mut self.bench.bus);
         }
         self.collect();
     }
 
     /// Lets time pass.
     pub(super) fn advance(&mut self, to: Instant) {
-        while self.bus.advance_until_sent(to) {
+        while self.bench.bus.advance_until_sent(to) {
             self.collect();
         }
     }
 
     /// Lets time pass until a frame comes that is not ignored, or until `to`.
     pub(super) fn advance_until_pending(&mut self, to: Instant) {
-        while self.pending.is_empty() && self.bus.advance_until_sent(to) {
+        while self.pending.is_empty() && self.bench.bus.advance_until_sent(to) {
             self.collect();
         }
     }
 
-    fn collect(&mut self) {
-        while let Some(sent) = self.bus.poll() {
+    pub(super) fn collect(&mut self) {
+        while let Some(sent) = self.bench.bus.poll() {
             self.frames += 1;
-            self.host
-                .frame(sent.at, Origin::Device(sent.device), &sent.frame);
-            self.host.look(&mut self.bus);
-            if !self
-                .ignored
-                .iter()
-                .any(|pattern| pattern.matches(&sent.frame))
-            {
+            let origin = Origin::Device(sent.device);
+            self.host.frame(sent.at, origin, &sent.frame);
+            self.host.look(&mut self.bench.bus);
+            let mut ignored = self.ignored.iter();
+            if !ignored.any(|pattern| pattern.matches(&sent.frame)) {
                 self.pending.push_back(sent);
             }
         }
-    }
-
-    fn shaft(&mut self, shaft: Shaft) -> Result<()> {
-        if self.with(|device, now| shaft.act(device, now)) {
-            Ok(())
-        } else {
-            impossible("this device has no shaft")
-        }
-    }
-
-    fn power(&mut self, power: Power) {
-        match power {
-            Power::On => self.supply(true),
-            Power::Off => self.supply(false),
-            Power::Cycle(micros) => {
-                self.supply(false);
-                self.advance(self.bus.now().plus_micros(micros));
-                self.supply(true);
-            }
-        }
-    }
-
-    fn supply(&mut self, on: bool) {
-        self.bus.set_power(self.current, on);
-        self.collect();
-    }
-
-    /// A value as the current device has it now, in words and bytes.
-    pub(super) fn value(&mut self, object: &str) -> Result<(od_model::DataType, Vec<u8>)> {
-        let found = values::find(self.device().dictionary(), object);
-        let (address, data_type) = match found {
-            Ok(entry) => (entry.address, entry.data_type),
-            Err(why) => return impossible(why),
-        };
-        Ok((
-            data_type,
-            self.with(|device, now| device.read(address, now)),
-        ))
     }
 }

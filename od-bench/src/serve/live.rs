@@ -13,6 +13,7 @@ use super::links::LINKS;
 use super::links::opened::Protocol;
 use super::terminal::note;
 use super::threads::Input;
+use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::links::Step;
@@ -29,7 +30,7 @@ const SLEPT: Duration = Duration::from_secs(2);
 
 /// The bus in real time.
 pub(super) struct Live {
-    pub(super) bus: Bus,
+    pub(super) bench: Bench,
     start: Clock,
     /// Time of day at the start, in microseconds.
     epoch: u64,
@@ -55,7 +56,7 @@ impl Live {
         }
         let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         let mut live = Self {
-            bus,
+            bench: Bench::new(bus),
             start: Clock::now(),
             epoch: epoch.map_or(0, |since| since.as_micros() as u64),
             clients: BTreeMap::new(),
@@ -65,7 +66,7 @@ impl Live {
             frames: 0,
         };
         // Nobody listens yet; a master that comes later asks for the state.
-        while live.bus.poll().is_some() {}
+        while live.bench.bus.poll().is_some() {}
         live.events(|event| *event == Event::StorageDamaged);
         live
     }
@@ -111,8 +112,8 @@ impl Live {
                 }
             }
         }
-        for number in 0..self.bus.devices().len() {
-            self.bus.with(number, VirtualDevice::power_off);
+        for number in 0..self.bench.bus.devices().len() {
+            self.bench.bus.with(number, VirtualDevice::power_off);
         }
         // Whoever waits for the last lines sees that there are no more.
         self.clients.clear();
@@ -129,8 +130,11 @@ impl Live {
     fn deadline(&self) -> Option<Instant> {
         let clients = self.clients.values();
         let clients = clients.filter_map(|client| client.codec.deadline());
-        let console = self.console.deadline(self.bus.now());
-        clients.chain(console).chain(self.bus.next_deadline()).min()
+        let console = self.console.deadline(self.bench.bus.now());
+        clients
+            .chain(console)
+            .chain(self.bench.bus.next_deadline())
+            .min()
     }
 
     /// A machine that slept must not send at once all that it has missed.
@@ -151,12 +155,12 @@ impl Live {
     /// The bus catches up with the clock, and what devices send goes out.
     fn catch_up(&mut self) {
         let now = self.now();
-        self.bus.advance(now);
+        self.bench.bus.advance(now);
         self.deliver();
     }
 
     fn deliver(&mut self) {
-        while let Some(sent) = self.bus.poll() {
+        while let Some(sent) = self.bench.bus.poll() {
             self.frames += 1;
             self.pass_on(&sent.frame, sent.at, None);
         }
@@ -165,7 +169,7 @@ impl Live {
 
     /// Lets codecs and the console do what is due.
     fn wake(&mut self) {
-        let now = self.bus.now();
+        let now = self.bench.bus.now();
         let stamp = self.epoch + now.as_micros();
         let mut due = Vec::new();
         for (number, client) in &mut self.clients {
@@ -212,7 +216,9 @@ impl Live {
             Input::Bytes(number, bytes) => {
                 if let Some(client) = self.clients.get_mut(&number) {
                     let mut steps = Vec::new();
-                    client.codec.receive(&bytes, self.bus.now(), &mut steps);
+                    client
+                        .codec
+                        .receive(&bytes, self.bench.bus.now(), &mut steps);
                     self.steps(number, steps);
                 }
             }
@@ -277,7 +283,7 @@ impl Live {
         let mut clients = self.clients.values();
         let console = clients.find(|client| client.protocol == Protocol::Lines);
         let console = console.map(|client| client.number);
-        while let Some(done) = self.console.step(&mut self.bus) {
+        while let Some(done) = self.console.step(&mut self.bench) {
             match done {
                 Ok(Some(frame)) => self.frame(&frame, console),
                 Ok(None) => self.deliver(),
@@ -289,16 +295,16 @@ impl Live {
     /// A frame from outside, and what it brings about.
     fn frame(&mut self, frame: &Frame, from: Option<u64>) {
         self.frames += 1;
-        self.bus.receive(frame);
-        let now = self.bus.now();
+        self.bench.bus.receive(frame);
+        let now = self.bench.bus.now();
         self.pass_on(frame, now, from);
         self.deliver();
     }
 
     fn events(&mut self, wanted: impl Fn(&Event) -> bool) {
-        let several = self.bus.devices().len() > 1;
-        for number in 0..self.bus.devices().len() {
-            let events = self.bus.with(number, |device, _| {
+        let several = self.bench.bus.devices().len() > 1;
+        for number in 0..self.bench.bus.devices().len() {
+            let events = self.bench.bus.with(number, |device, _| {
                 let name = several.then(|| format!("node {}: ", device.node_id()));
                 let events: Vec<_> = std::iter::from_fn(|| device.poll_event()).collect();
                 (name.unwrap_or_default(), events)

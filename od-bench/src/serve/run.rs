@@ -38,7 +38,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     let ends = opened.iter().filter(|link| matches!(link, Opened::Ends(_)));
     let ends = ends.count();
     let mut live = Live::new(devices, ends, ends < opened.len());
-    greeting::print(makers.first(), options, &live.bus, &opened)?;
+    greeting::print(makers.first(), options, &live.bench.bus, &opened)?;
     let clients = Arc::new(AtomicUsize::new(LINKS));
     let mut outputs = Vec::new();
     for (number, link) in (0..).zip(opened) {

@@ -12,16 +12,21 @@ pub(super) fn nmt(frame: &Frame) -> Words {
     let Some(Repr { command, node }) = Repr::parse(frame.data()) else {
         return Words::new(Service::Nmt, None, "no command that CiA 301 knows").error();
     };
-    let text = match command {
+    let text = command_text(command);
+    match node {
+        0 => Words::new(Service::Nmt, None, format!("{text}, all nodes")),
+        node => Words::new(Service::Nmt, Some(node), text),
+    }
+}
+
+/// An NMT command in words.
+pub(crate) fn command_text(command: Command) -> &'static str {
+    match command {
         Command::Start => "start",
         Command::Stop => "stop",
         Command::EnterPreOperational => "enter Pre-operational",
         Command::ResetNode => "reset node",
         Command::ResetCommunication => "reset communication",
-    };
-    match node {
-        0 => Words::new(Service::Nmt, None, format!("{text}, all nodes")),
-        node => Words::new(Service::Nmt, Some(node), text),
     }
 }
 

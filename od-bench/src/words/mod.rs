@@ -19,6 +19,7 @@ use std::prelude::v1::*;
 use od_model::Address;
 use od_runtime::Frame;
 
+pub(crate) use control::command_text as command;
 pub use emcy::code_text;
 pub use fields::{Field, fields};
 pub use pdo::layout;

@@ -5,12 +5,12 @@ use std::prelude::v1::*;
 
 use od_client::sdo::{Channel, Options, SdoError};
 use od_client::{Client, Event, lss};
-use od_model::{Address, DataType};
+use od_model::{Address, DataType, values};
 use od_wire::{AbortCode, CanId, Frame};
 
 use super::run::{Result, Runner, failed, impossible};
-use super::statement::Outcome;
-use od_model::values;
+use crate::grammar::action::Outcome;
+use crate::grammar::typed::{Write, resolve};
 
 /// A script's frames are those of segmented transfers, whatever the length of a value.
 const SDO: Options = Options::SEGMENTED;
@@ -20,7 +20,8 @@ type Transfer<T> = core::result::Result<T, u32>;
 
 impl Runner<'_> {
     pub(super) fn read(&mut self, object: &str, outcome: &Outcome) -> Result<()> {
-        let (address, data_type) = self.resolve(object)?;
+        let dictionary = self.device()?.dictionary();
+        let (address, data_type) = resolve(dictionary, object).or_else(impossible)?;
         let result = self.upload(address)?;
         match (outcome, result) {
             (Outcome::Done, Ok(_)) => {}
@@ -49,19 +50,10 @@ impl Runner<'_> {
         Ok(())
     }
 
-    pub(super) fn write(
-        &mut self,
-        object: &str,
-        value: &str,
-        type_name: Option<&str>,
-        outcome: &Outcome,
-    ) -> Result<()> {
-        let (address, own) = self.resolve(object)?;
-        let data_type = match type_name {
-            Some(name) => type_named(name).or_else(impossible)?,
-            None => own.unwrap_or(DataType::Unsigned32),
-        };
-        let bytes = values::parse(data_type, value).or_else(impossible)?;
+    pub(super) fn write(&mut self, write: &Write, outcome: &Outcome) -> Result<()> {
+        let dictionary = self.device()?.dictionary();
+        let (address, bytes) = write.bytes(dictionary).or_else(impossible)?;
+        let object = &write.object;
         match (outcome, self.download(address, &bytes)?) {
             (Outcome::Aborts(wanted), Err(code)) if wanted.code() == code => {}
             (Outcome::Aborts(wanted), Err(code)) => {
@@ -77,21 +69,11 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// By address, whether the device has it or not; or by name.
-    fn resolve(&self, object: &str) -> Result<(Address, Option<DataType>)> {
-        let dictionary = self.device().dictionary();
-        match (values::find(dictionary, object), values::address(object)) {
-            (Ok(entry), _) => Ok((entry.address, Some(entry.data_type))),
-            (Err(_), Some(address)) => Ok((address, None)),
-            (Err(why), None) => impossible(why),
-        }
-    }
-
     fn upload(&mut self, address: Address) -> Result<Transfer<Vec<u8>>> {
         let mut client = Client::with(SDO, lss::Options::DEFAULT);
-        client.read(self.device().node_id(), address);
+        client.read(self.device()?.node_id(), address);
         loop {
-            if let Event::Read(_, result) = self.next_event(&mut client) {
+            if let Event::Read(_, result) = self.next_event(&mut client)? {
                 return outcome(result);
             }
         }
@@ -99,9 +81,9 @@ impl Runner<'_> {
 
     fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Transfer<()>> {
         let mut client = Client::with(SDO, lss::Options::DEFAULT);
-        client.write(self.device().node_id(), address, bytes);
+        client.write(self.device()?.node_id(), address, bytes);
         loop {
-            if let Event::Written(_, result) = self.next_event(&mut client) {
+            if let Event::Written(_, result) = self.next_event(&mut client)? {
                 return outcome(result);
             }
         }
@@ -109,24 +91,24 @@ impl Runner<'_> {
 
     /// Runs the client until something happens. It gets the answers among the frames that come
     /// after its request; the rest stays for `expect`.
-    fn next_event(&mut self, client: &mut Client) -> Event {
-        let id = Channel::of(self.device().node_id()).response;
+    fn next_event(&mut self, client: &mut Client) -> Result<Event> {
+        let id = Channel::of(self.device()?.node_id()).response;
         let mut looked_at = self.pending.len();
         loop {
             if let Some(event) = client.poll_event() {
-                return event;
+                return Ok(event);
             }
-            while let Some(frame) = client.poll_transmit(self.bus.now()) {
+            while let Some(frame) = client.poll_transmit(self.now()) {
                 looked_at = self.pending.len();
                 self.send(&frame);
             }
             if let Some(answer) = self.answer(id, &mut looked_at) {
-                client.handle_frame(self.bus.now(), &answer);
+                client.handle_frame(self.now(), &answer);
                 continue;
             }
-            let until = client.poll_timeout().unwrap_or(self.bus.now());
-            if self.bus.advance_until_sent(until) {
-                self.advance(self.bus.now());
+            let until = client.poll_timeout().unwrap_or(self.now());
+            if self.bench.bus.advance_until_sent(until) {
+                self.advance(self.now());
             } else {
                 client.handle_timeout(until);
             }
@@ -166,20 +148,4 @@ fn aborted(code: u32) -> String {
         Some(code) => format!("SDO abort {code}"),
         None => format!("SDO abort {code:08X}h"),
     }
-}
-
-/// `u16`, `i8`, `UNSIGNED16` …
-fn type_named(name: &str) -> core::result::Result<DataType, String> {
-    let short = |data_type: &DataType| {
-        let long = data_type.name();
-        let short = long
-            .replace("UNSIGNED", "u")
-            .replace("INTEGER", "i")
-            .replace("BOOLEAN", "bool");
-        short.eq_ignore_ascii_case(name) || long.eq_ignore_ascii_case(name)
-    };
-    DataType::ALL
-        .into_iter()
-        .find(short)
-        .ok_or_else(|| format!("there is no type `{name}`; write u8, u16, u32, i16 …"))
 }

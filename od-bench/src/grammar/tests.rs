@@ -1,9 +1,15 @@
-use super::*;
+use std::format;
+use std::prelude::v1::*;
+use std::string::ToString;
+
+use super::action::Action;
+use super::deed::Deed;
+use crate::script::Script;
 
 #[track_caller]
 fn check(text: &str, expected: &str) {
-    let shown = match parse(text, 1) {
-        Ok(script) => format!("{} lines", script.statements.len()),
+    let shown = match Script::parse(text) {
+        Ok(script) => format!("{} lines", script.lines().count()),
         Err(problems) => problems
             .iter()
             .map(ToString::to_string)
@@ -22,9 +28,9 @@ fn every_kind_of_line_is_read() {
          (3.5) can0 601#40.04.60.00\n701#R4\ncan0  601   [2]  40 04\nsend 080# 3 times every 10ms\n\
          nmt start all\nsync counter 3\nsync 5 times\nsdo read 6004h = 5\nsdo read 2000h aborts 06020000h\n\
          sdo write \"Identity object.Vendor-ID\" = 5 as u16 aborts 0x06010002\nignore 181#*\nignore nothing\n\
-         skip\nexpect 581#43 05 05 5 times every 5ms\nexpect 581#* every 5ms 43 times\nexpect abort 06090031h\n\
+         skip\nguard\nread 1018h:01\nwrite 1017h=500 as u16\nexpect 581#43 05 05 5 times every 5ms\nexpect 581#* every 5ms 43 times\nexpect abort 06090031h\n\
          expect silence 1s\nexpect state off\nexpect value 6004h = 5\nexpect led red flashing",
-        "32 lines",
+        "35 lines",
     );
 }
 
@@ -36,18 +42,18 @@ fn several_on_a_bus() {
          shaft ramp -6000 over 1.5s",
         "11 lines",
     );
-    check("device eam_red node as red", "1:21: `as` does not fit");
-    check("device gxmm on", "1:15: a name is missing");
-    check("bus bitrate 2000", "1:13: `2000` does not fit");
+    check("device eam_red node as red", "1:21: `as` is not valid");
+    check("device gxmm on", "1:15: the name of a device is missing");
+    check("bus bitrate 2000", "1:13: `2000` is not valid");
     check("shaft ramp 60", "1:14: `over` is missing");
-    check("shaft ramp 60 over 5000s", "1:20: a ramp is too long");
+    check("shaft ramp 60 over 5000s", "1:20: the ramp is too long");
     check("bus stop", "1:5: a bus cannot `stop`");
 }
 
 #[test]
 fn mistakes_are_found_in_every_line() {
     check("wait", "1:5: a duration is missing; write it like 500ms");
-    check("\n  wait 5", "2:8: `5` is no duration");
+    check("\n  wait 5", "2:8: `5` is not a duration");
     check("wait 99999999999999999999s", "1:6: `99");
     check(
         "at 18446744073709.551615s nmt start",
@@ -72,7 +78,7 @@ fn mistakes_are_found_in_every_line() {
             let column = line.chars().count() + 2;
             check(
                 &format!("{line} {number} times"),
-                &format!("1:{column}: `{number}` does not fit; write a number from 1 to 1000000"),
+                &format!("1:{column}: `{number}` is not valid; write a number from 1 to 1000000"),
             );
         }
     }
@@ -84,28 +90,40 @@ fn mistakes_are_found_in_every_line() {
             "1:6: `1000000 times` is too long; the limit is 100 years",
         );
     }
-    check("device", "1:7: a device name is missing");
+    check("device", "1:7: the device name is missing");
     check(
         "device gxmm node 128",
-        "1:18: `128` does not fit; write a number from 1 to 127",
+        "1:18: `128` is not valid; write a number from 1 to 127",
     );
     check(
         "device gxmm up 5",
-        "1:8: a name with blanks stands in quotes",
+        "1:8: a device name with blanks needs quotes",
     );
     check(
         "fault fire on",
-        "1:7: there is no fault `fire`; there are position-error",
+        "1:7: fault `fire` does not exist; write position-error",
     );
-    check("nmt explode", "1:5: there is no NMT command `explode`");
-    check("expect 581", "1:8: `581` has no `#`");
-    check("expect 581#40 0 times", "1:15: `0` does not fit");
-    check("expect state flying", "1:8: there is no state `flying`");
-    check("sdo write 6004h", "1:5: this is no SDO line");
-    check("sdo read 6004h aborts 1", "1:23: `1` is no abort code");
-    check("(1.2.3) 601#", "1:1: `(1.2.3)` is no time stamp");
-    check("power on now", "1:10: `now` is too much here");
-    check("after 5ms wait 5ms", "1:11: a time and a wait");
+    check(
+        "nmt explode",
+        "1:5: NMT command `explode` does not exist; write start, stop, preop",
+    );
+    check("expect 581", "1:8: `581` is not a frame");
+    check("expect 581#40 0 times", "1:15: `0` is not valid");
+    check(
+        "expect state flying",
+        "1:14: state `flying` does not exist; write operational,",
+    );
+    check(
+        "sdo write 6004h",
+        "1:5: the SDO line is not valid; write `sdo read 6004h`,",
+    );
+    check(
+        "sdo read 6004h aborts 1",
+        "1:23: abort code `1` does not exist",
+    );
+    check("(1.2.3) 601#", "1:1: `(1.2.3)` is not a time stamp");
+    check("power on now", "1:10: unexpected `now`");
+    check("after 5ms wait 5ms", "1:11: a line has one time");
 }
 
 #[test]
@@ -129,13 +147,13 @@ fn long_lines_are_cut_where_they_are_quoted() {
         "sdo read 6004h aborts {}",
         "{}` `{}",
     ] {
-        for problem in parse(&line.replace("{}", &long), 1).expect_err(line) {
+        for problem in Script::parse(&line.replace("{}", &long)).expect_err(line) {
             let length = problem.to_string().chars().count();
             assert!(length < 600, "{line}: {length} characters");
         }
     }
-    let problem = &parse(&"x".repeat(61), 1).expect_err("no statement")[0];
-    let message = format!("`{}…` begins no statement", "x".repeat(60));
+    let problem = &Script::parse(&"x".repeat(61)).expect_err("no statement")[0];
+    let message = format!("`{}…` is not a verb or a frame", "x".repeat(60));
     assert_eq!(problem.message, message);
 }
 
@@ -155,6 +173,49 @@ fn no_text_panics() {
             text.push_str(if state & 0x100 == 0 { " " } else { "" });
         }
         state = state.wrapping_add(1);
-        let _ = parse(&text, 1);
+        let _ = Script::parse(&text);
+    }
+}
+
+#[test]
+fn a_frame_by_name_is_a_frame_for_the_device() {
+    let kind = od_devices::find("gxmm").expect("it is built in");
+    let node = od_runtime::NodeId::new(5).expect("1 to 127");
+    let device = crate::VirtualDevice::new(kind, node);
+    for (text, expected) in [
+        ("605#40.17.10.00", "605#40171000"),
+        (
+            "(0.1) can0 605#4017100000000000 # a log",
+            "605#4017100000000000",
+        ),
+        ("can0  605   [3]  40 17 10", "605#401710"),
+        ("nmt start", "000#0105"),
+        ("nmt stop all", "000#0200"),
+        ("sync counter 3", "080#03"),
+        ("guard", "705#R1"),
+        ("read 1018h:01", "605#4018100100000000"),
+        ("read \"producer heartbeat time\"", "605#4017100000000000"),
+        ("write 1017h = 500", "605#2B171000F4010000"),
+        ("write 1017h=5 as u8", "605#2F17100005000000"),
+        ("write 1010h:01 = \"save\"", "605#2310100173617665"),
+    ] {
+        assert_eq!(typed(text, &device).as_deref(), Ok(expected), "{text}");
+    }
+    for (text, expected) in [
+        ("write 1008h = \"a name\"", "a frame carries 1 to 4 bytes"),
+        ("write 1017h = 99999", "UNSIGNED16"),
+        ("read nothing", "no object is called `nothing`"),
+    ] {
+        let why = typed(text, &device).expect_err(text);
+        assert!(why.starts_with(expected), "{why}");
+    }
+}
+
+/// The frame that a line sends.
+fn typed(text: &str, device: &crate::VirtualDevice) -> Result<String, String> {
+    let tokens = super::tokens::Tokens::new(1, text);
+    match super::line::line(tokens, &mut None).expect(text).1 {
+        Action::Deed(Deed::Send { frame, .. }) => frame.frame(device).map(|one| one.to_string()),
+        other => panic!("{text}: {other:?}"),
     }
 }

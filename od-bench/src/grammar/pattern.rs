@@ -83,13 +83,11 @@ impl Pattern {
     }
 
     /// A pattern that no frame of a device has: an NMT command of no bytes.
-    pub(crate) const fn nothing() -> Self {
-        Self {
-            id: CanId::standard(0),
-            bytes: None,
-            open: false,
-        }
-    }
+    pub(crate) const NOTHING: Self = Self {
+        id: CanId::standard(0),
+        bytes: None,
+        open: false,
+    };
 
     /// The identifier.
     pub const fn id(&self) -> CanId {

@@ -1,9 +1,10 @@
-//! The words of a line, with their columns.
+//! The tokenizer: the words of a line, with their columns.
 
 use std::format;
 use std::prelude::v1::*;
 
-use super::Problem;
+use super::problem::Problem;
+use super::shown::{brief, either};
 use crate::logs::candump;
 
 /// How far a moment or a duration may go: 100 years of 365 days, in microseconds.
@@ -13,13 +14,13 @@ const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
 
 /// A stretch of a line, to be taken apart from the front.
 #[derive(Clone, Copy)]
-pub(crate) struct Words<'t> {
+pub(crate) struct Tokens<'t> {
     line: u32,
     column: usize,
     text: &'t str,
 }
 
-impl<'t> Words<'t> {
+impl<'t> Tokens<'t> {
     /// The line without its comment and the blanks around it. A comment begins with `#` at
     /// the start of a line or behind a blank; `601#40` is a frame.
     pub(crate) fn new(line: u32, text: &'t str) -> Self {
@@ -36,13 +37,13 @@ impl<'t> Words<'t> {
             }
             before = c;
         }
-        let mut words = Self {
+        let mut tokens = Self {
             line,
             column: 1,
             text: text[..end].trim_end(),
         };
-        words.skip();
-        words
+        tokens.skip();
+        tokens
     }
 
     fn skip(&mut self) {
@@ -108,15 +109,43 @@ impl<'t> Words<'t> {
         last
     }
 
-    /// Splits at the first `=`, which is dropped; `None` where there is none.
+    /// Splits at the first of these signs that is not quoted, and drops it: what is before it,
+    /// and which sign it is. A sign of letters is a word of its own.
+    pub(crate) fn split_at_sign<T: Copy>(&mut self, signs: &[(&str, T)]) -> Option<(Self, T)> {
+        let mut quoted = false;
+        let mut before = ' ';
+        for (at, c) in self.text.char_indices() {
+            quoted ^= c == '"';
+            let rest = &self.text[at..];
+            let is_here = |sign: &str| {
+                let word = sign.starts_with(|c: char| c.is_alphabetic());
+                let alone = || before.is_whitespace() && rest[sign.len()..].starts_with(' ');
+                rest.starts_with(sign) && (!word || alone())
+            };
+            // Of `<` and `<=` the longer one.
+            let found = signs.iter().filter(|(sign, _)| !quoted && is_here(sign));
+            if let Some((sign, meaning)) = found.max_by_key(|(sign, _)| sign.len()) {
+                let mut head = *self;
+                head.text = self.text[..at].trim_end();
+                let end = at + sign.len();
+                self.column += self.text[..end].chars().count();
+                self.text = &self.text[end..];
+                self.skip();
+                return Some((head, *meaning));
+            }
+            before = c;
+        }
+        None
+    }
+
+    /// Splits at the first `=` that is not quoted.
     pub(crate) fn split_at_equals(&mut self) -> Option<Self> {
-        let at = self.text.find('=')?;
-        let mut head = *self;
-        head.text = self.text[..at].trim_end();
-        self.column += self.text[..=at].chars().count();
-        self.text = &self.text[at + 1..];
-        self.skip();
-        Some(head)
+        self.split_at_sign(&[("=", ())]).map(|(head, ())| head)
+    }
+
+    /// All that is left, which is then taken.
+    pub(crate) fn take_rest(&mut self) -> Self {
+        self.split_at_word(&[])
     }
 
     pub(crate) fn problem(&self, message: impl Into<String>, help: impl Into<String>) -> Problem {
@@ -126,6 +155,11 @@ impl<'t> Words<'t> {
             message: brief(&message.into()),
             help: help.into(),
         }
+    }
+
+    /// A mistake at the front; how the line is written is added from the table of verbs.
+    pub(crate) fn wrong(&self, message: impl Into<String>) -> Problem {
+        self.problem(message, "")
     }
 
     /// A mistake in a frame that begins at the front.
@@ -140,11 +174,29 @@ impl<'t> Words<'t> {
         if self.is_empty() {
             return Ok(());
         }
-        let message = format!("`{}` is too much here", self.peek());
         Err(self.problem(
-            message,
-            "one line says one thing; a comment begins with `#`",
+            format!("unexpected `{}`", self.peek()),
+            "remove it, or write it in a line of its own; a comment begins with `#`",
         ))
+    }
+
+    /// One word of a table, and what it stands for.
+    pub(crate) fn one_of<T: Copy>(
+        &mut self,
+        what: &str,
+        table: &[(&str, T)],
+    ) -> Result<T, Problem> {
+        let here = *self;
+        let word = self.next();
+        if let Some((_, meaning)) = table.iter().find(|(name, _)| *name == word) {
+            return Ok(*meaning);
+        }
+        let message = match word {
+            "" => format!("{what} is missing"),
+            _ => format!("{what} `{word}` does not exist"),
+        };
+        let names = either(table.iter().map(|(name, _)| *name));
+        Err(here.problem(message, format!("write {names}")))
     }
 
     /// Does a number begin here, whether it fits or not?
@@ -192,7 +244,7 @@ impl<'t> Words<'t> {
         }
         let message = match word {
             "" => String::from("a duration is missing"),
-            _ => format!("`{word}` is no duration"),
+            _ => format!("`{word}` is not a duration"),
         };
         Err(here.problem(message, "write it like 500ms, 1.5s, 20us or 2min"))
     }
@@ -207,7 +259,7 @@ impl<'t> Words<'t> {
             .ok_or_else(|| {
                 let message = match word {
                     "" => String::from("a number is missing"),
-                    _ => format!("`{word}` does not fit"),
+                    _ => format!("`{word}` is not valid"),
                 };
                 here.problem(message, format!("write a number from {low} to {high}"))
             })
@@ -221,40 +273,4 @@ pub(crate) fn is_decimal(text: &str) -> bool {
         && text
             .bytes()
             .all(|byte| byte.is_ascii_digit() || byte == b'.')
-}
-
-/// Characters of a line that are shown.
-const SHOWN: usize = 60;
-/// Characters of a message that are shown.
-const MESSAGE: usize = 400;
-
-/// The beginning of a text, with `…` where more of it stood.
-fn cut(text: &str, limit: usize) -> String {
-    match text.char_indices().nth(limit) {
-        Some((at, _)) => format!("{}…", &text[..at]),
-        None => text.to_owned(),
-    }
-}
-
-/// A line as messages show it.
-pub(crate) fn line(text: &str) -> String {
-    cut(text, SHOWN)
-}
-
-/// A message whose quotes are not longer than a line is shown.
-pub(crate) fn brief(message: &str) -> String {
-    if message.len() <= SHOWN {
-        return message.to_owned();
-    }
-    let mut brief = String::new();
-    for (number, piece) in message.split('`').enumerate() {
-        if number > 0 {
-            brief.push('`');
-        }
-        match number % 2 {
-            1 => brief.push_str(&line(piece)),
-            _ => brief.push_str(piece),
-        }
-    }
-    cut(&brief, MESSAGE)
 }

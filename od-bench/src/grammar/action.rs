@@ -1,0 +1,97 @@
+//! What a line says.
+
+use std::prelude::v1::*;
+
+use od_runtime::{Instant, NodeId};
+use od_wire::AbortCode;
+
+use super::deed::Deed;
+use super::fact::Fact;
+use super::frames::Frames;
+use super::pattern::Pattern;
+use super::typed::Write;
+
+/// When a line acts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum When {
+    /// When the line before it is done.
+    Next,
+    /// At a moment.
+    At(Instant),
+    /// So many microseconds after the line before it.
+    After(u64),
+}
+
+/// What a line does.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Action {
+    /// What a live bench can do, too.
+    Deed(Deed),
+    /// Puts a device on the bus.
+    Device(Added),
+    /// A whole SDO upload.
+    Read {
+        object: String,
+        outcome: Outcome,
+    },
+    /// A whole SDO download.
+    Write {
+        write: Write,
+        outcome: Outcome,
+    },
+    /// Such frames do not matter; `None`: all frames matter again.
+    Ignore(Option<Pattern>),
+    /// What has come so far does not matter.
+    Skip,
+    Expect(Expect),
+}
+
+/// A device that a line puts on the bus.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(crate) struct Added {
+    /// Of a built-in device or a file; `None`: the one of scripts that name none.
+    pub(crate) name: Option<String>,
+    /// Of each channel.
+    pub(crate) nodes: Vec<NodeId>,
+    pub(crate) label: Option<String>,
+    /// The device on whose shaft it sits.
+    pub(crate) beside: Option<String>,
+    /// Another serial number than the first.
+    pub(crate) serial: Option<u32>,
+    /// Without power.
+    pub(crate) off: bool,
+}
+
+/// How an SDO transfer has to end.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Outcome {
+    Done,
+    Value(String),
+    Aborts(AbortCode),
+}
+
+/// What has to hold.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Expect {
+    Frame {
+        frames: Frames,
+        times: u32,
+        timing: Timing,
+    },
+    /// No frame comes for so many microseconds.
+    Silence(u64),
+    Fact(Fact),
+}
+
+/// When an expected frame has to come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Timing {
+    /// It is there already.
+    Now,
+    /// Within so many microseconds.
+    Within(u64),
+    /// After exactly so many microseconds.
+    After(u64),
+    /// Each after exactly so many microseconds from the one before.
+    Every(u64),
+}

@@ -1,0 +1,137 @@
+//! What a line does to the bus and to the world around it, on any bench.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::{BusEvent, Frame};
+
+use super::typed::Typed;
+use crate::bench::Bench;
+
+/// A shaft that moves.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Shaft {
+    /// To a raw position.
+    At(u64),
+    /// By revolutions, backwards if negative.
+    Turn(f64),
+    /// From now on, in revolutions per minute.
+    Rpm(f64),
+    /// Evenly to so many revolutions per minute, in so many microseconds.
+    Ramp(f64, u64),
+}
+
+/// A bus line that changes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Wire {
+    /// Frames can fail.
+    Real(bool),
+    Terminators(u8),
+    /// Bit rate of what is outside in kbit/s; `None`: that of the first device.
+    BitRate(Option<u16>),
+    /// The present device is connected.
+    Plugged(bool),
+}
+
+/// What a line does, without waiting for anything.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Deed {
+    Wait,
+    /// The lines that follow are about this device.
+    Use(String),
+    Send {
+        frame: Typed,
+        times: u32,
+        /// Microseconds.
+        every: u64,
+    },
+    Power(bool),
+    /// Off for so many microseconds, then on.
+    Cycle(u64),
+    Shaft(Shaft),
+    NodeSwitch(u8),
+    RateSwitch(u8),
+    Fault(&'static str, bool),
+    /// News of the CAN controller.
+    Controller(BusEvent),
+    /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
+    BusRate(Option<u16>),
+    Line(Wire),
+}
+
+impl Deed {
+    /// What is left to do after [`act`](Self::act), and how many microseconds later.
+    pub(crate) fn rest(&self) -> Option<(u64, Self)> {
+        match self {
+            Self::Send {
+                frame,
+                times,
+                every,
+            } if *times > 1 => {
+                let (frame, every) = (frame.clone(), *every);
+                let times = times - 1;
+                Some((
+                    every,
+                    Self::Send {
+                        frame,
+                        times,
+                        every,
+                    },
+                ))
+            }
+            Self::Cycle(micros) => Some((*micros, Self::Power(true))),
+            _ => None,
+        }
+    }
+
+    /// Does what comes first. A frame is returned: the caller puts it on the bus.
+    ///
+    /// # Errors
+    /// Why the present device cannot do it.
+    pub(crate) fn act(&self, bench: &mut Bench) -> Result<Option<Frame>, String> {
+        match self {
+            Self::Wait => {}
+            Self::Use(name) => bench.current = bench.named(name)?,
+            Self::Send { frame, .. } => return frame.frame(bench.present()?).map(Some),
+            Self::Power(on) => bench.bus.set_power(bench.current, *on),
+            Self::Cycle(_) => bench.bus.set_power(bench.current, false),
+            Self::Shaft(shaft) => {
+                let turned = bench.with(|device, now| match *shaft {
+                    Shaft::At(raw) => device.set_position(raw, now),
+                    Shaft::Turn(turns) => device.turn(turns, now),
+                    Shaft::Rpm(rpm) => device.set_rpm(rpm, now),
+                    Shaft::Ramp(rpm, micros) => device.ramp_to_rpm(rpm, micros, now),
+                })?;
+                if !turned {
+                    return Err("this device has no shaft".into());
+                }
+            }
+            Self::NodeSwitch(number) => {
+                bench.with(|device, now| device.set_node_switch(*number, now))?;
+            }
+            Self::RateSwitch(number) => {
+                bench.with(|device, now| device.set_bitrate_switch(*number, now))?;
+            }
+            Self::Fault(name, on) => {
+                if !bench.with(|device, now| device.set_fault(name, *on, now))? {
+                    let known = bench.present()?.faults().join(", ");
+                    return Err(format!(
+                        "this device does not support the fault `{name}`; it supports {known}"
+                    ));
+                }
+            }
+            Self::Controller(event) => bench.with(|device, now| device.handle_bus(*event, now))?,
+            Self::BusRate(kbit) => bench.bus.set_bit_rate(*kbit),
+            Self::Line(wire) => {
+                let (line, station) = (&mut bench.bus.line, bench.current + 1);
+                match *wire {
+                    Wire::Real(real) => line.is_real = real,
+                    Wire::Terminators(count) => line.terminators = count,
+                    Wire::BitRate(kbit) => line.bit_rate = kbit,
+                    Wire::Plugged(plugged) => line.set_plugged(station, plugged),
+                }
+            }
+        }
+        Ok(None)
+    }
+}

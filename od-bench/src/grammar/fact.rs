@@ -1,0 +1,249 @@
+//! What has to be so at one moment: read, looked at, and said in words.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_model::{DataType, values};
+use od_wire::nmt::State;
+
+use super::names::fault_name;
+use super::problem::Problem;
+use super::test::{SIGNS, Test};
+use super::tokens::Tokens;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::leds::Led;
+use crate::world::ShaftView;
+
+/// Something about a device or the bus line that holds or does not.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Fact {
+    /// The current value of an object, by address or name.
+    Value(String, Test),
+    /// The value after the next start; `None`: the current value.
+    Saved(String, Option<Test>),
+    /// `None`: the device has no power.
+    State(Option<State>),
+    Led {
+        green: bool,
+        led: Led,
+    },
+    NodeId(Test),
+    /// In kbit/s.
+    BitRate(Test),
+    /// Revolutions since the step began, without their sign.
+    Turned(Test),
+    /// Revolutions per minute.
+    Rpm(Test),
+    Broken(&'static str),
+    /// Resistors at the ends of the bus line.
+    Terminators(Test),
+}
+
+/// Does it hold, and how is it now?
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Found {
+    pub(crate) holds: bool,
+    pub(crate) now: String,
+}
+
+/// The first words of facts, for messages.
+pub(crate) const NAMES: &str =
+    "value, saved, state, led, node-id, bitrate, turned, rpm, broken, terminators";
+
+impl Fact {
+    /// Reads a fact; `None` where the line begins with another word.
+    pub(crate) fn parse(tokens: &mut Tokens<'_>) -> Result<Option<Self>, Problem> {
+        let start = *tokens;
+        Ok(Some(match tokens.next() {
+            kind @ ("value" | "saved") => Self::object(kind == "value", tokens)?,
+            "state" => Self::State(tokens.one_of(
+                "state",
+                &[
+                    ("operational", Some(State::Operational)),
+                    ("pre-operational", Some(State::PreOperational)),
+                    ("stopped", Some(State::Stopped)),
+                    ("initialising", Some(State::Initialising)),
+                    ("off", None),
+                ],
+            )?),
+            "led" => Self::Led {
+                green: tokens.one_of("LED", &[("green", true), ("red", false)])?,
+                led: tokens.one_of("LED state", &Led::ALL.map(|led| (led.name(), led)))?,
+            },
+            "node-id" => Self::NodeId(Test::number(tokens)?),
+            "bitrate" => Self::BitRate(Test::number(tokens)?),
+            "turned" => Self::Turned(Test::number(tokens)?),
+            "rpm" => Self::Rpm(Test::number(tokens)?),
+            "broken" => Self::Broken(fault_name(tokens)?),
+            "terminators" => Self::Terminators(Test::number(tokens)?),
+            _ => {
+                *tokens = start;
+                return Ok(None);
+            }
+        }))
+    }
+
+    fn object(current: bool, tokens: &mut Tokens<'_>) -> Result<Self, Problem> {
+        let here = *tokens;
+        let (object, test) = match tokens.split_at_sign(&SIGNS) {
+            Some((object, how)) => (object, Some(Test::value(how, tokens)?)),
+            None => (tokens.take_rest(), None),
+        };
+        let object = object.rest().to_owned();
+        match (current, test) {
+            _ if object.is_empty() => {
+                Err(here.problem("the object is missing", "write `value 1017h = 500`"))
+            }
+            (true, None) => Err(here.problem("the value is missing", "write `value 1017h = 500`")),
+            (true, Some(test)) => Ok(Self::Value(object, test)),
+            (false, test) => Ok(Self::Saved(object, test)),
+        }
+    }
+
+    /// Looks at the bench. `turns` is where the device's shaft was when the step began.
+    ///
+    /// # Errors
+    /// Why it cannot be so at all: no such object, a value that is not valid.
+    pub(crate) fn look(
+        &self,
+        bus: &mut Bus,
+        device: usize,
+        turns: Option<f64>,
+    ) -> Result<Found, String> {
+        let gone = || format!("device {} does not exist", device + 1);
+        let now = bus.now();
+        match self {
+            Self::Value(object, test) => {
+                let look = |one: &mut VirtualDevice, now| {
+                    let entry = values::find(one.dictionary(), object)?;
+                    let (address, data_type) = (entry.address, entry.data_type);
+                    let bytes = one.read(address, now);
+                    found(test.holds(data_type, &bytes)?, show(data_type, &bytes))
+                };
+                bus.with(device, look).ok_or_else(gone)?
+            }
+            Self::Saved(object, test) => {
+                let look = |one: &mut VirtualDevice, _| {
+                    let entry = values::find(one.dictionary(), object)?;
+                    let (address, data_type) = (entry.address, entry.data_type);
+                    let saved = one.saved();
+                    let Some(bytes) = one.saved_bytes(&saved, address) else {
+                        return Err(format!("{address} is not saved"));
+                    };
+                    let holds = match test {
+                        Some(test) => test.holds(data_type, &bytes)?,
+                        None => one.is_unsaved(&saved, address) == Some(false),
+                    };
+                    found(holds, show(data_type, &bytes))
+                };
+                bus.with(device, look).ok_or_else(gone)?
+            }
+            Self::Terminators(test) => numbers(bus.line.terminators, test),
+            _ => self.outside(bus.devices().get(device).ok_or_else(gone)?, now, turns),
+        }
+    }
+
+    /// What can be seen of a device from outside.
+    fn outside(
+        &self,
+        one: &VirtualDevice,
+        now: od_runtime::Instant,
+        turns: Option<f64>,
+    ) -> Result<Found, String> {
+        let shaft = || -> Result<ShaftView, String> {
+            one.shaft(now).ok_or("this device has no shaft".into())
+        };
+        match self {
+            Self::State(wanted) => {
+                let state = one.is_powered().then(|| one.state());
+                found(state == *wanted, state_name(state))
+            }
+            Self::Led { green, led } => {
+                if !one.has_leds() {
+                    return Err("this device has no LED".into());
+                }
+                let leds = one.leds();
+                let is = if *green { leds.0 } else { leds.1 };
+                found(is == *led, is.name())
+            }
+            Self::NodeId(test) => numbers(one.node_id().raw(), test),
+            Self::BitRate(test) => match one.bit_rate() {
+                Some(rate) => numbers(rate, test),
+                None => Err("this device has no bit rate of its own".into()),
+            },
+            Self::Turned(test) => {
+                let now = shaft()?.turns;
+                numbers((now - turns.unwrap_or(now)).abs(), test)
+            }
+            Self::Rpm(test) => numbers(shaft()?.rpm, test),
+            Self::Broken(name) => {
+                if !one.faults().contains(name) {
+                    return Err(format!("this device does not support the fault `{name}`"));
+                }
+                let broken = one.is_broken(name);
+                found(broken, if broken { "active" } else { "not active" })
+            }
+            // These were looked at before.
+            Self::Value(..) | Self::Saved(..) | Self::Terminators(_) => found(false, ""),
+        }
+    }
+
+    /// The fact in words. `whose` follows what it is about, as ` of device left`; `not` turns it
+    /// around.
+    pub(crate) fn words(&self, device: Option<&VirtualDevice>, whose: &str, not: bool) -> String {
+        let is = if not { "is not" } else { "is" };
+        let label = |object: &String| {
+            let entry = device.map(|one| (one, values::find(one.dictionary(), object)));
+            match entry {
+                Some((one, Ok(entry))) => values::label(one.dictionary(), entry.address),
+                _ => object.clone(),
+            }
+        };
+        match self {
+            Self::Value(object, test) => {
+                format!("{}{whose} {is} {}", label(object), test.words())
+            }
+            Self::Saved(object, test) => {
+                let value = test
+                    .as_ref()
+                    .map_or("the current value".into(), Test::words);
+                format!("the saved value of {}{whose} {is} {value}", label(object))
+            }
+            Self::State(state) => format!("the NMT state{whose} {is} {}", state_name(*state)),
+            Self::Led { green, led } => {
+                let colour = if *green { "green" } else { "red" };
+                format!("the {colour} LED{whose} {is} {}", led.name())
+            }
+            Self::NodeId(test) => format!("the node ID{whose} {is} {}", test.words()),
+            Self::BitRate(test) => format!("the bit rate{whose} {is} {} kbit/s", test.words()),
+            Self::Turned(test) => {
+                let has = if not { "has not" } else { "has" };
+                format!("the shaft{whose} {has} turned {} revolutions", test.words())
+            }
+            Self::Rpm(test) => format!("the speed{whose} {is} {} rpm", test.words()),
+            Self::Broken(name) => format!("the fault {name}{whose} {is} active"),
+            Self::Terminators(test) => format!("the bus line has {} terminators", test.words()),
+        }
+    }
+}
+
+fn state_name(state: Option<State>) -> &'static str {
+    state.map_or("off", State::name)
+}
+
+fn show(data_type: DataType, bytes: &[u8]) -> String {
+    values::show(data_type, bytes)
+}
+
+fn found(holds: bool, now: impl Into<String>) -> Result<Found, String> {
+    let now = now.into();
+    Ok(Found { holds, now })
+}
+
+fn numbers(value: impl Into<f64>, test: &Test) -> Result<Found, String> {
+    let value = value.into();
+    // Thousandths are what a person can see of a shaft.
+    let shown = (value * 1000.0).round() / 1000.0;
+    found(test.holds_number(value), format!("{shown}"))
+}

@@ -1,0 +1,112 @@
+//! A whole line: its time, then a verb or a frame.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::Instant;
+
+use super::action::{Action, When};
+use super::deed::Deed;
+use super::problem::Problem;
+use super::shown::either;
+use super::tokens::{Tokens, is_decimal};
+use super::typed::Typed;
+use super::verbs::VERBS;
+use crate::logs::candump;
+
+/// A log of the wall clock counts from 1970; its first stamp is taken as the origin.
+const WALL_CLOCK: u64 = 100_000_000_000_000;
+
+/// Words that say when a line acts.
+const TIMES: [&str; 3] = ["wait", "at", "after"];
+
+/// Reads a line that is not empty. `origin` is where the time stamps of a log begin.
+pub(crate) fn line(
+    mut tokens: Tokens<'_>,
+    origin: &mut Option<u64>,
+) -> Result<(When, Action), Problem> {
+    if tokens.take("wait") {
+        let micros = tokens.duration()?;
+        tokens.end()?;
+        return Ok((When::After(micros), Action::Deed(Deed::Wait)));
+    }
+    let when = time(&mut tokens, origin)?;
+    if tokens.is_empty() && when != When::Next {
+        return Ok((when, Action::Deed(Deed::Wait)));
+    }
+    let start = tokens;
+    let word = tokens.next();
+    let action = match VERBS.iter().find(|verb| verb.name == word) {
+        Some(verb) => (verb.parse)(&mut tokens).map_err(|mut problem| {
+            if problem.help.is_empty() {
+                problem.help = format!("write {}", verb.usage);
+            }
+            problem
+        })?,
+        None if word == "wait" => {
+            return Err(start.problem("a line has one time", "remove one of the two"));
+        }
+        None => {
+            tokens = start;
+            frame(&mut tokens, word)?
+        }
+    };
+    tokens.end()?;
+    Ok((when, action))
+}
+
+/// `(0.100000)`, `at 1.5s`, `after 100ms`, or nothing.
+fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Problem> {
+    let at = |micros| When::At(Instant::from_micros(micros));
+    if tokens.take("at") {
+        return tokens.duration().map(at);
+    }
+    if tokens.take("after") {
+        return tokens.duration().map(When::After);
+    }
+    if !tokens.peek().starts_with('(') {
+        return Ok(When::Next);
+    }
+    let here = *tokens;
+    let stamp = tokens.next();
+    let inner = stamp
+        .strip_prefix('(')
+        .and_then(|rest| rest.strip_suffix(')'));
+    let micros = match inner {
+        Some(inner) if is_decimal(inner) => match candump::seconds(inner) {
+            Some(micros) => micros,
+            None => here.limited(None)?,
+        },
+        _ => {
+            let message = format!("`{stamp}` is not a time stamp");
+            return Err(here.problem(message, "write seconds in parentheses, like (0.100000)"));
+        }
+    };
+    let first = *origin.get_or_insert(if micros >= WALL_CLOCK { micros } else { 0 });
+    here.limited(Some(micros.saturating_sub(first))).map(at)
+}
+
+/// A line of a log, or a frame as `cansend` takes it, blanks between its bytes allowed.
+fn frame(tokens: &mut Tokens<'_>, word: &str) -> Result<Action, Problem> {
+    let here = tokens.take_rest();
+    let mut words = here.rest().split_whitespace();
+    let second = words.nth(1).unwrap_or("");
+    let frame = if word.contains('#') {
+        candump::parse_frame(here.rest())
+    } else if second.contains('#') || here.rest().contains('[') {
+        candump::parse_line(here.rest()).map(|line| line.frame)
+    } else {
+        let names = VERBS.iter().map(|verb| verb.name);
+        let help = format!(
+            "begin the line with a frame (601#4004600000000000), or with {}",
+            either(names.chain(TIMES))
+        );
+        return Err(here.problem(format!("`{word}` is not a verb or a frame"), help));
+    };
+    let frame = frame.map_err(|error| here.frame_problem(&error))?;
+    Ok(Action::Deed(Deed::Send {
+        frame: Typed::Frame(frame),
+        times: 1,
+        every: 0,
+    }))
+}

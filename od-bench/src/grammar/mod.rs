@@ -1,0 +1,28 @@
+//! The grammar of a line: scripts, `odkit sim --link -`, `odkit lesson run`, checkpoints of lessons
+//! and the console of the page share it.
+//!
+//! | file | what it reads |
+//! |---|---|
+//! | `tokens` | the words of a line, durations, numbers |
+//! | `verbs` | the table of verbs, one row per first word; `world` those outside the bus |
+//! | `line` | a whole line: its time, then a verb or a frame |
+//! | `typed` | frames by name: `nmt start`, `sync`, `guard`, `read 1017h` |
+//! | `pattern`, `frames` | frames that are waited for |
+//! | `fact`, `test` | what has to be so at one moment |
+
+pub(crate) mod action;
+pub(crate) mod deed;
+pub(crate) mod fact;
+pub(crate) mod frames;
+pub(crate) mod line;
+pub(crate) mod names;
+pub mod pattern;
+pub mod problem;
+pub(crate) mod shown;
+pub(crate) mod test;
+#[cfg(test)]
+mod tests;
+pub(crate) mod tokens;
+pub(crate) mod typed;
+mod verbs;
+mod world;

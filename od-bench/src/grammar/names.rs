@@ -1,0 +1,32 @@
+//! Names that lines of every kind share: faults, NMT commands.
+
+use od_wire::nmt::Command;
+
+use super::problem::Problem;
+use super::tokens::Tokens;
+use crate::faults;
+
+/// The name of a fault.
+pub(super) fn fault_name(tokens: &mut Tokens<'_>) -> Result<&'static str, Problem> {
+    tokens.one_of("fault", &faults::NAMES.map(|name| (name, name)))
+}
+
+/// An NMT command, then its node: 0 for `all`, `None` if there is none.
+pub(crate) fn nmt_command(tokens: &mut Tokens<'_>) -> Result<(Command, Option<u8>), Problem> {
+    let command = tokens.one_of(
+        "NMT command",
+        &[
+            ("start", Command::Start),
+            ("stop", Command::Stop),
+            ("preop", Command::EnterPreOperational),
+            ("reset", Command::ResetNode),
+            ("reset-comm", Command::ResetCommunication),
+        ],
+    )?;
+    let node = match tokens.is_empty() {
+        true => None,
+        false if tokens.take("all") => Some(0),
+        false => Some(tokens.number(0, 127)? as u8),
+    };
+    Ok((command, node))
+}

@@ -1,0 +1,43 @@
+//! A mistake in a line.
+
+use std::fmt;
+use std::prelude::v1::*;
+
+/// A mistake in a line, its place, and what to write instead.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Problem {
+    /// Counted from 1.
+    pub line: u32,
+    /// In characters, counted from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+}
+
+impl Problem {
+    /// A problem of a whole line.
+    pub(crate) fn new(line: u32, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            line,
+            column: 1,
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            line,
+            column,
+            message,
+            help,
+        } = self;
+        write!(f, "{line}:{column}: {message}; {help}")
+    }
+}
+
+impl core::error::Error for Problem {}

@@ -1,0 +1,229 @@
+//! The table of verbs: the first word of a line, how the line is written, and how it is read.
+
+use std::prelude::v1::*;
+
+use super::action::{Action, Expect, Outcome, Timing};
+use super::deed::Deed;
+use super::fact::Fact;
+use super::frames::{self, Frames};
+use super::names::nmt_command;
+use super::pattern::Pattern;
+use super::problem::Problem;
+use super::tokens::Tokens;
+use super::typed::{Typed, Write};
+use super::world::{bus, device, fault, label, power, shaft, switch, wire};
+use crate::logs::candump;
+
+/// One verb.
+pub(super) struct Verb {
+    pub(super) name: &'static str,
+    /// How its lines are written, for messages.
+    pub(super) usage: &'static str,
+    pub(super) parse: fn(&mut Tokens<'_>) -> Result<Action, Problem>,
+}
+
+/// Every verb, in the order of messages.
+#[rustfmt::skip]
+pub(super) const VERBS: [Verb; 18] = [
+    Verb { name: "device", parse: device,
+           usage: "`device gxmm`, `device gxmm node 5 as left`, or a file name" },
+    Verb { name: "use", parse: |tokens| Ok(Action::Deed(Deed::Use(label(tokens)?))),
+           usage: "`use left`: the name of a `device … as left` line, or the number of a device" },
+    Verb { name: "shaft", parse: shaft,
+           usage: "`shaft at 0x79592` (raw steps), `shaft turn 2.5`, `shaft rpm 60` or \
+                   `shaft ramp 6000 over 1s`" },
+    Verb { name: "power", parse: power,
+           usage: "`power on`, `power off` or `power cycle 2s`" },
+    Verb { name: "switch", parse: switch,
+           usage: "`switch node 12` (rotary, 0: EEPROM) or `switch bitrate 5` (DIP, 0 to 7)" },
+    Verb { name: "fault", parse: fault, usage: "`fault battery-low on`" },
+    Verb { name: "bus", parse: bus,
+           usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
+    Verb { name: "line", parse: wire,
+           usage: "line real, ideal, terminators 2, bitrate 250 (kbit/s), bitrate any, plug or \
+                   unplug" },
+    Verb { name: "send", parse: send, usage: "`send 080# 3 times every 10ms`" },
+    Verb { name: "nmt", parse: nmt, usage: "`nmt start`, `nmt start 5` or `nmt start all`" },
+    Verb { name: "sync", parse: sync, usage: "`sync 15 times every 10ms` or `sync counter 3`" },
+    Verb { name: "guard", parse: |_| Ok(once(Typed::Guard)), usage: "`guard`" },
+    Verb { name: "read", parse: read, usage: "`read 1017h`" },
+    Verb { name: "write", parse: |tokens| Ok(once(Typed::Write(write(tokens)?))),
+           usage: "`write 1017h = 500`" },
+    Verb { name: "sdo", parse: sdo,
+           usage: "`sdo read 6004h`, `sdo read 6004h = 5` or `sdo write 6001h = 4096`; add \
+                   ` aborts 06090031h` if it has to fail" },
+    Verb { name: "ignore", parse: ignore, usage: "`ignore 181#*` or `ignore nothing`" },
+    Verb { name: "skip", parse: |_| Ok(Action::Skip), usage: "`skip`" },
+    Verb { name: "expect", parse: |tokens| expect(tokens).map(Action::Expect),
+           usage: "`expect 581#43*`, `expect state operational` or `expect silence 1s`" },
+];
+
+fn once(frame: Typed) -> Action {
+    Action::Deed(Deed::Send {
+        frame,
+        times: 1,
+        every: 0,
+    })
+}
+
+fn send(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    let (head, times, timing) = repeated(tokens)?;
+    let every = match timing {
+        Timing::Now => 0,
+        Timing::Every(micros) => micros,
+        _ => return Err(tokens.problem("a sent frame cannot have this time", "write `every 10ms`")),
+    };
+    here.limited_turns(times, every)?;
+    let frame = candump::parse_frame(head.rest()).map_err(|error| head.frame_problem(&error))?;
+    Ok(Action::Deed(Deed::Send {
+        frame: Typed::Frame(frame),
+        times,
+        every,
+    }))
+}
+
+fn nmt(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let (command, node) = nmt_command(tokens)?;
+    Ok(once(Typed::Nmt(command, node)))
+}
+
+fn sync(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    let mut frame = od_runtime::Frame::standard(0x80, &[]);
+    let (mut times, mut every) = (1, 0);
+    if tokens.take("counter") {
+        frame = od_runtime::Frame::standard(0x80, &[tokens.number(1, 240)? as u8]);
+    }
+    if tokens.at_number() {
+        times = tokens.number(1, 1_000_000)? as u32;
+        if !tokens.take("times") {
+            return Err(tokens.wrong("`times` is missing"));
+        }
+    }
+    if tokens.take("every") {
+        every = tokens.duration()?;
+    }
+    here.limited_turns(times, every)?;
+    Ok(Action::Deed(Deed::Send {
+        frame: Typed::Frame(frame),
+        times,
+        every,
+    }))
+}
+
+fn read(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    match tokens.take_rest().rest() {
+        "" => Err(tokens.wrong("the object is missing")),
+        object => Ok(once(Typed::Read(object.to_owned()))),
+    }
+}
+
+/// `6001h = 4096 as u32`.
+fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
+    let object = match tokens.split_at_equals() {
+        Some(object) if !object.is_empty() => object.rest().to_owned(),
+        _ => return Err(tokens.wrong("the object is missing")),
+    };
+    let value = tokens.split_at_word(&["as"]);
+    if value.is_empty() {
+        return Err(tokens.wrong("the value is missing"));
+    }
+    let type_name = tokens.take("as").then(|| tokens.next().to_owned());
+    tokens.end()?;
+    Ok(Write {
+        object,
+        value: value.rest().to_owned(),
+        type_name,
+    })
+}
+
+fn sdo(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    let kind = tokens.next();
+    let mut body = tokens.split_at_word(&["aborts"]);
+    let aborts = match tokens.take("aborts") {
+        true => Some(Outcome::Aborts(frames::abort(tokens)?)),
+        false => None,
+    };
+    match kind {
+        "write" if body.rest().contains('=') => {
+            let outcome = aborts.unwrap_or(Outcome::Done);
+            let write = write(&mut body)?;
+            Ok(Action::Write { write, outcome })
+        }
+        "read" => {
+            let value = body;
+            let (object, outcome) = match (body.split_at_equals(), aborts) {
+                (None, aborts) => (value, aborts.unwrap_or(Outcome::Done)),
+                (Some(object), None) if !body.is_empty() => {
+                    (object, Outcome::Value(body.rest().to_owned()))
+                }
+                _ => return Err(here.wrong("the SDO line is not valid")),
+            };
+            if object.is_empty() {
+                return Err(here.wrong("the object is missing"));
+            }
+            let object = object.rest().to_owned();
+            Ok(Action::Read { object, outcome })
+        }
+        _ => Err(here.wrong("the SDO line is not valid")),
+    }
+}
+
+fn ignore(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    if tokens.take("nothing") {
+        return Ok(Action::Ignore(None));
+    }
+    let head = tokens.take_rest();
+    match Pattern::parse(head.rest()) {
+        Ok(pattern) => Ok(Action::Ignore(Some(pattern))),
+        Err(error) => Err(head.frame_problem(&error)),
+    }
+}
+
+fn expect(tokens: &mut Tokens<'_>) -> Result<Expect, Problem> {
+    if tokens.take("silence") {
+        return Ok(Expect::Silence(tokens.duration()?));
+    }
+    let here = *tokens;
+    match Fact::parse(tokens)? {
+        Some(Fact::Turned(_)) => {
+            let help = "only a step of a lesson begins somewhere; write `expect value 6004h = …`";
+            return Err(here.problem("a script cannot expect `turned`", help));
+        }
+        Some(fact) => return Ok(Expect::Fact(fact)),
+        None => {}
+    }
+    let (mut head, times, timing) = repeated(tokens)?;
+    Ok(Expect::Frame {
+        frames: Frames::parse(&mut head)?,
+        times,
+        timing,
+    })
+}
+
+/// A frame, then `N times`, `within D`, `after D`, `every D`.
+fn repeated<'t>(tokens: &mut Tokens<'t>) -> Result<(Tokens<'t>, u32, Timing), Problem> {
+    let mut head = tokens.split_at_word(&["times", "within", "after", "every"]);
+    let mut times = 1;
+    if tokens.take("times") {
+        times = head.split_last().number(1, 1_000_000)? as u32;
+    }
+    let timing = if tokens.take("within") {
+        Timing::Within(tokens.duration()?)
+    } else if tokens.take("after") {
+        Timing::After(tokens.duration()?)
+    } else if tokens.take("every") {
+        Timing::Every(tokens.duration()?)
+    } else {
+        Timing::Now
+    };
+    if times == 1 && tokens.at_number() {
+        times = tokens.number(1, 1_000_000)? as u32;
+        if !tokens.take("times") {
+            return Err(tokens.problem("`times` is missing", "write `5 times`"));
+        }
+    }
+    Ok((head, times, timing))
+}

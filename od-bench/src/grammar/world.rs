@@ -1,0 +1,166 @@
+//! Lines about the world outside the bus: devices, their shafts and switches, faults, the bus line.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::{BusEvent, NodeId};
+
+use super::action::{Action, Added};
+use super::deed::{Deed, Shaft, Wire};
+use super::names::fault_name;
+use super::problem::Problem;
+use super::tokens::Tokens;
+
+pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let head = tokens.split_at_word(&["node", "serial", "as", "on", "off"]);
+    let shown = head.rest();
+    let name = shown.trim_matches('"');
+    if name.is_empty() {
+        return Err(tokens.wrong("the device name is missing"));
+    }
+    if shown.contains(char::is_whitespace) && !shown.starts_with('"') {
+        return Err(head.problem(
+            "a device name with blanks needs quotes",
+            "write `device \"my device.eds\"`",
+        ));
+    }
+    let mut added = Added {
+        name: Some(name.to_owned()),
+        ..Added::default()
+    };
+    while !tokens.is_empty() {
+        if tokens.take("node") {
+            // One for each channel.
+            added.nodes.clear();
+            while added.nodes.is_empty() || tokens.at_number() {
+                let id = tokens.number(1, 127)? as u8;
+                added.nodes.extend(NodeId::new(id));
+            }
+        } else if tokens.take("serial") {
+            added.serial = Some(tokens.number(0, u64::from(u32::MAX))? as u32);
+        } else if tokens.take("as") {
+            added.label = Some(label(tokens)?);
+        } else if tokens.take("on") {
+            added.beside = Some(label(tokens)?);
+        } else if tokens.take("off") {
+            added.off = true;
+        } else {
+            return Err(tokens.wrong(format!("unexpected `{}`", tokens.peek())));
+        }
+    }
+    Ok(Action::Device(added))
+}
+
+pub(super) fn label(tokens: &mut Tokens<'_>) -> Result<String, Problem> {
+    match tokens.next() {
+        "" => Err(tokens.problem(
+            "the name of a device is missing",
+            "write the name behind `as` in its `device` line",
+        )),
+        label => Ok(label.to_owned()),
+    }
+}
+
+pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let start = *tokens;
+    let what = tokens.next();
+    let here = *tokens;
+    let moves = |shaft| Ok(Action::Deed(Deed::Shaft(shaft)));
+    if what == "at" {
+        return moves(Shaft::At(tokens.number(0, u64::MAX)?));
+    }
+    if !matches!(what, "turn" | "rpm" | "ramp") {
+        return Err(start.wrong(format!("a shaft cannot `{what}`")));
+    }
+    let number = tokens.next().parse().ok();
+    let Some(value) = number.filter(|value: &f64| value.is_finite()) else {
+        return Err(here.wrong("the number is missing"));
+    };
+    // Far and fast enough for the ends of what an encoder counts: 2²⁹ revolutions with a gear,
+    // 2³¹ steps per second. An angle ends at 2³¹ revolutions, a speed at 2³¹ thousandths.
+    let limit = if what == "turn" { 1e9 } else { 2e6 };
+    if value.abs() > limit {
+        let help = format!("the limit is {limit}");
+        return Err(here.problem("a shaft does not turn so far or so fast", help));
+    }
+    if what == "turn" {
+        return moves(Shaft::Turn(value));
+    }
+    if what == "rpm" {
+        return moves(Shaft::Rpm(value));
+    }
+    if !tokens.take("over") {
+        return Err(tokens.wrong("`over` is missing"));
+    }
+    let here = *tokens;
+    let micros = tokens.duration()?;
+    if micros > u64::from(u32::MAX) {
+        return Err(here.problem("the ramp is too long", "the limit is 4294s"));
+    }
+    moves(Shaft::Ramp(value, micros))
+}
+
+pub(super) fn power(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let table = [("on", 0), ("off", 1), ("cycle", 2)];
+    Ok(Action::Deed(
+        match tokens.one_of("power state", &table)? {
+            0 => Deed::Power(true),
+            1 => Deed::Power(false),
+            _ if tokens.is_empty() => Deed::Cycle(0),
+            _ => Deed::Cycle(tokens.duration()?),
+        },
+    ))
+}
+
+pub(super) fn switch(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    Ok(Action::Deed(match tokens.next() {
+        "node" => Deed::NodeSwitch(tokens.number(0, 99)? as u8),
+        "bitrate" => Deed::RateSwitch(tokens.number(0, 7)? as u8),
+        word => return Err(here.wrong(format!("switch `{word}` does not exist"))),
+    }))
+}
+
+pub(super) fn fault(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let name = fault_name(tokens)?;
+    let on = match tokens.next() {
+        "on" => true,
+        "off" => false,
+        _ => return Err(tokens.wrong("`on` or `off` is missing")),
+    };
+    Ok(Action::Deed(Deed::Fault(name, on)))
+}
+
+pub(super) fn bus(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    Ok(Action::Deed(match tokens.next() {
+        "active" => Deed::Controller(BusEvent::Active),
+        "warning" => Deed::Controller(BusEvent::Warning),
+        "passive" => Deed::Controller(BusEvent::Passive),
+        "off" => Deed::Controller(BusEvent::Off),
+        "overrun" => Deed::Controller(BusEvent::Overrun),
+        "bitrate" => Deed::BusRate(bit_rate(tokens)?),
+        word => return Err(here.wrong(format!("a bus cannot `{word}`"))),
+    }))
+}
+
+pub(super) fn wire(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    Ok(Action::Deed(Deed::Line(match tokens.next() {
+        "real" => Wire::Real(true),
+        "ideal" => Wire::Real(false),
+        "terminators" => Wire::Terminators(tokens.number(0, 4)? as u8),
+        "bitrate" => Wire::BitRate(bit_rate(tokens)?),
+        "plug" => Wire::Plugged(true),
+        "unplug" => Wire::Plugged(false),
+        word => return Err(here.wrong(format!("a line cannot `{word}`"))),
+    })))
+}
+
+/// In kbit/s, or `any`.
+fn bit_rate(tokens: &mut Tokens<'_>) -> Result<Option<u16>, Problem> {
+    match tokens.take("any") {
+        true => Ok(None),
+        false => Ok(Some(tokens.number(1, 1000)? as u16)),
+    }
+}

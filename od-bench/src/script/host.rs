@@ -1,0 +1,76 @@
+//! What a script needs of the program that runs it.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_runtime::{DeviceKind, Frame, Instant, NodeId};
+
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+
+/// Who put a frame on the bus.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Origin {
+    /// The script.
+    Script,
+    /// A device, counted from 0 in the order of the `device` lines.
+    Device(usize),
+}
+
+/// What a script needs of the program that runs it.
+pub trait Host {
+    /// Makes the device of a `device` line: the name of a built-in one, or of an EDS file.
+    /// With no name: the one that scripts without a `device` line run on.
+    ///
+    /// # Errors
+    /// Why there is no such device, and what to do.
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String>;
+
+    /// A frame is on the bus.
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let _ = (at, origin, frame);
+    }
+
+    /// A frame was on the bus, or a line is done: the bench as it is now.
+    fn look(&mut self, bus: &mut Bus) {
+        let _ = bus;
+    }
+}
+
+/// A host with these devices and nothing else.
+#[derive(Clone, Copy, Debug)]
+pub struct Bare(
+    /// The devices that have names; the first is the one of scripts that name none.
+    pub &'static [DeviceKind],
+);
+
+impl Host for Bare {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let kind = match name {
+            Some(name) => self
+                .0
+                .iter()
+                .find(|kind| kind.name.eq_ignore_ascii_case(name)),
+            None => self.0.first(),
+        };
+        let name = name.unwrap_or_default();
+        match kind {
+            Some(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
+            None => {
+                let names: Vec<_> = self.0.iter().map(|kind| kind.name).collect();
+                Err(format!(
+                    "no device is called `{name}`; there are {}",
+                    names.join(", ")
+                ))
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! How a run ended.
+
+use std::fmt;
+use std::prelude::v1::*;
+
+use od_runtime::Instant;
+
+use crate::grammar::shown;
+
+/// A run that came to its end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Summary {
+    /// Expectations that held.
+    pub held: usize,
+    /// Frames that the devices sent.
+    pub frames: u64,
+    /// Virtual time at the end.
+    pub end: Instant,
+}
+
+/// Why a run stopped before its end.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Stop {
+    /// The line, counted from 1.
+    pub line: u32,
+    /// What it says.
+    pub text: String,
+    /// Virtual time.
+    pub at: Instant,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// What stopped a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Reason {
+    /// An expectation did not hold.
+    Failed {
+        /// What was expected.
+        expected: String,
+        /// What came instead.
+        got: String,
+    },
+    /// The line cannot be carried out: no such device, no such fault, a moment that has passed.
+    Impossible(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = shown::line(&self.text);
+        writeln!(f, "line {} at {:?} s: {text}", self.line, self.at)?;
+        match &self.reason {
+            Reason::Failed { expected, got } => {
+                let (expected, got) = (shown::brief(expected), shown::brief(got));
+                write!(f, "  expected  {expected}\n  but       {got}")
+            }
+            Reason::Impossible(why) => write!(f, "  {}", shown::brief(why)),
+        }
+    }
+}
+
+impl core::error::Error for Stop {}

@@ -1,0 +1,109 @@
+//! From text to a script. Every line stands for itself, so every mistake is found.
+
+use std::prelude::v1::*;
+use std::vec;
+
+use crate::grammar::action::{Action, When};
+use crate::grammar::line::line;
+use crate::grammar::problem::Problem;
+use crate::grammar::tokens::Tokens;
+
+/// One line with its place in the text.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Statement {
+    pub(super) line: u32,
+    pub(super) text: String,
+    pub(super) when: When,
+    pub(super) action: Action,
+}
+
+/// A script that was read.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Script {
+    pub(super) statements: Vec<Statement>,
+}
+
+impl Script {
+    /// Reads a script.
+    ///
+    /// # Errors
+    /// Everything that could not be read, in order.
+    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+        Self::parse_at(text, 1)
+    }
+
+    /// Reads a script inside another text, where its first line has this number.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_at(text: &str, first_line: u32) -> Result<Self, Vec<Problem>> {
+        let mut script = Self::default();
+        let mut problems = vec![];
+        let mut reader = Reader {
+            origin: None,
+            line: first_line.saturating_sub(1),
+        };
+        for text in text.lines() {
+            match reader.statement(text) {
+                Ok(statement) => script.statements.extend(statement),
+                Err(problem) => problems.push(problem),
+            }
+        }
+        match problems.is_empty() {
+            true => Ok(script),
+            false => Err(problems),
+        }
+    }
+
+    /// The numbers of the lines that say something.
+    pub fn lines(&self) -> impl Iterator<Item = u32> + '_ {
+        self.statements.iter().map(|statement| statement.line)
+    }
+
+    /// How many `expect` lines it has, SDO lines with an outcome included.
+    pub fn expectations(&self) -> usize {
+        let expects = |statement: &&Statement| {
+            matches!(
+                statement.action,
+                Action::Expect(_) | Action::Read { .. } | Action::Write { .. }
+            )
+        };
+        self.statements.iter().filter(expects).count()
+    }
+}
+
+/// Reads a script line by line, each as a script of its own.
+#[derive(Clone, Debug, Default)]
+pub struct Reader {
+    /// Where the time stamps of a log begin.
+    origin: Option<u64>,
+    /// Lines so far.
+    line: u32,
+}
+
+impl Reader {
+    /// Reads one more line.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(&mut self, text: &str) -> Result<Script, Problem> {
+        let statements = self.statement(text)?.into_iter().collect();
+        Ok(Script { statements })
+    }
+
+    /// The next line; `None` where it is empty, or only a comment.
+    pub(super) fn statement(&mut self, text: &str) -> Result<Option<Statement>, Problem> {
+        self.line = self.line.saturating_add(1);
+        let tokens = Tokens::new(self.line, text.trim_start_matches('\u{feff}'));
+        if tokens.is_empty() {
+            return Ok(None);
+        }
+        let (when, action) = line(tokens, &mut self.origin)?;
+        Ok(Some(Statement {
+            line: self.line,
+            text: tokens.rest().to_owned(),
+            when,
+            action,
+        }))
+    }
+}
