@@ -1,7 +1,7 @@
 //! Lines for a bench that runs already: carried out or refused, and none of them stops the
 //! others.
 
-use od_bench::script::Console;
+use od_bench::script::{Bench, Console};
 use od_bench::{Bus, VirtualDevice};
 
 use super::Target;
@@ -31,6 +31,7 @@ fn run(input: &[u8]) {
         let device = bus.add(bench::device(number));
         bus.with(device, VirtualDevice::power_on);
     }
+    let mut bench = Bench::new(bus);
     let mut console = Console::default();
     for line in String::from_utf8_lossy(input).lines() {
         if let Err(problem) = console.push(line) {
@@ -42,24 +43,24 @@ fn run(input: &[u8]) {
     }
     // A line may send a frame four thousand million times.
     for _ in 0..200 {
-        while let Some(done) = console.step(&mut bus) {
+        while let Some(done) = console.step(&mut bench) {
             if let Ok(Some(frame)) = done {
-                bus.receive(&frame);
+                bench.bus.receive(&frame);
             }
             if console
-                .deadline(bus.now())
-                .is_some_and(|at| at <= bus.now())
-                && bus.now().as_micros() > 10_000_000
+                .deadline(bench.bus.now())
+                .is_some_and(|at| at <= bench.bus.now())
+                && bench.bus.now().as_micros() > 10_000_000
             {
                 return;
             }
-            while bus.poll().is_some() {}
+            while bench.bus.poll().is_some() {}
         }
-        match console.deadline(bus.now()) {
-            Some(at) if at.as_micros() < 60_000_000 => bus.advance(at),
+        match console.deadline(bench.bus.now()) {
+            Some(at) if at.as_micros() < 60_000_000 => bench.bus.advance(at),
             Some(_) => return,
             None => break,
         }
     }
-    assert!(console.is_idle() || console.deadline(bus.now()).is_some());
+    assert!(console.is_idle() || console.deadline(bench.bus.now()).is_some());
 }
