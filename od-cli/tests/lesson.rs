@@ -89,7 +89,7 @@ fn a_lesson_that_is_taken_says_what_is_missing() {
     assert!(taken.out.starts_with(expected), "{}", taken.out);
     assert!(taken.out.contains("# hint 2 of 3: ") && !taken.out.contains("# hint 3"));
     assert!(
-        taken.err.starts_with("-:3:1: `hello` begins no statement"),
+        taken.err.starts_with("-:3:1: `hello` is not a verb or a frame"),
         "{}",
         taken.err
     );
@@ -147,7 +147,7 @@ fn mistakes_have_a_line_and_a_remedy() {
     let check = odkit(&["lesson", "check", &form], "");
     assert_eq!(check.code, 1);
     assert!(
-        check.err.contains(":3:6: `7` is no frame; "),
+        check.err.contains(":3:6: `7` is not a frame; "),
         "{}",
         check.err
     );

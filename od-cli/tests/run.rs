@@ -64,10 +64,10 @@ fn a_script_that_cannot_be_read_names_every_line() {
     );
     assert_eq!(run.code, 2);
     for line in [
-        "-:1:1: `frobnicate` begins no statement; a line is a frame",
-        "-:2:6: `5` is no duration; write it like 500ms",
+        "-:1:1: `frobnicate` is not a verb or a frame; begin the line with a frame",
+        "-:2:6: `5` is not a duration; write it like 500ms",
         "-:3:12: half a byte; write bytes as two hex digits",
-        "-:4:11: a number is missing; write `shaft at",
+        "-:4:11: the number is missing; write `shaft at",
         "-:5:6: `g` is no hex digit; data is",
         "odkit: -: 5 lines cannot be read",
     ] {
@@ -81,7 +81,7 @@ fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
     for (script, why) in [
         ("device gxmn", "`gxmn` is no built-in device (gxmm, gxam"),
         ("wait 1s\nat 500ms sync", "time runs forward only"),
-        ("use left", "no `device … as left` line stands above"),
+        ("use left", "device `left` does not exist; write its number, 1 to 1, or the name"),
         ("expect value 2000h = 1", "object 2000h does not exist"),
         ("expect value \"Speed\" = 1", "no object is called `Speed`"),
         ("sdo write 2101h = 256", "UNSIGNED8 goes from 0 to 255"),
@@ -119,7 +119,7 @@ fn long_lines_are_not_echoed_whole() {
         );
     }
     let run = odkit(&["run", "-"], &long);
-    let quoted = format!("-:1:1: `{}…` begins no statement", "x".repeat(60));
+    let quoted = format!("-:1:1: `{}…` is not a verb or a frame", "x".repeat(60));
     assert!(run.err.starts_with(&quoted), "{:.2000}", run.err);
 }
 

@@ -180,7 +180,7 @@ fn standard_input_takes_frames_and_the_world_outside() {
     assert!(sim.out.starts_with("(0.0"), "{}", sim.out);
     for said in [
         "line 7:1: only a script can do that",
-        "line 8:1: `hello` begins no statement",
+        "line 8:1: `hello` is not a verb or a frame",
     ] {
         assert!(sim.err.contains(said), "{said}: {}", sim.err);
     }
