@@ -42,7 +42,8 @@ usage: cargo xtask <command> [options]
         the findings by code; --docs writes the sums as Markdown
   mutants [--shard K/N] [--file FILE]...
         change the code of the node, the client and the rules, one thing at a time,
-        and look whether a test notices; takes hours, goes on where it was stopped
+        and look whether a test notices; K is 0 to N-1; takes hours, and goes on
+        where it was stopped
   shots
         build and serve the page, write its screenshots to target/shots/
   wasm-pack [arguments]

@@ -14,13 +14,16 @@ use crate::repo::{Repo, program};
 /// The version that is built; another one has other mutants.
 const VERSION: &str = "27.1.0";
 
+/// Seconds that the tests of a mutant may take; a change that makes them endless is caught.
+const PATIENCE: &str = "300";
+
 /// The least share of viable mutants that tests have to catch, in percent.
 const LEAST: usize = 90;
 
 /// The command line of `mutants`.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Options {
-    /// `2/8`: the second of eight parts.
+    /// `2/8`: the third of eight parts, which are counted from 0.
     shard: Option<String>,
     /// These files alone.
     files: Vec<String>,
@@ -94,11 +97,16 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         } else {
             &[package, TESTS]
         };
-        command.args(packages.iter().flat_map(|name| ["--test-package", name]));
-        command.args(["--", "--lib"]);
         let own = own_tests(&repo.root.join(package).join("tests"));
         let names = own.iter().map(String::as_str).chain(tests.iter().copied());
-        command.args(names.flat_map(|name| ["--test", name]));
+        let names: Vec<&str> = names.flat_map(|name| ["--test", name]).collect();
+        // Its own look at the code without a change asks only the package that is mutated.
+        let mut before = cargo(&repo.root, &["test", "--quiet", "--lib"]);
+        before.args(packages.iter().flat_map(|name| ["--package", name]));
+        console.run("the tests without a change", before.args(&names))?;
+        command.args(["--baseline", "skip", "--timeout", PATIENCE]);
+        command.args(packages.iter().flat_map(|name| ["--test-package", name]));
+        command.args(["--", "--lib"]).args(&names);
         let result = console.run(&format!("mutants of {package}"), &mut command);
         let out = out.join("mutants.out");
         // Survivors end it with an error, too: the list has the last word about them.
