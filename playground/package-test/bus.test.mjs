@@ -219,12 +219,12 @@ test('a lesson is read, taken, and pauses the bench at each checkpoint', () => {
 test('what is wrong with a lesson or a script is said with its line', () => {
   const { lesson, problems } = odkit.parseLesson('+++\ntitle = 5\n+++\n## a\n```checkpoint\ncame 7\n```\n');
   assert.equal(lesson, null);
-  assert.ok(problems.some((one) => one.line === 6 && one.message.includes('is no frame') && one.help));
+  assert.ok(problems.some((one) => one.line === 6 && one.message.includes('is not a frame') && one.help));
   const bus = new odkit.Bus();
   bus.addDevice('gxmm', 1);
   assert.throws(() => bus.startLesson('nothing'), /1:1: the lesson has no/);
   assert.equal(bus.deviceCount(), 1, 'the bench stays');
-  assert.throws(() => bus.runScript('nmt explode'), /1:5: there is no NMT command/);
+  assert.throws(() => bus.runScript('nmt explode'), /1:5: NMT command `explode` does not exist/);
   assert.throws(() => bus.runScript('sdo read 5555h'), /line 1 /);
   assert.equal(bus.nmt(0), 'pre-operational', 'the bus is still there');
 });
