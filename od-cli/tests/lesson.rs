@@ -89,7 +89,9 @@ fn a_lesson_that_is_taken_says_what_is_missing() {
     assert!(taken.out.starts_with(expected), "{}", taken.out);
     assert!(taken.out.contains("# hint 2 of 3: ") && !taken.out.contains("# hint 3"));
     assert!(
-        taken.err.starts_with("-:3:1: `hello` is not a verb or a frame"),
+        taken
+            .err
+            .starts_with("-:3:1: `hello` is not a verb or a frame"),
         "{}",
         taken.err
     );

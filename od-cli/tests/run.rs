@@ -81,7 +81,10 @@ fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
     for (script, why) in [
         ("device gxmn", "`gxmn` is no built-in device (gxmm, gxam"),
         ("wait 1s\nat 500ms sync", "time runs forward only"),
-        ("use left", "device `left` does not exist; write its number, 1 to 1, or the name"),
+        (
+            "use left",
+            "device `left` does not exist; write its number, 1 to 1, or the name",
+        ),
         ("expect value 2000h = 1", "object 2000h does not exist"),
         ("expect value \"Speed\" = 1", "no object is called `Speed`"),
         ("sdo write 2101h = 256", "UNSIGNED8 goes from 0 to 255"),
