@@ -50,7 +50,7 @@ impl Bench {
     /// As [`device`](Self::device).
     ///
     /// # Errors
-    /// What devices there are.
+    /// A sentence that names the devices on the bus, if none has this name.
     pub(crate) fn named(&self, name: &str) -> Result<usize, String> {
         self.device(name).ok_or_else(|| {
             let count = self.bus.devices().len();

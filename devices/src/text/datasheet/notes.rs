@@ -1,4 +1,4 @@
-//! What is to be said of one value beside its row.
+//! The note of the datasheet on one value.
 
 use std::format;
 use std::prelude::v1::*;
@@ -10,7 +10,7 @@ use odkit::encoder::{EncoderProfile, Role};
 use super::services;
 use odkit::DeviceKind;
 
-/// The note on a value, empty where there is none.
+/// Returns the note on a value; empty if the value has no note.
 pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
     let encoder = kind.encoder;
     if let Some(note) = encoder
