@@ -4,7 +4,8 @@
 //! takes as long in a large dictionary as in a small one, and most of a dictionary stays
 //! out of the cache.
 
-use crate::{Address, Entry, Slot};
+use crate::address::Address;
+use crate::entry::{Entry, Slot};
 
 /// The part of an entry that most reads need; has the same position as the entry.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -138,7 +139,9 @@ const fn own_bucket(key: u32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Access, DataType, Group, Literal, Range};
+    use crate::access::{Access, Group};
+    use crate::types::DataType;
+    use crate::value::{Literal, Range};
     use std::vec;
     use std::vec::Vec;
 

@@ -18,6 +18,7 @@ extern crate std;
 mod access;
 mod address;
 mod dictionary;
+mod entry;
 mod index;
 mod needs;
 pub mod typed;
@@ -28,7 +29,8 @@ pub mod values;
 
 pub use access::{Access, Group};
 pub use address::Address;
-pub use dictionary::{Dictionary, Entry, Missing, Object, Slot};
+pub use dictionary::Dictionary;
+pub use entry::{Entry, Missing, Object, Slot};
 pub use index::{Place, bucket_count, buckets, places};
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
@@ -36,6 +38,6 @@ pub use value::{Literal, Range};
 /// Parts that owned tables are built with by `od-eds`; not an API.
 #[doc(hidden)]
 pub mod owned {
-    pub use crate::dictionary::store_len;
+    pub use crate::entry::store_len;
     pub use crate::index::{EMPTY, fill};
 }

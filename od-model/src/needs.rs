@@ -1,6 +1,7 @@
 //! What a node needs room for to serve a dictionary; all of it can be asked at compile time.
 
-use crate::dictionary::{Dictionary, Entry};
+use crate::dictionary::Dictionary;
+use crate::entry::Entry;
 use crate::value::Literal;
 
 impl Dictionary<'_> {

@@ -5,7 +5,8 @@
 
 use core::marker::PhantomData;
 
-use crate::{Address, Slot};
+use crate::address::Address;
+use crate::entry::Slot;
 
 mod sealed {
     pub trait Sealed {}

@@ -6,7 +6,8 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::address::Address;
-use crate::dictionary::{Dictionary, Entry, Missing};
+use crate::dictionary::Dictionary;
+use crate::entry::{Entry, Missing};
 use crate::typed::Scalar;
 use crate::types::{DataType, Kind};
 

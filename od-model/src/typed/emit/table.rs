@@ -4,8 +4,15 @@
 //! turns it into a table is compiled once. An expression for each row costs the compiler
 //! ten times as much, and an IDE keeps each of its tokens.
 
-use crate::{Access, Address, DataType, Group, Literal, ObjectCode, Range, Slot};
-pub use crate::{Dictionary, Entry, Object, Place, bucket_count, buckets, places};
+use crate::access::{Access, Group};
+use crate::address::Address;
+use crate::entry::Slot;
+use crate::types::{DataType, ObjectCode};
+use crate::value::{Literal, Range};
+
+pub use crate::dictionary::Dictionary;
+pub use crate::entry::{Entry, Object};
+pub use crate::index::{Place, bucket_count, buckets, places};
 
 /// Without the checks of [`Dictionary::new`], which thousands of entries would
 /// wait for: the macro takes its tables out of `od_eds::Tables`.
