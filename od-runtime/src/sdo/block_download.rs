@@ -1,9 +1,8 @@
-//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.12).
+//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.12). The value is in the server's buffer,
+//! which each call borrows.
 
-use od_model::Address;
+use core::cmp::Ordering;
 
-use super::{Answer, Server, Transfer};
-use crate::objects::Objects;
 use od_wire::AbortCode;
 use od_wire::sdo::{Response, crc16};
 
@@ -24,97 +23,80 @@ pub(super) struct BlockDownload {
 }
 
 impl BlockDownload {
-    pub(super) fn wants_segments(&self) -> bool {
-        !self.last
-    }
-}
-
-impl<const N: usize> Server<N> {
-    /// Segments that the buffer has room for, 1–127.
-    fn room(received: usize) -> u8 {
-        ((N.saturating_sub(received)) / 7).clamp(1, 127) as u8
-    }
-
-    pub(super) fn begin_block_download(
-        &mut self,
-        objects: &mut Objects<'_>,
-        address: Address,
-        crc: bool,
-        size: Option<u32>,
-    ) -> Answer {
-        self.begin(address);
-        objects.writable(address, size.map(|size| size as usize))?;
-        if size.is_some_and(|size| size as usize > N) {
-            return Err(AbortCode::OutOfMemory);
-        }
-        let block_size = Self::room(0);
-        self.transfer = Transfer::BlockDownload(BlockDownload {
+    /// Of `size` bytes, if the client announced a size.
+    pub(super) fn new(buffer: &[u8], crc: bool, size: Option<u32>) -> Self {
+        Self {
             crc,
             size,
             received: 0,
-            block_size,
+            block_size: room(buffer, 0),
             ack: 0,
             last: false,
-        });
-        Ok(Some(Response::InitiateBlockDownload {
-            address,
-            crc: true,
-            block_size,
-        }))
+        }
     }
 
-    /// A segment. One that is out of sequence is passed over: the answer at the block's
-    /// end tells the client where to go on.
-    pub(super) fn block_segment(&mut self, mut block: BlockDownload, data: &[u8; 8]) -> Answer {
+    /// Segments of the next block.
+    pub(super) const fn block_size(&self) -> u8 {
+        self.block_size
+    }
+
+    /// Whether the next frame is a segment.
+    pub(super) const fn wants_segments(&self) -> bool {
+        !self.last
+    }
+
+    /// A segment. One that is out of sequence is ignored: the response at the end of the block
+    /// tells the client where to go on.
+    pub(super) fn segment(
+        &mut self,
+        buffer: &mut [u8],
+        data: &[u8; 8],
+    ) -> Result<Option<Response>, AbortCode> {
         let [head, bytes @ ..] = data;
         let (sequence, last) = (head & 0x7F, head & 0x80 != 0);
-        if sequence == 0 || sequence > block.block_size {
+        if sequence == 0 || sequence > self.block_size {
             return Err(AbortCode::InvalidSequence);
         }
-        if sequence == block.ack + 1 {
-            let tail = self.buffer.get_mut(block.received..).unwrap_or(&mut []);
+        let is_block_over = last || sequence == self.block_size;
+        if sequence == self.ack + 1 {
+            let tail = buffer.get_mut(self.received..).unwrap_or(&mut []);
             // The last segment may carry bytes that are no data past the buffer's end.
             if tail.len() < 7 && !last {
                 return Err(AbortCode::OutOfMemory);
             }
             let len = tail.len().min(7);
             tail[..len].copy_from_slice(&bytes[..len]);
-            block.received += 7;
-            block.ack = sequence;
-            block.last = last;
+            self.received += 7;
+            self.ack = sequence;
+            self.last = last;
         }
-        let end = last || sequence == block.block_size;
-        let ack = block.ack;
-        if end {
-            block.ack = 0;
-            block.block_size = Self::room(block.received);
+        if !is_block_over {
+            return Ok(None);
         }
-        self.transfer = Transfer::BlockDownload(block);
-        let block_size = block.block_size;
-        Ok(end.then_some(Response::BlockDownloadResponse { ack, block_size }))
+        self.block_size = room(buffer, self.received);
+        Ok(Some(Response::BlockDownloadResponse {
+            ack: core::mem::take(&mut self.ack),
+            block_size: self.block_size,
+        }))
     }
 
-    pub(super) fn end_block_download(
-        &mut self,
-        objects: &mut Objects<'_>,
-        block: BlockDownload,
-        unused: u8,
-        crc: u16,
-    ) -> Answer {
-        let len = block.received.saturating_sub(unused.into());
-        if let Some(size) = block.size {
-            match len.cmp(&(size as usize)) {
-                core::cmp::Ordering::Less => return Err(AbortCode::TooShort),
-                core::cmp::Ordering::Greater => return Err(AbortCode::TooLong),
-                core::cmp::Ordering::Equal => {}
-            }
+    /// The end of the transfer: returns the length of the value, if it came whole.
+    pub(super) fn end(&self, buffer: &[u8], unused: u8, crc: u16) -> Result<usize, AbortCode> {
+        let len = self.received.saturating_sub(unused.into());
+        match self.size.map(|size| len.cmp(&(size as usize))) {
+            Some(Ordering::Less) => return Err(AbortCode::TooShort),
+            Some(Ordering::Greater) => return Err(AbortCode::TooLong),
+            Some(Ordering::Equal) | None => {}
         }
-        let data = self.buffer.get(..len).ok_or(AbortCode::OutOfMemory)?;
-        if block.crc && crc16(data) != crc {
+        let data = buffer.get(..len).ok_or(AbortCode::OutOfMemory)?;
+        if self.crc && crc16(data) != crc {
             return Err(AbortCode::Crc);
         }
-        objects.write(self.address, data)?;
-        self.reset();
-        Ok(Some(Response::EndBlockDownload))
+        Ok(len)
     }
+}
+
+/// Segments that the buffer has room for, 1–127.
+fn room(buffer: &[u8], received: usize) -> u8 {
+    (buffer.len().saturating_sub(received) / 7).clamp(1, 127) as u8
 }

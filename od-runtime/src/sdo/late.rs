@@ -1,16 +1,13 @@
 //! An answer that waits until the device has stored (1010h), and the request that waits for it.
 
-use super::Server;
-use od_wire::AbortCode;
-
-/// What waits.
+/// The answer that waits, and what came since.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Late {
     is_awaited: bool,
-    /// The answer; `None` where the client gave up.
-    answer: Option<[u8; 8]>,
+    /// `None` if the client gave up.
+    pub(super) answer: Option<[u8; 8]>,
     /// The next request: a client that did not wait is answered after the answer.
-    held: Option<Held>,
+    pub(super) held: Option<Held>,
 }
 
 /// A request: its bytes and its DLC.
@@ -44,18 +41,5 @@ impl Late {
         } else {
             self.held = Some((*data, dlc));
         }
-    }
-}
-
-impl<const N: usize> Server<N> {
-    /// Everything is stored, or could not be: the answer that waited, and the request behind it.
-    pub(crate) fn finish(&mut self, failed: Option<AbortCode>) -> (Option<[u8; 8]>, Option<Held>) {
-        let Late { answer, held, .. } = core::mem::replace(&mut self.late, Late::NONE);
-        self.is_deaf = false;
-        let answer = match (answer, failed) {
-            (Some(_), Some(code)) => Some(self.abort(code)),
-            (answer, _) => answer,
-        };
-        (answer, held)
     }
 }

@@ -5,6 +5,7 @@
 
 mod block_download;
 mod block_upload;
+mod expedited;
 mod late;
 mod segmented;
 
@@ -15,6 +16,11 @@ use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
 use od_wire::{AbortCode, Instant};
 
+use block_download::BlockDownload;
+use block_upload::BlockUpload;
+use late::{Held, Late};
+use segmented::{Download, Upload};
+
 /// How long a block transfer waits for the client, in microseconds: its segments cannot
 /// be told from requests, so a client that died would block the next one.
 const BLOCK_TIMEOUT_US: u64 = 5_000_000;
@@ -24,10 +30,10 @@ const BLOCK_TIMEOUT_US: u64 = 5_000_000;
 enum Transfer {
     #[default]
     None,
-    Upload(segmented::Upload),
-    Download(segmented::Download),
-    BlockUpload(block_upload::BlockUpload),
-    BlockDownload(block_download::BlockDownload),
+    Upload(Upload),
+    Download(Download),
+    BlockUpload(BlockUpload),
+    BlockDownload(BlockDownload),
 }
 
 /// The server: one transfer at a time, `N` bytes of it.
@@ -39,7 +45,7 @@ pub(crate) struct Server<const N: usize> {
     deadline: Option<Instant>,
     /// A frame would be the next segment of a block, whatever it says, or has to wait.
     is_deaf: bool,
-    late: late::Late,
+    late: Late,
 }
 
 /// What the server answers.
@@ -53,14 +59,14 @@ impl<const N: usize> Server<N> {
             buffer: [0; N],
             deadline: None,
             is_deaf: false,
-            late: late::Late::NONE,
+            late: Late::NONE,
         }
     }
 
     /// Forgets everything without a word, as a change of the NMT state does.
     pub(crate) fn forget(&mut self) {
         self.reset();
-        self.late = late::Late::NONE;
+        self.late = Late::NONE;
         self.is_deaf = false;
     }
 
@@ -107,9 +113,9 @@ impl<const N: usize> Server<N> {
             self.late.hold(data, dlc);
             return None;
         }
-        let answer = match self.transfer {
+        let answer = match &mut self.transfer {
             Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
-                self.block_segment(block, data)
+                block.segment(&mut self.buffer, data)
             }
             _ => self.request(objects, Request::parse(data), data, dlc),
         };
@@ -121,7 +127,7 @@ impl<const N: usize> Server<N> {
         let is_late = core::mem::take(&mut objects.outbox.answer_later);
         let answer = match answer {
             Ok(Some(response)) if is_late => {
-                self.late = late::Late::new(response.emit());
+                self.late = Late::new(response.emit());
                 None
             }
             Ok(response) => response.map(Response::emit),
@@ -140,7 +146,7 @@ impl<const N: usize> Server<N> {
         dlc: u8,
     ) -> Answer {
         let profile = objects.profile.sdo;
-        match (request, self.transfer) {
+        match (request, &mut self.transfer) {
             (
                 Request::InitiateDownload {
                     address,
@@ -151,13 +157,21 @@ impl<const N: usize> Server<N> {
             ) => {
                 self.begin(address);
                 match expedited {
-                    Some(bytes) => expedited_download(objects, address, size, &bytes, dlc),
-                    None if !profile.segmented_download => Err(AbortCode::InvalidCommand),
-                    None => self.begin_download(objects, address, size),
+                    Some(bytes) => expedited::download(objects, address, size, &bytes, dlc)?,
+                    None if !profile.segmented_download => return Err(AbortCode::InvalidCommand),
+                    None => {
+                        Self::check_size(objects, address, size)?;
+                        self.transfer = Transfer::Download(Download::new(size));
+                    }
                 }
+                Ok(Some(Response::InitiateDownload { address }))
             }
             (Request::UploadSegment { toggle }, Transfer::Upload(upload)) => {
-                self.upload_segment(upload, toggle)
+                let segment = upload.segment(&self.buffer, toggle)?;
+                if upload.is_over() {
+                    self.reset();
+                }
+                Ok(Some(segment))
             }
             (
                 Request::DownloadSegment {
@@ -167,13 +181,13 @@ impl<const N: usize> Server<N> {
                     last,
                 },
                 Transfer::Download(download),
-            ) => self.download_segment(
-                objects,
-                download,
-                toggle,
-                &data[..usize::from(len.min(7))],
-                last,
-            ),
+            ) => {
+                let data = &data[..usize::from(len.min(7))];
+                if let Some(len) = download.segment(&mut self.buffer, toggle, data, last)? {
+                    self.write(objects, len)?;
+                }
+                Ok(Some(Response::DownloadSegment { toggle }))
+            }
             (Request::Abort { .. }, _) => {
                 self.reset();
                 Ok(None)
@@ -186,29 +200,80 @@ impl<const N: usize> Server<N> {
                     ..
                 },
                 _,
-            ) if profile.block => self.begin_block_upload(objects, address, crc, block_size),
-            (Request::StartBlockUpload, Transfer::BlockUpload(block)) => self.start_block(block),
+            ) if profile.block => {
+                self.begin(address);
+                block_upload::check(block_size)?;
+                let mut number = [0; 8];
+                let len = self.load(objects.read(address, &mut number)?)?;
+                self.transfer = Transfer::BlockUpload(BlockUpload::new(len, crc, block_size));
+                Ok(Some(Response::InitiateBlockUpload {
+                    address,
+                    crc: true,
+                    size: Some(len as u32),
+                }))
+            }
+            (Request::StartBlockUpload, Transfer::BlockUpload(block)) => {
+                block.start().map(|()| None)
+            }
             (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block)) => {
-                self.block_acknowledged(block, ack, block_size)
+                block.acknowledged(&self.buffer, ack, block_size)
             }
             (Request::EndBlockUpload, Transfer::BlockUpload(block)) if block.is_complete() => {
                 self.reset();
                 Ok(None)
             }
             (Request::InitiateBlockDownload { address, crc, size }, _) if profile.block => {
-                self.begin_block_download(objects, address, crc, size)
+                self.begin(address);
+                Self::check_size(objects, address, size)?;
+                let block = BlockDownload::new(&self.buffer, crc, size);
+                self.transfer = Transfer::BlockDownload(block);
+                Ok(Some(Response::InitiateBlockDownload {
+                    address,
+                    crc: true,
+                    block_size: block.block_size(),
+                }))
             }
             (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block)) => {
-                self.end_block_download(objects, block, unused, crc)
+                let len = block.end(&self.buffer, unused, crc)?;
+                self.write(objects, len)?;
+                Ok(Some(Response::EndBlockDownload))
             }
-            _ => {
-                if matches!(self.transfer, Transfer::None) {
+            (_, transfer) => {
+                if matches!(transfer, Transfer::None) {
                     let [_, low, high, sub, ..] = *data;
                     self.address = Address::new(u16::from_le_bytes([low, high]), sub);
                 }
                 Err(AbortCode::InvalidCommand)
             }
         }
+    }
+
+    /// Checks whether a value of this size may be written to the object, and fits the buffer.
+    fn check_size(
+        objects: &Objects<'_>,
+        address: Address,
+        size: Option<u32>,
+    ) -> Result<(), AbortCode> {
+        let size = size.map(|size| size as usize);
+        objects.writable(address, size)?;
+        match size {
+            Some(size) if size > N => Err(AbortCode::OutOfMemory),
+            _ => Ok(()),
+        }
+    }
+
+    /// Copies a value into the buffer. Returns its length.
+    fn load(&mut self, bytes: &[u8]) -> Result<usize, AbortCode> {
+        let room = self.buffer.get_mut(..bytes.len());
+        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    /// A download is complete: writes the first `len` bytes of the buffer, and ends the transfer.
+    fn write(&mut self, objects: &mut Objects<'_>, len: usize) -> Result<(), AbortCode> {
+        objects.write(self.address, self.buffer.get(..len).unwrap_or(&[]))?;
+        self.reset();
+        Ok(())
     }
 
     /// A new transfer takes the place of one that was not finished.
@@ -247,12 +312,11 @@ impl<const N: usize> Server<N> {
     /// A value of more than four bytes (or none) goes in segments.
     #[inline(never)]
     fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], AbortCode> {
-        let room = self.buffer.get_mut(..bytes.len());
-        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(bytes);
-        self.transfer = Transfer::Upload(segmented::Upload::new(bytes.len()));
+        let len = self.load(bytes)?;
+        self.transfer = Transfer::Upload(Upload::new(len));
         Ok(Response::InitiateUpload {
             address,
-            size: Some(bytes.len() as u32),
+            size: Some(len as u32),
             expedited: None,
         }
         .emit())
@@ -276,10 +340,21 @@ impl<const N: usize> Server<N> {
 
     /// The next segment of a block upload, if one is due.
     pub(crate) fn poll(&mut self) -> Option<[u8; 8]> {
-        match self.transfer {
-            Transfer::BlockUpload(block) => self.next_segment(block),
+        match &mut self.transfer {
+            Transfer::BlockUpload(block) => block.segment(&self.buffer),
             _ => None,
         }
+    }
+
+    /// Everything is stored, or could not be: the answer that waited, and the request behind it.
+    pub(crate) fn finish(&mut self, failed: Option<AbortCode>) -> (Option<[u8; 8]>, Option<Held>) {
+        let Late { answer, held, .. } = core::mem::replace(&mut self.late, Late::NONE);
+        self.is_deaf = false;
+        let answer = match (answer, failed) {
+            (Some(_), Some(code)) => Some(self.abort(code)),
+            (answer, _) => answer,
+        };
+        (answer, held)
     }
 
     /// When a block transfer gives up.
@@ -295,32 +370,4 @@ impl<const N: usize> Server<N> {
             self.abort(AbortCode::Timeout)
         })
     }
-}
-
-/// Writes the up to four bytes that came with the request. Where no size was indicated,
-/// the object's own counts; where the frame is shorter than its data, what is missing was
-/// not given.
-fn expedited_download(
-    objects: &mut Objects<'_>,
-    address: Address,
-    size: Option<u32>,
-    bytes: &[u8; 4],
-    dlc: u8,
-) -> Answer {
-    let entry = objects.writable(address, None)?;
-    let given = usize::from(dlc.saturating_sub(4)).min(4);
-    let own = entry.data_type.size();
-    let len = match size {
-        // Bytes that do not count need not be there either.
-        Some(size) if objects.profile.sdo.length.too_long.is_none() => {
-            (size as usize).min(own.unwrap_or(4)).min(4)
-        }
-        Some(size) => (size as usize).min(4),
-        None => own.unwrap_or(given),
-    };
-    if len > given {
-        return Err(objects.profile.sdo.length.too_short);
-    }
-    objects.write(address, &bytes[..len])?;
-    Ok(Some(Response::InitiateDownload { address }))
 }

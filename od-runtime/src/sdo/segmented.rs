@@ -1,13 +1,10 @@
-//! Segmented transfers (CiA 301, chapters 7.2.4.3.4–7.2.4.3.8).
+//! Segmented transfers (CiA 301, chapters 7.2.4.3.4–7.2.4.3.8). The value is in the server's
+//! buffer, which each call borrows.
 
-use od_model::Address;
-
-use super::{Answer, Server, Transfer};
-use crate::objects::Objects;
 use od_wire::AbortCode;
 use od_wire::sdo::Response;
 
-/// An upload under way: the value stands in the buffer.
+/// An upload under way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Upload {
     toggle: bool,
@@ -16,12 +13,37 @@ pub(super) struct Upload {
 }
 
 impl Upload {
+    /// Of the first `len` bytes of the buffer.
     pub(super) const fn new(len: usize) -> Self {
         Self {
             toggle: false,
             sent: 0,
             len,
         }
+    }
+
+    /// Whether the last segment has been sent.
+    pub(super) const fn is_over(&self) -> bool {
+        self.sent == self.len
+    }
+
+    /// Returns the next segment.
+    pub(super) fn segment(&mut self, buffer: &[u8], toggle: bool) -> Result<Response, AbortCode> {
+        if toggle != self.toggle {
+            return Err(AbortCode::ToggleBit);
+        }
+        let rest = buffer.get(self.sent..self.len).unwrap_or(&[]);
+        let len = rest.len().min(7);
+        let mut data = [0; 7];
+        data[..len].copy_from_slice(&rest[..len]);
+        self.sent += len;
+        self.toggle = !toggle;
+        Ok(Response::UploadSegment {
+            toggle,
+            data,
+            len: len as u8,
+            last: self.is_over(),
+        })
     }
 }
 
@@ -33,79 +55,38 @@ pub(super) struct Download {
     size: Option<u32>,
 }
 
-impl<const N: usize> Server<N> {
-    pub(super) fn upload_segment(&mut self, mut upload: Upload, toggle: bool) -> Answer {
-        if toggle != upload.toggle {
-            return Err(AbortCode::ToggleBit);
-        }
-        let rest = self.buffer.get(upload.sent..upload.len).unwrap_or(&[]);
-        let len = rest.len().min(7);
-        let mut data = [0; 7];
-        data[..len].copy_from_slice(&rest[..len]);
-        let last = len == rest.len();
-        upload.sent += len;
-        upload.toggle = !toggle;
-        if last {
-            self.reset();
-        } else {
-            self.transfer = Transfer::Upload(upload);
-        }
-        Ok(Some(Response::UploadSegment {
-            toggle,
-            data,
-            len: len as u8,
-            last,
-        }))
-    }
-
-    pub(super) fn begin_download(
-        &mut self,
-        objects: &mut Objects<'_>,
-        address: Address,
-        size: Option<u32>,
-    ) -> Answer {
-        objects.writable(address, size.map(|size| size as usize))?;
-        if size.is_some_and(|size| size as usize > N) {
-            return Err(AbortCode::OutOfMemory);
-        }
-        self.transfer = Transfer::Download(Download {
+impl Download {
+    /// Of `size` bytes, if the client announced a size.
+    pub(super) const fn new(size: Option<u32>) -> Self {
+        Self {
             toggle: false,
             received: 0,
             size,
-        });
-        Ok(Some(Response::InitiateDownload { address }))
+        }
     }
 
-    pub(super) fn download_segment(
+    /// Puts a segment into the buffer. Returns the length of the value if it was the last one.
+    pub(super) fn segment(
         &mut self,
-        objects: &mut Objects<'_>,
-        mut download: Download,
+        buffer: &mut [u8],
         toggle: bool,
         data: &[u8],
         last: bool,
-    ) -> Answer {
-        if toggle != download.toggle {
+    ) -> Result<Option<usize>, AbortCode> {
+        if toggle != self.toggle {
             return Err(AbortCode::ToggleBit);
         }
-        let end = download.received + data.len();
-        if download.size.is_some_and(|size| end > size as usize) {
+        let end = self.received + data.len();
+        if self.size.is_some_and(|size| end > size as usize) {
             return Err(AbortCode::TooLong);
         }
-        let room = self
-            .buffer
-            .get_mut(download.received..end)
-            .ok_or(AbortCode::OutOfMemory)?;
-        room.copy_from_slice(data);
-        download.received = end;
-        download.toggle = !toggle;
-        self.transfer = Transfer::Download(download);
-        if last {
-            if download.size.is_some_and(|size| end < size as usize) {
-                return Err(AbortCode::TooShort);
-            }
-            objects.write(self.address, &self.buffer[..end])?;
-            self.reset();
+        let room = buffer.get_mut(self.received..end);
+        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(data);
+        self.received = end;
+        self.toggle = !toggle;
+        if last && self.size.is_some_and(|size| end < size as usize) {
+            return Err(AbortCode::TooShort);
         }
-        Ok(Some(Response::DownloadSegment { toggle }))
+        Ok(last.then_some(end))
     }
 }
