@@ -25,7 +25,7 @@
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
-use od_model::{Address, Dictionary, Entry, Group, Literal};
+use od_model::{Dictionary, Entry, Group, Literal};
 
 use super::{Storage, StorageError};
 use crate::limits;
@@ -34,17 +34,19 @@ use crate::store::Store;
 
 mod bank;
 mod cob_id;
+mod covered;
+mod layout;
 mod merge;
 
-use bank::{Banks, Records};
+use bank::Banks;
+use covered::{is_covered, is_saved};
+use layout::{HEADER, RECORD};
 use merge::{Fate, Next};
+
+pub(crate) use covered::is_kept;
+pub use covered::{is_life_record, restores};
+pub use layout::MAX_VALUE;
 pub(crate) use merge::{Pending, commit};
-
-/// The longest value that is saved, in bytes.
-pub const MAX_VALUE: usize = 1024;
-
-const HEADER: usize = 20;
-const RECORD: usize = 5;
 
 /// What the storage held.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -83,41 +85,6 @@ pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
     2 * bytes
 }
 
-/// Is the value one that is saved at all?
-const fn is_saved(entry: &Entry) -> bool {
-    !matches!(entry.group, Group::None) && entry.slot.len > 0
-}
-
-/// Is it the device's own record of its life (hours, counters of errors)?
-///
-/// That is what no master can write among the manufacturer's objects. Every save
-/// writes it along, and no restore takes it back.
-pub const fn is_life_record(entry: &Entry) -> bool {
-    matches!(entry.group, Group::Manufacturer) && !entry.access.writable()
-}
-
-/// Is it a setting that is saved, other than the device's own record?
-pub(crate) const fn is_kept(entry: &Entry) -> bool {
-    is_saved(entry) && !is_life_record(entry)
-}
-
-/// Does sub-index `sub` of 1010h or 1011h cover this value, or the one that it is a twin of?
-fn is_covered(profile: &StoreProfile, entry: &Entry, sub: u8) -> bool {
-    let twin = |[one, other]: &[Address; 2]| match entry.address {
-        address if address == *one => Some(*other),
-        address if address == *other => Some(*one),
-        _ => None,
-    };
-    let mut twins = profile.twins.iter().filter_map(twin);
-    entry.group.covered_by(sub)
-        || is_saved(entry) && twins.any(|twin| Group::of_index(twin.index).covered_by(sub))
-}
-
-/// Does writing to sub-index `sub` of 1011h take this value back to its default?
-pub fn restores(profile: &StoreProfile, entry: &Entry, sub: u8) -> bool {
-    is_covered(profile, entry, sub) && !is_life_record(entry)
-}
-
 /// Puts saved values over those in the store, for the entries that `which` names.
 ///
 /// The store holds the defaults before. A value that the object could not have by now
@@ -132,16 +99,9 @@ pub fn load(
     which: &dyn Fn(&Entry) -> bool,
 ) -> Result<Loaded, StorageError> {
     let banks = Banks::survey(storage)?;
-    let Some(newest) = banks.newest else {
-        return Ok(if banks.damaged {
-            Loaded::Damaged
-        } else {
-            Loaded::Blank
-        });
-    };
     let mut skipped = 0u16;
     let mut value = [0; MAX_VALUE];
-    let mut records = Records::new(newest);
+    let mut records = banks.records();
     while let Some(record) = records.next(storage)? {
         let entry = store.dictionary().find(record.address).ok();
         match entry.filter(|entry| is_saved(entry)) {
@@ -160,6 +120,8 @@ pub fn load(
         }
     }
     Ok(match skipped {
+        _ if banks.newest.is_none() && banks.damaged => Loaded::Damaged,
+        _ if banks.newest.is_none() => Loaded::Blank,
         _ if banks.is_cut() => Loaded::Cut,
         _ if banks.lost_newer => Loaded::Older,
         0 => Loaded::Complete,
@@ -212,7 +174,7 @@ pub(crate) fn begin(
         },
         cob_ids: profile.cob_ids,
     };
-    merge::begin(storage, store, &banks, next)
+    merge::begin(storage, store, &banks, &next)
 }
 
 /// Saves the values that `which` names, whatever their group; all others stay as they
@@ -235,7 +197,7 @@ pub fn save_only(
         cut: profile.cut,
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &banks, next)?;
+    let pending = merge::begin(storage, store, &banks, &next)?;
     commit(storage, pending)
 }
 
@@ -268,7 +230,7 @@ pub fn erase(
         cut: CutSave::LastSet,
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &banks, next)?;
+    let pending = merge::begin(storage, store, &banks, &next)?;
     commit(storage, pending)
 }
 

@@ -2,16 +2,9 @@
 
 use od_model::Address;
 
-use super::{HEADER, RECORD};
+use super::layout::{HEADER, MAGIC, RECORD, REPLACED, VERSION};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
-
-/// No byte of it is one flipped bit away from 00h or FFh.
-pub(super) const MAGIC: [u8; 4] = *b"\x69odk";
-/// First byte of the magic of a set that a save is about to replace, where a save that is cut
-/// leaves nothing.
-pub(super) const REPLACED: u8 = 0x96;
-pub(super) const VERSION: u16 = 1;
 
 /// A whole bank.
 #[derive(Clone, Copy, Debug)]
@@ -94,6 +87,11 @@ impl Banks {
         self.newest.is_some_and(|bank| bank.replaced)
     }
 
+    /// The records of the newest set.
+    pub(super) fn records(&self) -> Records {
+        self.newest.map_or(Records { at: 0, end: 0 }, Records::new)
+    }
+
     /// The sequence number of the next set.
     pub(super) fn next_sequence(&self) -> u32 {
         self.newest.map_or(1, |bank| bank.sequence.wrapping_add(1))
@@ -121,14 +119,10 @@ fn look(storage: &mut dyn Storage, start: usize, size: usize) -> Result<Found, S
     }
     let mut crc = Crc32::new();
     crc.update(&header[4..16]);
-    let mut chunk = [0; 64];
-    let mut done = 0;
-    while done < len {
-        let part = (len - done).min(chunk.len());
-        storage.read(start + HEADER + done, &mut chunk[..part])?;
-        crc.update(&chunk[..part]);
-        done += part;
-    }
+    in_chunks(storage, start + HEADER, len, |_, chunk| {
+        crc.update(chunk);
+        Ok(())
+    })?;
     if crc.finish() != word(16) {
         return damaged;
     }
@@ -153,6 +147,22 @@ fn look(storage: &mut dyn Storage, start: usize, size: usize) -> Result<Found, S
     })
 }
 
+/// Reads `len` bytes from `start` on, a piece at a time.
+pub(super) fn in_chunks(
+    storage: &mut dyn Storage,
+    start: usize,
+    len: usize,
+    mut each: impl FnMut(&mut dyn Storage, &[u8]) -> Result<(), StorageError>,
+) -> Result<(), StorageError> {
+    let mut chunk = [0; 64];
+    for at in (0..len).step_by(chunk.len()) {
+        let part = &mut chunk[..(len - at).min(64)];
+        storage.read(start + at, part)?;
+        each(storage, part)?;
+    }
+    Ok(())
+}
+
 /// One saved value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Record {
@@ -169,7 +179,7 @@ pub(super) struct Records {
 }
 
 impl Records {
-    pub(super) fn new(bank: Bank) -> Self {
+    fn new(bank: Bank) -> Self {
         let at = bank.start + HEADER;
         Self {
             at,

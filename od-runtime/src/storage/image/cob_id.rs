@@ -3,7 +3,7 @@
 use od_model::{Entry, Literal};
 
 use crate::profile::SavedCobIds;
-use crate::store::Store;
+use crate::store::{Store, little_endian};
 use od_wire::CobId;
 
 /// What is saved instead of the value; `None` where the value is.
@@ -23,11 +23,7 @@ pub(super) fn restore(
     let Some(default) = default(store, entry, rule) else {
         return true;
     };
-    let mut wide = [0; 8];
-    for (to, from) in wide.iter_mut().zip(&*bytes) {
-        *to = *from;
-    }
-    let value = u64::from_le_bytes(wide).wrapping_add(default);
+    let value = little_endian(bytes).wrapping_add(default);
     for (to, from) in bytes.iter_mut().zip(value.to_le_bytes()) {
         *to = from;
     }

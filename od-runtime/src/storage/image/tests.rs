@@ -255,7 +255,7 @@ fn garbage_is_damaged_and_can_be_saved_over() {
             // As far as the length and the checksum, everything is right.
             let size = len / 2;
             let bytes = memory.bytes_mut();
-            bytes[..4].copy_from_slice(&bank::MAGIC);
+            bytes[..4].copy_from_slice(&layout::MAGIC);
             bytes[4..8].copy_from_slice(&[1, 0, 0, 0]);
             let payload = (round % (size - HEADER)) as u32;
             bytes[12..16].copy_from_slice(&payload.to_le_bytes());
