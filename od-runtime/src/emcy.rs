@@ -13,6 +13,9 @@ const ACTIVE: usize = 32;
 const CHANGES: usize = 32;
 const QUEUE: usize = 16;
 
+/// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
+pub(crate) const PDO_LENGTH: u16 = 0x8210;
+
 /// An error: what the EMCY frame says of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Emcy {

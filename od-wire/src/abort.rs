@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use od_model::Missing;
+
 macro_rules! abort_codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $text:literal;)*) => {
         /// SDO abort code (CiA 301, table 22). The discriminant is the value on the bus.
@@ -76,6 +78,16 @@ impl fmt::Display for AbortCode {
 }
 
 impl core::error::Error for AbortCode {}
+
+impl From<Missing> for AbortCode {
+    #[inline]
+    fn from(missing: Missing) -> Self {
+        match missing {
+            Missing::Object => Self::NoObject,
+            Missing::SubIndex => Self::NoSubIndex,
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

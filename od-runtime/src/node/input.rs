@@ -3,17 +3,15 @@
 use od_wire::nmt::{self, Command, State};
 use od_wire::{CanId, Frame, Instant};
 
-use super::{Machines, Node, bus};
+use super::controller::Mute;
+use super::{Machines, Node};
 use crate::application::Reset;
 use crate::device::Device;
-use crate::emcy::Emcy;
+use crate::emcy::{Emcy, PDO_LENGTH};
 use crate::lent::Lent;
 use crate::lss::Action;
 use crate::objects::Objects;
 use crate::pdo::Received;
-
-/// EMCY code of an RPDO that is shorter than its mapping (CiA 301, table 26).
-pub(super) const PDO_LENGTH: u16 = 0x8210;
 
 impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Handles a frame that was received.
@@ -151,7 +149,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             }
             Action::Activate { delay_ms, bit_rate } => {
                 let silence_ms = if profile.second_delay { delay_ms } else { 0 };
-                self.mute = Some(bus::Mute {
+                self.mute = Some(Mute {
                     until: self.now.plus_millis(delay_ms.into()),
                     bit_rate: Some(bit_rate),
                     silence_ms,

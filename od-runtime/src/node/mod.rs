@@ -10,6 +10,7 @@
 
 mod boot;
 mod bus;
+mod controller;
 mod effects;
 mod errors;
 mod event;
@@ -28,7 +29,7 @@ use crate::lent::Lent;
 use crate::objects::{Objects, Outbox};
 use crate::{emcy, error_control, lss, pdo, sdo};
 
-pub use bus::BusEvent;
+pub use controller::BusEvent;
 pub use event::Event;
 pub use fits::Unfit;
 
@@ -69,7 +70,7 @@ struct Machines<const PDO: usize, const SDO: usize> {
     monitor: error_control::Monitor,
     lss: lss::Slave,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
-    mute: Option<bus::Mute>,
+    mute: Option<controller::Mute>,
     /// What the CAN controller reported last; overruns aside.
     bus: BusEvent,
     /// The error behaviour requests a reset when the call is over.

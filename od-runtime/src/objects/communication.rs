@@ -2,7 +2,8 @@
 
 use od_model::{Address, Entry};
 
-use super::Objects;
+use crate::profile::Profile;
+use crate::store::{Store, little_endian};
 use od_wire::pdo::MapRepr;
 use od_wire::{AbortCode, CobId};
 
@@ -21,142 +22,116 @@ pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     }
 }
 
-/// Number of the PDO and whether it is one that the device transmits.
-const fn pdo(index: u16) -> Option<(u16, bool)> {
-    match index {
-        0x1400..=0x15FF => Some((index - 0x1400, false)),
-        0x1600..=0x17FF => Some((index - 0x1600, false)),
-        0x1800..=0x19FF => Some((index - 0x1800, true)),
-        0x1A00..=0x1BFF => Some((index - 0x1A00, true)),
-        _ => None,
-    }
-}
-
 /// Is it the number of objects that a PDO maps?
 pub(super) const fn is_mapping_count(address: Address) -> bool {
     matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub == 0
 }
 
-impl Objects<'_> {
-    /// Rules of the standard for an object below 2000h.
-    pub(super) fn check_communication(&self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
-        let Address { index, sub } = entry.address;
-        let mut wide = [0; 8];
-        for (to, from) in wide.iter_mut().zip(bytes) {
-            *to = *from;
-        }
-        let value = u64::from_le_bytes(wide);
-        match (index, sub) {
-            // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
-            (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
-            // The device produces no SYNC, so bit 30 cannot be set (chapter 7.5.2.5).
-            (0x1005, 0) => self.cob_id(entry, CobId::new(value as u32), false, |cob| {
-                !cob.produces_sync()
-            }),
-            // A node has one heartbeat time (chapter 7.5.2.13).
-            (0x1016, 1..) if self.is_watched_elsewhere(sub, value) => Err(AbortCode::Incompatible),
-            (0x1014, 0) => self.cob_id(entry, CobId::new(value as u32), true, |_| true),
-            (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => {
-                self.cob_id(entry, CobId::new(value as u32), true, |_| true)
-            }
-            (0x1400..=0x15FF, 2) if matches!(value, 241..=253) => Err(AbortCode::ValueRange),
-            (0x1800..=0x19FF, 2) => {
-                let types = self.profile.pdo.tpdo_types;
-                if types
-                    .iter()
-                    .any(|(low, high)| (*low..=*high).contains(&(value as u8)))
-                {
-                    Ok(())
-                } else {
-                    Err(AbortCode::ValueRange)
-                }
-            }
-            // The inhibit time stands while the PDO exists (chapter 7.5.2.37).
-            (0x1800..=0x19FF, 3) if self.is_valid(index) && !self.profile.pdo.direct_cob_id => {
+/// Checks a value that a master wants to write to an object below 2000h. `bytes` has the
+/// entry's length.
+pub(super) fn check(
+    store: &Store<'_>,
+    profile: &Profile,
+    entry: &Entry,
+    bytes: &[u8],
+) -> Result<(), AbortCode> {
+    let Address { index, sub } = entry.address;
+    let value = little_endian(bytes);
+    let cob_id = CobId::new(value as u32);
+    let check_cob_id = |has_valid_bit| check_cob_id(store, profile, entry, cob_id, has_valid_bit);
+    match (index, sub) {
+        // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
+        (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
+        // The device produces no SYNC, so bit 30 cannot be set (chapter 7.5.2.5).
+        (0x1005, 0) if cob_id.produces_sync() => Err(AbortCode::ValueRange),
+        (0x1005, 0) => check_cob_id(false),
+        // A node has one heartbeat time (chapter 7.5.2.13).
+        (0x1016, 1..) if is_watched_elsewhere(store, sub, value) => Err(AbortCode::Incompatible),
+        (0x1014, 0) | (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => check_cob_id(true),
+        (0x1400..=0x15FF, 2) if matches!(value, 241..=253) => Err(AbortCode::ValueRange),
+        (0x1800..=0x19FF, 2) => {
+            let mut types = profile.pdo.tpdo_types.iter();
+            if types.any(|(low, high)| (*low..=*high).contains(&(value as u8))) {
+                Ok(())
+            } else {
                 Err(AbortCode::ValueRange)
             }
-            (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => self.mapping_count(index, value),
-            (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
-                if self.store.unsigned(index, 0) != 0 {
-                    return Err(self.profile.sdo.mapping_in_use);
-                }
-                // An entry that maps nothing can be written; it cannot be counted.
-                if value == 0 {
-                    return Ok(());
-                }
-                check_mapped(self, index, value as u32).map(|_| ())
+        }
+        // The inhibit time stands while the PDO exists (chapter 7.5.2.37).
+        (0x1800..=0x19FF, 3) if is_valid(store, index) && !profile.pdo.direct_cob_id => {
+            Err(AbortCode::ValueRange)
+        }
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => check_mapping_count(store, index, value),
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
+            if store.unsigned(index, 0) != 0 {
+                return Err(profile.sdo.mapping_in_use);
             }
-            _ => Ok(()),
-        }
-    }
-
-    /// Does another entry of 1016h than `sub` have a time for the node of `value`, which has one?
-    fn is_watched_elsewhere(&self, sub: u8, value: u64) -> bool {
-        let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
-        let mut others = (1..=0x7F).filter(|other| *other != sub);
-        let same = |other: u8| {
-            let entry = self.store.unsigned(0x1016, other);
-            entry >> 16 & 0xFF == node && entry & 0xFFFF != 0
-        };
-        time != 0 && (1..=127).contains(&node) && others.any(same)
-    }
-
-    /// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
-    /// changes only while bit 31 is set (unless the family allows more).
-    fn cob_id(
-        &self,
-        entry: &Entry,
-        new: CobId,
-        has_valid_bit: bool,
-        allowed: impl Fn(CobId) -> bool,
-    ) -> Result<(), AbortCode> {
-        let old = CobId::new(self.store.number(entry) as u32);
-        let valid = new.is_valid() || !has_valid_bit;
-        if !new.is_consistent() || !allowed(new) || (valid && new.is_restricted()) {
-            return Err(AbortCode::ValueRange);
-        }
-        let same = (new.raw() ^ old.raw()) & 0x3FFF_FFFF == 0;
-        if has_valid_bit && !self.profile.pdo.direct_cob_id && old.is_valid() && valid && !same {
-            return Err(AbortCode::ValueRange);
-        }
-        Ok(())
-    }
-
-    /// Does the PDO of a communication or mapping object exist (bit 31 of its COB-ID clear)?
-    fn is_valid(&self, index: u16) -> bool {
-        let Some((number, transmits)) = pdo(index) else {
-            return false;
-        };
-        let parameter = number + if transmits { 0x1800 } else { 0x1400 };
-        let cob_id = self.store.try_unsigned(parameter, 1);
-        cob_id.is_some_and(|raw| CobId::new(raw as u32).is_valid())
-    }
-
-    /// Sub-index 0 of a mapping: 0 switches it off, a count needs that many entries that
-    /// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
-    fn mapping_count(&self, index: u16, count: u64) -> Result<(), AbortCode> {
-        let mut bits = 0;
-        for sub in 1..=count.min(0xFF) as u8 {
-            let raw = self
-                .store
-                .try_unsigned(index, sub)
-                .ok_or(AbortCode::PdoTooLong)?;
-            bits += u32::from(check_mapped(self, index, raw as u32)?.bits);
-            if bits > 64 {
-                return Err(AbortCode::PdoTooLong);
+            // An entry that maps nothing can be written; it cannot be counted.
+            if value == 0 {
+                return Ok(());
             }
+            check_mapped(store, index, value as u32).map(|_| ())
         }
-        Ok(())
+        _ => Ok(()),
     }
+}
+
+/// Does another entry of 1016h than `sub` have a time for the node of `value`, which has one?
+fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u64) -> bool {
+    let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
+    let mut others = (1..=0x7F).filter(|other| *other != sub);
+    let same = |other: u8| {
+        let entry = store.unsigned(0x1016, other);
+        entry >> 16 & 0xFF == node && entry & 0xFFFF != 0
+    };
+    time != 0 && (1..=127).contains(&node) && others.any(same)
+}
+
+/// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
+/// changes only while bit 31 is set (unless the family allows more).
+fn check_cob_id(
+    store: &Store<'_>,
+    profile: &Profile,
+    entry: &Entry,
+    new: CobId,
+    has_valid_bit: bool,
+) -> Result<(), AbortCode> {
+    let old = CobId::new(store.number(entry) as u32);
+    let valid = new.is_valid() || !has_valid_bit;
+    if !new.is_consistent() || (valid && new.is_restricted()) {
+        return Err(AbortCode::ValueRange);
+    }
+    let same = (new.raw() ^ old.raw()) & 0x3FFF_FFFF == 0;
+    if has_valid_bit && !profile.pdo.direct_cob_id && old.is_valid() && valid && !same {
+        return Err(AbortCode::ValueRange);
+    }
+    Ok(())
+}
+
+/// Whether the PDO of a communication parameter exists (bit 31 of its COB-ID clear).
+fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
+    let cob_id = store.try_unsigned(parameter, 1);
+    cob_id.is_some_and(|raw| CobId::new(raw as u32).is_valid())
+}
+
+/// Sub-index 0 of a mapping: 0 switches it off, a count needs that many entries that
+/// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
+fn check_mapping_count(store: &Store<'_>, index: u16, count: u64) -> Result<(), AbortCode> {
+    let mut bits = 0;
+    for sub in 1..=count.min(0xFF) as u8 {
+        let raw = store.try_unsigned(index, sub);
+        let raw = raw.ok_or(AbortCode::PdoTooLong)?;
+        bits += u32::from(check_mapped(store, index, raw as u32)?.bits);
+        if bits > 64 {
+            return Err(AbortCode::PdoTooLong);
+        }
+    }
+    Ok(())
 }
 
 /// One entry of the mapping object at `index`: what it names exists, can be mapped in this
 /// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
-pub(crate) fn check_mapped(
-    objects: &Objects<'_>,
-    index: u16,
-    raw: u32,
-) -> Result<MapRepr, AbortCode> {
+pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<MapRepr, AbortCode> {
     let mapped = MapRepr::parse(raw);
     let transmits = index >= 0x1A00;
     if let Address {
@@ -170,7 +145,7 @@ pub(crate) fn check_mapped(
             _ => Err(AbortCode::NotMappable),
         };
     }
-    let entry = objects.entry(mapped.address)?;
+    let entry = store.dictionary().find(mapped.address)?;
     let direction = if transmits {
         entry.maps_to_tpdo()
     } else {

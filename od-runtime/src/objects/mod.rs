@@ -3,7 +3,7 @@
 mod communication;
 mod outbox;
 
-use od_model::{Address, Entry, Missing};
+use od_model::{Address, Entry};
 
 use crate::application::{Application, Context, Reset};
 use crate::limits::{self, Outside};
@@ -49,8 +49,7 @@ impl<'c> Objects<'c> {
 
     /// The entry at an address.
     pub(crate) fn entry(&self, address: Address) -> Result<&'c Entry, AbortCode> {
-        let found = self.store.dictionary().find(address);
-        found.map_err(absent)
+        Ok(self.store.dictionary().find(address)?)
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
@@ -61,10 +60,7 @@ impl<'c> Objects<'c> {
         address: Address,
         number: &'b mut [u8; 8],
     ) -> Result<&'b [u8], AbortCode> {
-        let (entry, plain) = match self.store.locate(address) {
-            Ok(found) => found,
-            Err(missing) => return Err(absent(missing)),
-        };
+        let (entry, plain) = self.store.locate(address)?;
         if plain.len == 0 && !entry.access.readable() {
             return Err(AbortCode::WriteOnly);
         }
@@ -132,7 +128,7 @@ impl<'c> Objects<'c> {
         limits::check(&self.store, entry, bytes)
             .map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
-            self.check_communication(entry, bytes)?;
+            communication::check(&self.store, self.profile, entry, bytes)?;
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put(entry, bytes)?;
@@ -245,13 +241,5 @@ impl<'c> Objects<'c> {
             Some(code) if u64::from(address.sub) > self.store.unsigned(0x1003, 0) => Err(code),
             _ => Ok(()),
         }
-    }
-}
-
-/// What an SDO says of an object that is not there.
-fn absent(missing: Missing) -> AbortCode {
-    match missing {
-        Missing::Object => AbortCode::NoObject,
-        Missing::SubIndex => AbortCode::NoSubIndex,
     }
 }

@@ -75,7 +75,7 @@ impl Mapping {
 
     fn mapped(&self, objects: &Objects<'_>, sub: u8) -> Option<Mapped> {
         let raw = objects.store.try_unsigned(self.object, sub)? as u32;
-        let repr = check_mapped(objects, self.object, raw).ok()?;
+        let repr = check_mapped(&objects.store, self.object, raw).ok()?;
         let entries = objects.store.dictionary().entries();
         let entry = match entries.binary_search_by_key(&repr.address, |entry| entry.address) {
             Ok(at) => at as u32,
