@@ -7,8 +7,8 @@ use od_eds::convert::{c_header, dcf, json, markdown};
 use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
-use crate::Failure;
-use crate::output::{self, Output};
+use crate::failure::Failure;
+use crate::output;
 use crate::source::{self, Source};
 
 /// Convert a device description: EDS, DCF, XDD, Markdown, C header, JSON
@@ -82,57 +82,28 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "--node-id, --bit-rate and --set configure a device: they go with --to dcf".into(),
         ));
     }
-    let mut description = description(&args.input)?;
+    let source = Source::find(&args.input)?;
+    let mut description = source.description()?;
+    if form == Form::Dcf {
+        configure(&mut description, args)?;
+    }
+    let tables = Tables::new(&description);
+    let dictionary = tables.dictionary();
     let text = match form {
-        Form::Eds => od_eds::canonical(&description),
-        Form::Dcf => {
-            configure(&mut description, args)?;
-            od_eds::canonical(&description)
-        }
+        Form::Eds | Form::Dcf => od_eds::canonical(&description),
         Form::Xdd => xdd::write(&description),
-        Form::Md => match Source::find(&args.input)? {
-            Source::BuiltIn(kind) => datasheet::page(kind),
-            Source::File(_) => {
-                let tables = Tables::new(&description);
-                markdown::page(&args.input, tables.dictionary())
-            }
+        Form::Md => match source.kind {
+            Some(kind) => datasheet::page(kind),
+            None => markdown::page(&args.input, dictionary),
         },
         Form::C => {
-            let tables = Tables::new(&description);
-            let stem = Path::new(&args.input)
-                .file_stem()
-                .and_then(|stem| stem.to_str());
-            c_header::write(tables.dictionary(), stem.unwrap_or("device"), &args.input)
+            let stem = Path::new(&args.input).file_stem();
+            let stem = stem.and_then(|stem| stem.to_str()).unwrap_or("device");
+            c_header::write(dictionary, stem, &args.input)
         }
-        Form::Json => {
-            let tables = Tables::new(&description);
-            let value = json::write(tables.dictionary(), &args.input);
-            serde_json::to_string_pretty(&value)
-                .map_err(|error| Failure::Failed(format!("this cannot be JSON: {error}")))?
-        }
+        Form::Json => format!("{:#}", json::write(dictionary, &args.input)),
     };
-    match &args.output {
-        Some(path) => std::fs::write(path, format!("{}\n", text.trim_end())).map_err(|error| {
-            Failure::Failed(format!("{} cannot be written: {error}", path.display()))
-        }),
-        None => {
-            let mut output = Output::new();
-            output.line(text.trim_end())?;
-            output.flush().map(|_| ())
-        }
-    }
-}
-
-/// What is to be converted. What of a file cannot be used is told, and left out.
-fn description(name: &str) -> Result<Description, Failure> {
-    let file = match Source::find(name)? {
-        Source::BuiltIn(kind) => return Ok(od_eds::parse(&od_devices::text::eds(kind)).description),
-        Source::File(file) => file,
-    };
-    let (description, findings) = file.parse()?;
-    let errors: Vec<_> = findings.into_iter().filter(|d| d.is_error()).collect();
-    output::note_text(&file.render(&errors, output::error_colours()));
-    Ok(description)
+    output::save(args.output.as_deref(), &text)
 }
 
 /// Node ID, bit rate and the values of the arguments. A value of the file stays if none is given.

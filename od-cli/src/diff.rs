@@ -5,11 +5,11 @@ mod show;
 
 use od_eds::Tables;
 use od_eds::diff::{Difference, Impact, compare};
-use od_model::Dictionary;
 use od_runtime::NodeId;
 
+use crate::failure::Failure;
+use crate::live;
 use crate::source::{self, Source};
-use crate::{Failure, live};
 
 /// Compare two object dictionaries, or one with a device on a bus
 ///
@@ -53,23 +53,22 @@ enum FailOn {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let before = Loaded::find(&args.before)?;
-    let (found, titles) = match (&args.after, &args.live) {
+    let before = tables(&args.before)?;
+    let (found, second) = match (&args.after, &args.live) {
         (Some(after), _) => {
-            let loaded = Loaded::find(after)?;
-            let found = compare(before.dictionary(), loaded.dictionary());
-            (found, [args.before.clone(), after.clone()])
+            let found = compare(before.dictionary(), tables(after)?.dictionary());
+            (found, after.clone())
         }
         (None, Some(link)) => {
             let mut open = live::open(link)?;
             let mut client = live::Client::new(&mut *open, args.node_id);
-            let found = device::compare(before.dictionary(), &mut client, args)?;
-            let title = format!("node {} on {link}", args.node_id.raw());
-            (found, [args.before.clone(), title])
+            let found = device::compare(before.dictionary(), &mut client, args.values)?;
+            (found, format!("node {} on {link}", args.node_id.raw()))
         }
         // The argument parser asks for one of them.
-        (None, None) => (Vec::new(), [args.before.clone(), String::new()]),
+        (None, None) => (Vec::new(), String::new()),
     };
+    let titles = [args.before.clone(), second];
     show::print(args.format, &titles, &found)?;
     let fails = |difference: &Difference| match args.fail_on {
         Some(FailOn::Any) => true,
@@ -82,27 +81,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A dictionary, wherever it comes from.
-enum Loaded {
-    Compiled(Dictionary<'static>),
-    File(Box<Tables>),
-}
-
-impl Loaded {
-    fn find(name: &str) -> Result<Self, Failure> {
-        match Source::find(name)? {
-            Source::BuiltIn(kind) => Ok(Self::Compiled(kind.dictionary)),
-            Source::File(file) => {
-                let tables = Tables::new(&file.parse()?.0);
-                Ok(Self::File(Box::new(tables)))
-            }
-        }
-    }
-
-    fn dictionary(&self) -> Dictionary<'_> {
-        match self {
-            Self::Compiled(dictionary) => *dictionary,
-            Self::File(tables) => tables.dictionary(),
-        }
-    }
+fn tables(name: &str) -> Result<Tables, Failure> {
+    Ok(Tables::new(&Source::find(name)?.parse()?.description))
 }

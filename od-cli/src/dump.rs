@@ -5,8 +5,8 @@ use od_eds::convert::markdown::{self, HEAD};
 use od_eds::{Description, Tables};
 use od_model::Dictionary;
 
-use crate::Failure;
-use crate::output::Output;
+use crate::failure::Failure;
+use crate::output;
 use crate::source::Source;
 
 /// Show an object dictionary, or a built-in device's datasheet
@@ -29,28 +29,17 @@ enum Format {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let (tables, description);
-    let (dictionary, page) = match Source::find(&args.device)? {
-        Source::BuiltIn(kind) => (kind.dictionary, datasheet::page(kind)),
-        Source::File(file) => {
-            description = file.parse()?.0;
-            tables = Tables::new(&description);
-            let dictionary = tables.dictionary();
-            let title = product(&description).unwrap_or(&file.path).to_owned();
-            (dictionary, markdown::page(&title, dictionary))
+    let source = Source::find(&args.device)?;
+    let description = source.parse()?.description;
+    let tables = Tables::new(&description);
+    output::print(&match (args.format, source.kind) {
+        (Format::Table, _) => table(tables.dictionary()),
+        (Format::Md, Some(kind)) => datasheet::page(kind),
+        (Format::Md, None) => {
+            let title = product(&description).unwrap_or(&source.path);
+            markdown::page(title, tables.dictionary())
         }
-    };
-    let mut output = Output::new();
-    let lines = match args.format {
-        Format::Table => table(dictionary),
-        Format::Md => page.lines().map(str::to_owned).collect(),
-    };
-    for line in lines {
-        if !output.line(&line)? {
-            return Ok(());
-        }
-    }
-    output.flush().map(|_| ())
+    })
 }
 
 /// The name that a file gives its device.
@@ -60,20 +49,21 @@ fn product(description: &Description) -> Option<&str> {
     (!name.is_empty()).then_some(name)
 }
 
-fn table(dictionary: Dictionary<'_>) -> Vec<String> {
+fn table(dictionary: Dictionary<'_>) -> String {
     let mut rows = vec![HEAD.map(String::from)];
     rows.extend(markdown::rows(dictionary).into_iter().map(|row| row.cells));
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
-    let widths: Vec<usize> = (0..HEAD.len())
-        .map(|column| width(column).unwrap_or(0))
-        .collect();
-    let line = |row: &[String; 9]| {
-        let cells: Vec<String> = row
-            .iter()
-            .zip(&widths)
+    let mut widths = [0; HEAD.len()];
+    for row in &rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    let line = |row: &[String; HEAD.len()]| {
+        let cells = row.iter().zip(widths);
+        let cells: Vec<String> = cells
             .map(|(cell, width)| format!("{cell:<width$}"))
             .collect();
         cells.join("  ").trim_end().to_owned()
     };
-    rows.iter().map(line).collect()
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
 }

@@ -3,8 +3,8 @@
 use od_eds::Severity;
 use od_eds::check::{RULES, Rule, pair, rule};
 
-use crate::Failure;
-use crate::output::Output;
+use crate::failure::Failure;
+use crate::output;
 
 mod example;
 
@@ -20,30 +20,19 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut output = Output::new();
     if args.list {
-        for rule in RULES {
-            let (code, severity) = (rule.code, word(rule.severity));
-            let fix = rule.fixability.name();
-            if !output.line(&format!("{code}  {severity:<7}  {fix:<14}  {}", rule.title))? {
-                break;
-            }
-        }
-        output.flush()?;
-        return Ok(());
+        return output::print(&RULES.iter().map(|rule| row(rule)).collect::<String>());
     }
-    let mut found = Vec::new();
-    for code in &args.codes {
-        found.push(rule(code).ok_or_else(|| unknown(code))?);
-    }
-    for (at, rule) in found.into_iter().enumerate() {
-        if at > 0 {
-            output.line("")?;
-        }
-        output.line(text(rule).trim_end())?;
-    }
-    output.flush()?;
-    Ok(())
+    let page = |code: &String| rule(code).map(text).ok_or_else(|| unknown(code));
+    let pages: Result<Vec<String>, Failure> = args.codes.iter().map(page).collect();
+    output::print(&pages?.join("\n"))
+}
+
+/// A line of the list.
+fn row(rule: &Rule) -> String {
+    let (code, severity) = (rule.code, word(rule.severity));
+    let fix = rule.fixability.name();
+    format!("{code}  {severity:<7}  {fix:<14}  {}\n", rule.title)
 }
 
 const fn word(severity: Severity) -> &'static str {

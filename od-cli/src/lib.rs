@@ -11,6 +11,7 @@ mod diff;
 mod dump;
 mod explain;
 mod export;
+mod failure;
 mod lesson;
 mod live;
 mod new;
@@ -19,10 +20,13 @@ mod report;
 mod run;
 mod sim;
 mod source;
+mod terminal;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::failure::Failure;
 
 /// CANopen devices from EDS files.
 #[derive(Parser)]
@@ -46,40 +50,6 @@ enum Command {
     Convert(convert::Args),
     Diff(diff::Args),
     New(new::Args),
-}
-
-/// Why a subcommand did not do what it was asked for.
-enum Failure {
-    /// It was asked for something that cannot be: exit code 2.
-    Usage(String),
-    /// It tried and could not, or what it looked at is not as it should be: exit code 1.
-    Failed(String),
-    /// What there is to say stands there already; this is the exit code.
-    Reported(u8),
-}
-
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Usage(message) | Self::Failed(message) => f.write_str(message),
-            Self::Reported(code) => write!(f, "exit code {code}"),
-        }
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        Self::Failed(error.to_string())
-    }
-}
-
-impl From<od_bench::serve::Failure> for Failure {
-    fn from(failure: od_bench::serve::Failure) -> Self {
-        match failure {
-            od_bench::serve::Failure::Usage(message) => Self::Usage(message),
-            other => Self::Failed(other.to_string()),
-        }
-    }
 }
 
 /// The program `odkit`: reads the command line, does it, answers with the exit code.

@@ -6,11 +6,12 @@ mod mend;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_eds::{Description, Finding};
+use od_eds::{Finding, Parsed};
 
-use crate::output::{self, Output};
+use crate::failure::Failure;
 use crate::source::Source;
-use crate::{Failure, report};
+use crate::{output, report};
+use files::DeviceFile;
 
 /// Make a crate of an EDS file: device, program, script, tests
 ///
@@ -50,88 +51,59 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         notes: &notes,
         odkit: args.odkit.clone().or_else(checkout),
     };
-    let mut output = Output::new();
     for (path, content) in project.files() {
         let path = folder.join(path);
-        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        made.and_then(|()| fs::write(&path, content))
-            .map_err(|error| {
-                Failure::Failed(format!("{} cannot be written: {error}", path.display()))
-            })?;
+        if let Some(folder) = path.parent() {
+            // What is wrong with the folder, writing the file says.
+            let _ = fs::create_dir_all(folder);
+        }
+        output::write(&path, &content)?;
     }
     for note in &notes {
         output::note!("note: {note}");
     }
     let folder = folder.display();
-    output.line(&format!(
+    output::print(&format!(
         "{folder}: {} objects of {}\n\n  cd {folder}\n  cargo test    # its script and its types\n  \
          cargo run     # on slcan; `cargo run -- --help` has the other links",
         device.description.objects.len(),
         args.file
-    ))?;
-    output.flush().map(|_| ())
-}
-
-/// What the crate is made of.
-struct DeviceFile {
-    /// `eds` or `dcf`.
-    ending: &'static str,
-    /// The file that goes into the crate.
-    bytes: Vec<u8>,
-    description: Description,
+    ))
 }
 
 /// The file as it is, if it is sound; else what could be mended of it, and how.
 fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
-    let (path, text, bytes) = match Source::find(name)? {
-        Source::BuiltIn(kind) => {
-            let text = od_devices::text::eds(kind);
-            let bytes = text.clone().into_bytes();
-            (name.to_owned(), text, Some(bytes))
-        }
-        // The macro reads one EDS or DCF. Anything else is written as one.
-        Source::File(file) if !file.is_plain() => (file.path, file.text, None),
-        Source::File(file) => {
-            let bytes = fs::read(&file.path).map_err(|error| {
-                Failure::Failed(format!("{} cannot be read: {error}", file.path))
-            })?;
-            (file.path, file.text, Some(bytes))
-        }
-    };
-    let loaded = od_eds::load(&text);
-    let mut description = loaded.description;
-    if description.objects.is_empty() {
-        return Err(Failure::Failed(format!(
-            "{path} describes no object; is it an EDS, DCF or XDD file?"
-        )));
-    }
-    let is_dcf = Path::new(&path)
+    let source = Source::find(name)?;
+    let Parsed {
+        mut description,
+        diagnostics,
+    } = source.load()?;
+    let path = Path::new(&source.path);
+    let is_dcf = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
-    if !loaded.diagnostics.iter().any(Finding::is_error) {
-        let device = DeviceFile {
-            ending,
-            bytes: bytes.unwrap_or_else(|| od_eds::canonical(&description).into_bytes()),
-            description,
-        };
-        return Ok((device, Vec::new()));
+    let mut notes = mend::Notes::new();
+    let is_sound = !diagnostics.iter().any(Finding::is_error);
+    if !is_sound {
+        notes = mend::mend(&mut description).map_err(|left| {
+            let text = od_eds::canonical(&description);
+            let colours = output::error_colours();
+            output::note_text(&report::render(&source.path, &text, &left, colours));
+            Failure::Failed(format!(
+                "{} cannot be made sound by itself; mend it (`odkit check` shows everything)",
+                source.path
+            ))
+        })?;
     }
-    let notes = mend::mend(&mut description).map_err(|left| {
-        let text = od_eds::canonical(&description);
-        output::note_text(&report::render(
-            &path,
-            &text,
-            &left,
-            output::error_colours(),
-        ));
-        Failure::Failed(format!(
-            "{path} cannot be made sound by itself; mend it (`odkit check` shows everything)"
-        ))
-    })?;
+    // The macro reads one EDS or DCF. Anything else is written as one.
+    let bytes = match is_sound && source.is_plain() {
+        true => source.document().bytes().to_vec(),
+        false => od_eds::canonical(&description).into_bytes(),
+    };
     let device = DeviceFile {
         ending,
-        bytes: od_eds::canonical(&description).into_bytes(),
+        bytes,
         description,
     };
     Ok((device, notes))

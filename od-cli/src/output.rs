@@ -1,8 +1,9 @@
 //! Output to a terminal, a file, or a pipe that may close.
 
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
+use std::path::Path;
 
-use crate::Failure;
+use crate::failure::Failure;
 
 /// Standard output, buffered. Whoever reads may go away: that is no failure of ours.
 pub(crate) struct Output(BufWriter<io::StdoutLock<'static>>);
@@ -21,6 +22,29 @@ impl Output {
     pub(crate) fn flush(&mut self) -> Result<bool, Failure> {
         open(self.0.flush())
     }
+}
+
+/// A text and the end of its last line, to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut output = Output::new();
+    output.line(text.trim_end())?;
+    output.flush().map(drop)
+}
+
+/// The same to a file; to standard output if there is none.
+pub(crate) fn save(path: Option<&Path>, text: &str) -> Result<(), Failure> {
+    match path {
+        Some(path) => write(path, format!("{}\n", text.trim_end()).as_bytes()),
+        None => print(text),
+    }
+}
+
+/// Writes a file.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    std::fs::write(path, bytes).map_err(|error| {
+        let shown = path.display();
+        Failure::Failed(format!("{shown} cannot be written: {error}"))
+    })
 }
 
 fn open(result: io::Result<()>) -> Result<bool, Failure> {

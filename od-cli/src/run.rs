@@ -2,17 +2,16 @@
 
 use std::fs;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use od_bench::VirtualDevice;
-use od_bench::logs::candump::format_line;
 use od_bench::script;
-use od_bench::script::{Host, Origin, Reason, Script};
-use od_runtime::{Frame, Instant, NodeId};
+use od_bench::script::{Reason, Script};
+use od_runtime::NodeId;
 
+use crate::failure::Failure;
 use crate::output::{self, Output, note};
-use crate::source::{self, Source};
-use crate::{Failure, report};
+use crate::terminal::Terminal;
+use crate::{report, source};
 
 /// Run a script in virtual time: candump lines in, candump lines out
 ///
@@ -33,47 +32,6 @@ pub(crate) struct Args {
     echo: bool,
 }
 
-struct Terminal<'a> {
-    args: &'a Args,
-    folder: PathBuf,
-    output: Output,
-    /// Standard output could not be written to.
-    broken: Option<Failure>,
-}
-
-impl Host for Terminal<'_> {
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
-        let source = match name {
-            Some(name) => Source::find_in(name, &self.folder),
-            None => Source::find(&self.args.device),
-        };
-        let node_id = node_id.or(if name.is_none() {
-            self.args.node_id
-        } else {
-            None
-        });
-        source
-            .map_err(|failure| failure.to_string())?
-            .device(node_id)
-    }
-
-    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
-        if self.broken.is_some() || (origin == Origin::Script && !self.args.echo) {
-            return;
-        }
-        match self.output.line(&format_line(at, "can0", frame)) {
-            Ok(true) => {}
-            // Nobody reads any more; the expectations still count.
-            Ok(false) => self.broken = Some(Failure::Reported(1)),
-            Err(failure) => self.broken = Some(failure),
-        }
-    }
-}
-
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let text = read(&args.script)?;
     let script = Script::parse(&text).map_err(|problems| {
@@ -86,18 +44,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             args.script
         ))
     })?;
-    let folder = Path::new(&args.script)
-        .parent()
-        .map(Path::to_path_buf)
-        .unwrap_or_default();
-    let mut host = Terminal {
-        args,
-        folder,
-        output: Output::new(),
-        broken: None,
-    };
+    let unnamed = (args.device.as_str(), args.node_id);
+    let mut host = Terminal::beside(Path::new(&args.script), unnamed);
+    host.output = Some(Output::new());
+    host.echo = args.echo;
     let result = script::run(&script, &mut host);
-    host.output.flush()?;
+    if let Some(mut output) = host.output {
+        output.flush()?;
+    }
     if let Some(Failure::Failed(message)) = host.broken {
         return Err(Failure::Failed(message));
     }

@@ -4,7 +4,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 use od_bench::serve::options::{CHOICES, Choice, Options};
 use od_bench::serve::{self, Maker};
 
-use crate::Failure;
+use crate::failure::Failure;
 use crate::source::Source;
 
 /// Run live nodes; masters connect over slcan, SocketCAN or socketcand
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let source = Source::find(name)?;
         makers.push(Maker {
             name,
-            kind: source.kind(),
+            kind: source.kind,
             make: Box::new(move |node_id| source.device(node_id)),
         });
     }

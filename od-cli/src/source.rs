@@ -1,25 +1,38 @@
-//! From what somebody wrote on the command line to a device.
+//! From a name on the command line to a device description, which is read once.
 
+use std::cell::OnceCell;
 use std::fs;
 use std::path::Path;
 
 use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
+use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed};
 use od_runtime::DeviceKind;
 use od_runtime::NodeId;
 
 pub(crate) use od_bench::serve::options::node_id;
 
-use crate::{Failure, output};
+use crate::failure::Failure;
+use crate::{output, report};
 
-mod text;
+/// A built-in device, or a file, or a base with an overlay.
+#[derive(Default)]
+pub(crate) struct Source {
+    /// The name of the device, or the path; of base and overlay, with `+` between them.
+    pub(crate) path: String,
+    /// The built-in device, if it is one.
+    pub(crate) kind: Option<&'static DeviceKind>,
+    /// The file as it is; of a built-in device its EDS, made when somebody wants it.
+    document: OnceCell<Document>,
+    laid: Option<Box<Laid>>,
+}
 
-pub(crate) use text::Text;
-
-/// A built-in device, or the text of a file.
-pub(crate) enum Source {
-    BuiltIn(&'static DeviceKind),
-    File(Text),
+/// What an overlaid text was made of.
+struct Laid {
+    base: Source,
+    /// Path and text.
+    overlay: (String, String),
+    made: Overlaid,
 }
 
 /// So many errors of a file are shown where a device is made of it.
@@ -34,18 +47,20 @@ impl Source {
     /// As [`find`](Self::find), with paths from `folder` on.
     pub(crate) fn find_in(name: &str, folder: &Path) -> Result<Self, Failure> {
         if let Some(kind) = od_devices::find(name) {
-            return Ok(Self::BuiltIn(kind));
+            return Ok(Self {
+                path: kind.name.into(),
+                kind: Some(kind),
+                ..Self::default()
+            });
         }
         let path = folder.join(name);
         match fs::read(&path) {
-            Ok(bytes) => Ok(Self::File(Text {
-                path: path.display().to_string(),
-                text: od_eds::decode(&bytes).into_owned(),
-                overlay: None,
-            })),
+            Ok(bytes) => Ok(Self::of(path.display().to_string(), Document::new(bytes))),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 match name.rsplit_once('+') {
-                    Some((base, overlay)) => Self::overlaid(base, overlay, folder),
+                    Some((base, overlay)) => {
+                        Self::find_in(base, folder)?.with_overlay(&folder.join(overlay))
+                    }
                     None => Err(unknown(name, &error)),
                 }
             }
@@ -53,65 +68,158 @@ impl Source {
         }
     }
 
-    /// `base.eds+variant.eds`: a base with an overlay, which may be laid over another one.
-    fn overlaid(base: &str, overlay: &str, folder: &Path) -> Result<Self, Failure> {
-        let path = folder.join(overlay);
-        let bytes = fs::read(&path).map_err(|error| {
-            let why = read_error(&error);
-            Failure::Failed(format!("the overlay {}: {why}", path.display()))
-        })?;
-        let base = match Self::find_in(base, folder)? {
-            Self::BuiltIn(kind) => Text {
-                path: kind.name.into(),
-                text: od_devices::text::eds(kind),
-                overlay: None,
-            },
-            Self::File(text) => text,
-        };
-        let overlay = (
-            path.display().to_string(),
-            od_eds::decode(&bytes).into_owned(),
-        );
-        Ok(Self::File(base.with_overlay(overlay)?))
+    /// The file at a path, or a base with an overlay; never a built-in device.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub(crate) fn file(path: &str) -> Result<Self, String> {
+        match fs::read(path) {
+            Ok(bytes) => Ok(Self::of(path.into(), Document::new(bytes))),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
+                Self::find(path).map_err(|failure| failure.to_string())
+            }
+            Err(error) => Err(read_error(&error)),
+        }
     }
 
-    /// The built-in device, if it is one.
-    pub(crate) fn kind(&self) -> Option<&'static DeviceKind> {
-        match self {
-            Self::BuiltIn(kind) => Some(kind),
-            Self::File(_) => None,
+    fn of(path: String, document: Document) -> Self {
+        Self {
+            path,
+            document: document.into(),
+            ..Self::default()
+        }
+    }
+
+    /// This base with the overlay at a path; it may be an overlaid one itself.
+    fn with_overlay(self, path: &Path) -> Result<Self, Failure> {
+        let shown = path.display().to_string();
+        let bytes = fs::read(path).map_err(|error| {
+            let why = read_error(&error);
+            Failure::Failed(format!("the overlay {shown}: {why}"))
+        })?;
+        let overlay = od_eds::decode(&bytes).into_owned();
+        let made = od_eds::overlay(self.text(), &overlay).map_err(|faults| {
+            for (line, fault) in &faults {
+                output::note!("{shown}:{line}: {fault}");
+            }
+            let count = report::plural(faults.len(), "section");
+            Failure::Failed(format!(
+                "{shown}: {count} to remove cannot be; {} has other ones",
+                self.path
+            ))
+        })?;
+        let document = Document::new(made.text.clone());
+        let mut laid = Self::of(format!("{}+{shown}", self.path), document);
+        laid.laid = Some(Box::new(Laid {
+            base: self,
+            overlay: (shown, overlay),
+            made,
+        }));
+        Ok(laid)
+    }
+
+    /// Is it made of two files?
+    pub(crate) fn is_overlaid(&self) -> bool {
+        self.laid.is_some()
+    }
+
+    /// The file.
+    pub(crate) fn document(&self) -> &Document {
+        let text = || self.kind.map(od_devices::text::eds).unwrap_or_default();
+        self.document.get_or_init(|| Document::new(text()))
+    }
+
+    /// Another file in the place of this one.
+    pub(crate) fn replace(&mut self, document: Document) {
+        self.document = document.into();
+    }
+
+    /// Its text.
+    pub(crate) fn text(&self) -> &str {
+        self.document().text()
+    }
+
+    /// One file that any reader of an EDS takes? An overlaid one and an XDD are not.
+    pub(crate) fn is_plain(&self) -> bool {
+        !self.is_overlaid() && !od_eds::is_xml(self.text())
+    }
+
+    /// What it describes, and what was found; a text that describes nothing is a failure.
+    pub(crate) fn parse(&self) -> Result<Parsed, Failure> {
+        self.described(od_eds::parse(self.text()))
+    }
+
+    /// As [`parse`](Self::parse), with what the rules find.
+    pub(crate) fn load(&self) -> Result<Parsed, Failure> {
+        self.described(od_eds::load(self.text()))
+    }
+
+    fn described(&self, parsed: Parsed) -> Result<Parsed, Failure> {
+        if parsed.description.objects.is_empty() {
+            return Err(Failure::Failed(format!(
+                "{} describes no object; is it an EDS, DCF or XDD file?",
+                self.path
+            )));
+        }
+        Ok(parsed)
+    }
+
+    /// What it describes. What cannot be used of it is told on standard error.
+    pub(crate) fn description(&self) -> Result<Description, Failure> {
+        let Parsed {
+            description,
+            mut diagnostics,
+        } = self.parse()?;
+        diagnostics.retain(Finding::is_error);
+        self.note(&diagnostics);
+        Ok(description)
+    }
+
+    /// Shows findings on standard error.
+    fn note(&self, findings: &[Finding]) {
+        output::note_text(&self.render(findings, output::error_colours()));
+    }
+
+    /// Findings of the text with line and caret, each in the file that it is about.
+    pub(crate) fn render(&self, findings: &[Finding], colours: bool) -> String {
+        let Some(laid) = &self.laid else {
+            return report::render(&self.path, self.text(), findings, colours);
+        };
+        let (mut base, mut overlay) = (Vec::new(), Vec::new());
+        for finding in findings {
+            match laid.made.place(finding.clone()) {
+                (Origin::Base, finding) => base.push(finding),
+                (Origin::Overlay, finding) => overlay.push(finding),
+            }
+        }
+        let (path, text) = &laid.overlay;
+        let base = laid.base.render(&base, colours);
+        let overlay = report::render(path, text, &overlay, colours);
+        match (base.is_empty(), overlay.is_empty()) {
+            (false, false) => format!("{}\n\n{overlay}", base.trim_end()),
+            (true, _) => overlay,
+            (_, true) => base,
         }
     }
 
     /// A device with power off. Errors of a text are reported on standard error; what can
     /// run of it runs all the same, as masters take such files, too.
     pub(crate) fn device(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, String> {
-        let file = match self {
-            Self::BuiltIn(kind) => {
-                return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
-            }
-            Self::File(file) => file,
-        };
-        let Text { path, text, .. } = file;
-        let strict = EdsOptions {
-            node_id,
-            lenient: false,
-        };
-        let diagnostics = match VirtualDevice::from_eds(text, strict) {
-            Ok(device) => return Ok(device),
-            Err(diagnostics) => diagnostics,
-        };
-        let errors: Vec<_> = diagnostics.into_iter().filter(|d| d.is_error()).collect();
-        let shown = &errors[..errors.len().min(SHOWN)];
-        let colours = output::error_colours();
-        output::note_text(&file.render(shown, colours));
-        let count = crate::report::plural(errors.len(), "error");
-        let lenient = EdsOptions {
+        if let Some(kind) = self.kind {
+            return Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE)));
+        }
+        let options = EdsOptions {
             node_id,
             lenient: true,
         };
-        match VirtualDevice::from_eds(text, lenient) {
-            Ok(device) if !device.dictionary().objects().is_empty() => {
+        let (device, mut findings) = VirtualDevice::read_eds(self.text(), options);
+        findings.retain(Finding::is_error);
+        self.note(&findings[..findings.len().min(SHOWN)]);
+        let path = &self.path;
+        match device {
+            Some(device) if findings.is_empty() => Ok(device),
+            Some(device) if !device.dictionary().objects().is_empty() => {
+                let count = report::plural(findings.len(), "error");
                 output::error(&format!(
                     "{path} has {count} (`odkit check` shows everything); it runs without \
                      what cannot be used"

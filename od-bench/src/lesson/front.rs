@@ -3,8 +3,10 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::{Lesson, Problem};
 use od_model::values;
+
+use super::content::Lesson;
+use crate::grammar::problem::Problem;
 
 const KEYS: &str = "there are title, summary, level, minutes, language and absent";
 

@@ -5,8 +5,9 @@ use std::{format, vec};
 
 use od_model::Address;
 
-use super::{Lesson, Problem};
+use super::content::Lesson;
 use crate::device::VirtualDevice;
+use crate::grammar::problem::Problem;
 
 /// Error codes of EMCYs look like objects of the profile and are none.
 const ERROR_CODES: [u16; 2] = [0x1000, 0x6010];

@@ -3,8 +3,11 @@
 use std::format;
 use std::prelude::v1::*;
 
-use super::{Block, Lesson, Problem, Quiz, Step, checkpoint, front, links};
+use super::content::{Block, Lesson, Step};
+use super::quiz::Quiz;
+use super::{checkpoint, front, links};
 use crate::grammar::pattern::Pattern;
+use crate::grammar::problem::Problem;
 use crate::script::Script;
 
 /// A lesson is a text for people; what is longer is something else.
@@ -41,7 +44,17 @@ struct Reader {
 
 const BLOCKS: [&str; 4] = ["set-up", "checkpoint", "solution", "answer"];
 
-pub(super) fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
+impl Lesson {
+    /// Reads a lesson.
+    ///
+    /// # Errors
+    /// Everything that could not be read, in order of its lines.
+    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+        parse(text)
+    }
+}
+
+fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
     let mut reader = Reader {
         lesson: Lesson {
             language: "en".into(),

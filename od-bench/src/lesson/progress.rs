@@ -7,7 +7,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant};
 
 use super::condition::{Alternative, Line, What};
-use super::{Lesson, Step};
+use super::content::{Lesson, Step};
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
@@ -351,3 +351,6 @@ fn holds(
     let since = *note.since.get_or_insert(now);
     (now.micros_since(since) >= one.lasting, state)
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,8 +6,11 @@ use std::{format, vec};
 
 use od_runtime::{Frame, Instant, NodeId};
 
-use super::{Block, Lesson, Problem, Progress, Watched, pass, stopped};
+use super::content::{Block, Lesson, stopped};
+use super::progress::Progress;
+use super::watch::{Watched, pass};
 use crate::device::VirtualDevice;
+use crate::grammar::problem::Problem;
 use crate::script::{Bench, Host, Origin, Script, run_on};
 
 /// So long nobody does anything, in microseconds; no checkpoint may be reached by that.

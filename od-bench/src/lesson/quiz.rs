@@ -3,8 +3,8 @@
 use std::prelude::v1::*;
 use std::vec;
 
-use super::Problem;
 use crate::grammar::pattern::Pattern;
+use crate::grammar::problem::Problem;
 use crate::logs::candump;
 
 /// A question, its answer, and why.
@@ -78,3 +78,6 @@ pub fn judge(answer: &Pattern, given: &str) -> Result<Judgement, Problem> {
     }
     Ok(judgement)
 }
+
+#[cfg(test)]
+mod tests;

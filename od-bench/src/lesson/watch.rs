@@ -4,7 +4,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{Frame, Instant, NodeId};
 
-use super::Progress;
+use super::progress::Progress;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::script::{Host, Origin};

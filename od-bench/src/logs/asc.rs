@@ -5,8 +5,7 @@ use std::prelude::v1::*;
 use od_wire::Instant;
 
 use super::candump;
-use super::read::Reader;
-use super::record::{Record, frame, id};
+use super::record::{Reader, Record, frame, id};
 
 /// Does a text with this line look like one?
 pub(super) fn is_one(line: &str) -> bool {

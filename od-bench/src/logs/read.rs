@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_wire::Instant;
 
-use super::record::{ERROR, Record};
+use super::record::{ERROR, Reader, Record};
 use super::{asc, candump, pcap, pcapng, trc};
 
 /// A log that was read.
@@ -37,9 +37,6 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 
 /// Lines in which a text has to show what it is.
 const HEAD: usize = 200;
-
-/// Reads one line: a record, nothing (a comment, a header), or what is wrong with it.
-pub(super) type Reader<'t> = Box<dyn FnMut(&'t str) -> Result<Option<Record>, String> + 't>;
 
 /// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
 ///

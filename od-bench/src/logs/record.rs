@@ -94,3 +94,6 @@ pub(super) fn frame<'w>(
 fn too_long(dlc: u8) -> String {
     format!("the length {dlc} is more than 8")
 }
+
+/// Reads one line: a record, nothing (a comment, a header), or what is wrong with it.
+pub(super) type Reader<'t> = Box<dyn FnMut(&'t str) -> Result<Option<Record>, String> + 't>;

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{CobId, Frame};
 
-use super::{Service, Words};
+use super::said::{Service, Words};
 use crate::device::VirtualDevice;
 
 /// What an error code means: the manuals' own words, else the class of CiA 301, table 26.

@@ -9,6 +9,7 @@ use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, emcy, nmt};
 
 use super::pdo::layout;
+use super::said::bytes;
 use super::tag::{TAGS, answered, requested, tag};
 use crate::device::VirtualDevice;
 
@@ -229,7 +230,7 @@ fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
         };
         fields.about(4, 4 + len, "Data", value, object);
     } else if let Some(size) = size {
-        fields.add(4, 8, "Length", super::bytes(size as usize));
+        fields.add(4, 8, "Length", bytes(size as usize));
     }
 }
 

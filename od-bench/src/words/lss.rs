@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::Frame;
 
-use super::{Service, Words};
+use super::said::{Service, Words};
 
 fn name(command: u8) -> Option<&'static str> {
     Some(match command {

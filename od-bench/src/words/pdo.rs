@@ -7,7 +7,7 @@ use od_model::Address;
 use od_runtime::{CobId, Frame};
 use od_wire::pdo::MapRepr;
 
-use super::{Service, Words, bytes};
+use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
 use od_model::values;
 

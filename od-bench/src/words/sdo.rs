@@ -7,7 +7,7 @@ use od_model::Address;
 use od_runtime::{AbortCode, Frame};
 use od_wire::sdo::{Request, Response};
 
-use super::{Service, Words, bytes};
+use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
 use od_model::values;
 

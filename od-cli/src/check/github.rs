@@ -2,14 +2,14 @@
 
 use od_eds::{Eds, Sentence, Severity, say};
 
-use super::Checked;
+use super::checked::{Checked, about, end_column};
 
 pub(super) fn lines(checked: &Checked, remarks: bool) -> impl Iterator<Item = String> {
     checked
         .findings
         .iter()
         .filter(move |finding| remarks || finding.severity() > Severity::Info)
-        .map(|finding| line(&checked.path, checked.document.text(), &say(finding, &Eds)))
+        .map(|finding| line(&checked.file.path, checked.file.text(), &say(finding, &Eds)))
 }
 
 fn line(path: &str, text: &str, finding: &Sentence) -> String {
@@ -20,18 +20,13 @@ fn line(path: &str, text: &str, finding: &Sentence) -> String {
     };
     let mut line = format!("::{command} file={}", property(path));
     if let Some(span) = finding.span {
-        let range = span.start as usize..span.end as usize;
-        let wide = text.get(range).map_or(0, |part| part.chars().count());
-        let end = span.column as usize + wide;
+        let end = end_column(text, span);
         line.push_str(&format!(
             ",line={},endLine={},col={},endColumn={end}",
             span.line, span.line, span.column
         ));
     }
-    let mut message = finding.message.clone();
-    if let Some(address) = finding.address {
-        message = format!("object {address}: {message}");
-    }
+    let mut message = about(finding);
     if !finding.help.is_empty() {
         message = format!("{message}\nhelp: {}", finding.help);
     }

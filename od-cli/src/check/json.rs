@@ -1,61 +1,92 @@
 //! The report as one JSON object; `version` counts what breaks its readers.
 
-use od_eds::{Eds, Finding, say};
-use serde_json::{Value, json};
+use od_eds::fix::{Applicability, TextEdit};
+use od_eds::{Eds, Finding, Label, Severity, Span, say};
+use serde::Serialize;
 
-use super::{Checked, Summary};
+use super::checked::{Checked, Summary};
 
-pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
-    let files: Vec<Value> = checked.iter().map(file).collect();
-    let report = json!({
-        "version": 1,
-        "odkit": env!("CARGO_PKG_VERSION"),
-        "files": files,
-        "summary": {
-            "files": summary.files,
-            "failed": summary.failed,
-            "mended": summary.mended,
-            "errors": summary.errors,
-            "warnings": summary.warnings,
-            "remarks": summary.remarks,
-        },
-    });
-    format!("{report:#}")
+#[derive(Serialize)]
+struct Report<'a> {
+    version: u32,
+    odkit: &'static str,
+    files: Vec<File<'a>>,
+    summary: &'a Summary,
 }
 
-fn file(checked: &Checked) -> Value {
-    let text = checked.document.text();
-    let findings: Vec<Value> = checked.findings.iter().map(|d| finding(d, text)).collect();
-    json!({
-        "path": checked.path,
-        "failed": checked.failed,
-        "mended": checked.mended,
-        "diagnostics": findings,
-    })
+#[derive(Serialize)]
+struct File<'a> {
+    path: &'a str,
+    failed: Option<&'a str>,
+    mended: usize,
+    diagnostics: Vec<Diagnostic>,
 }
 
 /// Bytes are counted from 0 in the text as UTF-8, lines and columns from 1.
-fn finding(finding: &Finding, text: &str) -> Value {
+#[derive(Serialize)]
+struct Diagnostic {
+    code: &'static str,
+    severity: Severity,
+    message: String,
+    help: String,
+    object: Option<String>,
+    index: Option<u16>,
+    sub: Option<u8>,
+    span: Option<Span>,
+    labels: Vec<Label>,
+    fix: Option<Fix>,
+}
+
+#[derive(Serialize)]
+struct Fix {
+    applicability: Applicability,
+    edits: Vec<TextEdit>,
+}
+
+pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
+    let report = Report {
+        version: 1,
+        odkit: env!("CARGO_PKG_VERSION"),
+        files: checked.iter().map(file).collect(),
+        summary,
+    };
+    // Keys in the order of the alphabet. None of these types can fail.
+    let value = serde_json::to_value(report).unwrap_or_default();
+    format!("{value:#}")
+}
+
+fn file(checked: &Checked) -> File<'_> {
+    let text = checked.file.text();
+    File {
+        path: &checked.file.path,
+        failed: checked.failed.as_deref(),
+        mended: checked.mended,
+        diagnostics: checked
+            .findings
+            .iter()
+            .map(|d| diagnostic(d, text))
+            .collect(),
+    }
+}
+
+fn diagnostic(finding: &Finding, text: &str) -> Diagnostic {
     let finding = say(finding, &Eds);
-    let labels: Vec<Value> = finding
-        .labels
-        .iter()
-        .map(|label| json!({ "span": label.span, "text": label.text }))
-        .collect();
-    let fix = finding.fix.as_ref().and_then(|fix| {
-        let edits = fix.text_edits(text)?;
-        Some(json!({ "applicability": fix.applicability, "edits": edits }))
-    });
-    json!({
-        "code": finding.code,
-        "severity": finding.severity,
-        "message": finding.message,
-        "help": finding.help,
-        "object": finding.address.map(|address| address.to_string()),
-        "index": finding.address.map(|address| address.index),
-        "sub": finding.address.map(|address| address.sub),
-        "span": finding.span,
-        "labels": labels,
-        "fix": fix,
-    })
+    let fix = finding.fix.as_ref();
+    Diagnostic {
+        code: finding.code,
+        severity: finding.severity,
+        object: finding.address.map(|address| address.to_string()),
+        index: finding.address.map(|address| address.index),
+        sub: finding.address.map(|address| address.sub),
+        span: finding.span,
+        fix: fix.and_then(|fix| {
+            Some(Fix {
+                applicability: fix.applicability,
+                edits: fix.text_edits(text)?,
+            })
+        }),
+        message: finding.message,
+        help: finding.help,
+        labels: finding.labels,
+    }
 }

@@ -6,10 +6,13 @@ use od_eds::fix;
 use od_eds::fix::Applicability;
 use od_eds::{Finding, Severity};
 
+use crate::failure::Failure;
 use crate::output::{self, Output};
+use crate::report;
 use crate::source::Source;
-use crate::{Failure, report};
+use checked::{Checked, Summary};
 
+mod checked;
 mod files;
 mod github;
 mod json;
@@ -64,29 +67,6 @@ enum Format {
     Github,
 }
 
-/// What there is to say about one file.
-struct Checked {
-    path: String,
-    document: Document,
-    findings: Vec<Finding>,
-    /// What a text report shows of it, made where many can be made at once.
-    shown: String,
-    /// Places that were mended.
-    mended: usize,
-    /// Why the file could not be read or written.
-    failed: Option<String>,
-}
-
-/// What there is to say about all of them.
-struct Summary {
-    files: usize,
-    mended: usize,
-    failed: usize,
-    errors: usize,
-    warnings: usize,
-    remarks: usize,
-}
-
 impl Args {
     /// How far fixes go, if there are to be any.
     fn level(&self) -> Option<Applicability> {
@@ -109,99 +89,46 @@ impl Args {
         findings
     }
 
-    /// Reads, checks and mends one file.
+    /// Reads, checks and mends one file. An overlaid one is not mended: nobody knows in which
+    /// of its files.
     fn check(&self, path: &str) -> Checked {
-        let mut checked = Checked {
-            path: path.to_owned(),
-            document: Document::default(),
-            findings: Vec::new(),
-            shown: String::new(),
-            mended: 0,
-            failed: None,
+        let mut checked = match Source::file(path) {
+            Ok(file) => Checked::new(file),
+            Err(why) => return Checked::unreadable(path, why),
         };
-        let bytes = match std::fs::read(path) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
-                self.check_overlaid(path, &mut checked);
-                return checked;
-            }
-            Err(error) => {
-                checked.failed = Some(crate::source::read_error(&error));
-                return checked;
-            }
-        };
-        checked.document = Document::new(bytes);
-        match self.level() {
-            None => checked.findings = self.find(&checked.document),
+        let file = &checked.file;
+        let is_overlaid = file.is_overlaid();
+        match self.level().filter(|_| !is_overlaid) {
+            None => checked.findings = self.find(file.document()),
             Some(level) => {
-                let mended = fix::mend(&checked.document, level, |file| self.find(file));
-                checked.mended = mended.edits;
-                checked.findings = mended.findings;
+                let mended = fix::mend(file.document(), level, |file| self.find(file));
                 if self.diff {
-                    checked.shown =
-                        mend::difference(path, checked.document.text(), mended.document.text());
+                    checked.shown = mend::difference(path, file.text(), mended.document.text());
                 } else if mended.edits > 0 {
                     checked.failed = mend::write(path, mended.document.bytes()).err();
                 }
-                checked.document = mended.document;
+                (checked.mended, checked.findings) = (mended.edits, mended.findings);
+                checked.file.replace(mended.document);
             }
         }
-        if self.format == Format::Text && !self.diff {
+        if is_overlaid {
+            for finding in &mut checked.findings {
+                finding.fix = None;
+            }
+        }
+        if self.format == Format::Text && (is_overlaid || !self.diff) {
             let wanted = |finding: &&Finding| self.remarks || finding.severity() > Severity::Info;
             let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
-            let text = checked.document.text();
-            checked.shown = report::render(path, text, &wanted, output::colours());
+            checked.shown = checked.file.render(&wanted, output::colours());
         }
         checked
-    }
-
-    /// A base with an overlay: findings stand in the file that they are about; nothing is
-    /// mended, since nobody knows in which of the two.
-    fn check_overlaid(&self, path: &str, checked: &mut Checked) {
-        let file = match Source::find(path) {
-            Ok(Source::File(file)) => file,
-            Ok(Source::BuiltIn(_)) => return,
-            Err(Failure::Usage(why) | Failure::Failed(why)) => {
-                checked.failed = Some(why);
-                return;
-            }
-            Err(Failure::Reported(_)) => {
-                checked.failed = Some("it cannot be read".into());
-                return;
-            }
-        };
-        checked.document = Document::new(file.text.clone().into_bytes());
-        checked.findings = self.find(&checked.document);
-        for finding in &mut checked.findings {
-            finding.fix = None;
-        }
-        if self.format == Format::Text {
-            let wanted = |finding: &&Finding| self.remarks || finding.severity() > Severity::Info;
-            let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
-            checked.shown = file.render(&wanted, output::colours());
-        }
-    }
-
-    fn summary(&self, checked: &[Checked]) -> Summary {
-        let count = |severity| {
-            let all = checked.iter().flat_map(|file| &file.findings);
-            all.filter(|finding| finding.severity() == severity).count()
-        };
-        Summary {
-            files: checked.iter().filter(|file| file.failed.is_none()).count(),
-            mended: checked.iter().map(|file| file.mended).sum(),
-            failed: checked.iter().filter(|file| file.failed.is_some()).count(),
-            errors: count(Severity::Error),
-            warnings: count(Severity::Warning),
-            remarks: count(Severity::Info),
-        }
     }
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let paths = files::find(&args.files);
     let checked = files::at_once(&paths, |path| args.check(path));
-    let summary = args.summary(&checked);
+    let summary = Summary::of(&checked);
     let mut output = Output::new();
     match args.format {
         _ if args.diff => text(args, &checked, &summary, &mut output)?,
@@ -219,7 +146,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     output.flush()?;
     for file in &checked {
         if let Some(why) = &file.failed {
-            output::error(&format!("{}: {why}", file.path));
+            output::error(&format!("{}: {why}", file.file.path));
         }
     }
     let wrong = summary.errors > 0 || args.strict && summary.warnings > 0;

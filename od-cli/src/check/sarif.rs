@@ -5,7 +5,7 @@ use od_eds::fix::TextEdit;
 use od_eds::{Eds, Finding, Severity, Span, say};
 use serde_json::{Value, json};
 
-use super::Checked;
+use super::checked::{Checked, about, end_column};
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json";
@@ -33,7 +33,7 @@ pub(super) fn report(checked: &[Checked]) -> String {
             let why = file.failed.as_ref()?;
             Some(json!({
                 "level": "error",
-                "message": { "text": format!("{}: {why}", file.path) },
+                "message": { "text": format!("{}: {why}", file.file.path) },
             }))
         })
         .collect();
@@ -67,11 +67,8 @@ const fn level(severity: Severity) -> &'static str {
 
 fn result(file: &Checked, finding: &Finding) -> Value {
     let finding = say(finding, &Eds);
-    let text = file.document.text();
-    let mut message = finding.message.clone();
-    if let Some(address) = finding.address {
-        message = format!("object {address}: {message}");
-    }
+    let text = file.file.text();
+    let mut message = about(&finding);
     if !finding.help.is_empty() {
         message = format!("{message} ({})", finding.help);
     }
@@ -96,7 +93,7 @@ fn result(file: &Checked, finding: &Finding) -> Value {
         result["fixes"] = json!([{
             "description": { "text": finding.help },
             "artifactChanges": [{
-                "artifactLocation": { "uri": uri(&file.path) },
+                "artifactLocation": { "uri": uri(&file.file.path) },
                 "replacements": replacements,
             }],
         }]);
@@ -105,16 +102,13 @@ fn result(file: &Checked, finding: &Finding) -> Value {
 }
 
 fn location(file: &Checked, span: Option<Span>, what: Option<&str>) -> Value {
-    let mut place = json!({ "artifactLocation": { "uri": uri(&file.path) } });
+    let mut place = json!({ "artifactLocation": { "uri": uri(&file.file.path) } });
     if let Some(span) = span {
-        let text = file.document.text();
-        let range = span.start as usize..span.end as usize;
-        let wide = text.get(range).map_or(0, |part| part.chars().count());
         place["region"] = json!({
             "startLine": span.line,
             "startColumn": span.column,
             "endLine": span.line,
-            "endColumn": span.column as usize + wide,
+            "endColumn": end_column(file.file.text(), span),
         });
     }
     let mut location = json!({ "physicalLocation": place });

@@ -3,10 +3,9 @@
 use od_eds::diff::{Difference, Field, Impact};
 use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
-use od_runtime::AbortCode;
+use od_runtime::{AbortCode, NodeId};
 
-use super::Args;
-use crate::Failure;
+use crate::failure::Failure;
 use crate::live::Client;
 
 /// Reads every object that can be read. What a device has besides them cannot be told from
@@ -14,8 +13,9 @@ use crate::live::Client;
 pub(super) fn compare(
     dictionary: Dictionary<'_>,
     client: &mut Client<'_>,
-    args: &Args,
+    values: bool,
 ) -> Result<Vec<Difference>, Failure> {
+    let node = client.node();
     let mut found = Vec::new();
     for object in dictionary.objects() {
         for entry in dictionary.members(object) {
@@ -23,7 +23,7 @@ pub(super) fn compare(
                 continue;
             }
             let (field, before, after, impact) = match client.upload(entry.address)? {
-                Ok(bytes) => match value(dictionary, entry, &bytes, args) {
+                Ok(bytes) => match value(dictionary, entry, &bytes, (node, values)) {
                     Some(difference) => difference,
                     None => continue,
                 },
@@ -93,7 +93,12 @@ fn at(dictionary: Dictionary<'_>, object: &Object, address: Address, what: What)
 }
 
 /// What a value that was read says: its length, and what it is where it should not change.
-fn value(dictionary: Dictionary<'_>, entry: &Entry, bytes: &[u8], args: &Args) -> Option<What> {
+fn value(
+    dictionary: Dictionary<'_>,
+    entry: &Entry,
+    bytes: &[u8],
+    (node, all): (NodeId, bool),
+) -> Option<What> {
     let data_type = entry.data_type;
     if data_type.size().is_some_and(|size| size != bytes.len()) {
         return Some((
@@ -103,14 +108,14 @@ fn value(dictionary: Dictionary<'_>, entry: &Entry, bytes: &[u8], args: &Args) -
             Impact::Breaking,
         ));
     }
-    let default = default_bytes(dictionary, entry, args)?;
+    let default = default_bytes(dictionary, entry, node)?;
     // Serial numbers are each device's own; what a master can write, and what the device
     // measures, differs for good reasons.
     let is_fixed = match (entry.address.index, entry.address.sub) {
         (0x1000, 0) | (0x1018, 0..=3) | (0x1008..=0x100A, 0) => true,
         _ => entry.access == Access::Const,
     };
-    if default == bytes || !(is_fixed || args.values) {
+    if default == bytes || !(is_fixed || all) {
         return None;
     }
     let breaks = matches!(
@@ -130,8 +135,8 @@ fn value(dictionary: Dictionary<'_>, entry: &Entry, bytes: &[u8], args: &Args) -
 }
 
 /// The default as it would go over the bus; `None` where the dictionary gives none.
-fn default_bytes(dictionary: Dictionary<'_>, entry: &Entry, args: &Args) -> Option<Vec<u8>> {
-    if let Some(number) = entry.default.integer(args.node_id.raw()) {
+fn default_bytes(dictionary: Dictionary<'_>, entry: &Entry, node: NodeId) -> Option<Vec<u8>> {
+    if let Some(number) = entry.default.integer(node.raw()) {
         let size = entry.data_type.size()?;
         return Some(number.to_le_bytes().get(..size)?.to_vec());
     }

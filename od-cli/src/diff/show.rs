@@ -2,8 +2,8 @@
 
 use od_eds::diff::{Difference, Field, Impact};
 
-use crate::output::Output;
-use crate::{Failure, report};
+use crate::failure::Failure;
+use crate::{output, report};
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(super) enum Format {
@@ -20,14 +20,11 @@ pub(super) fn print(
     titles: &[String; 2],
     found: &[Difference],
 ) -> Result<(), Failure> {
-    let mut output = Output::new();
-    let text = match format {
+    output::print(&match format {
         Format::Text => text(titles, found),
-        Format::Json => json(titles, found)?,
+        Format::Json => json(titles, found),
         Format::Markdown => markdown(titles, found),
-    };
-    output.line(text.trim_end())?;
-    output.flush().map(|_| ())
+    })
 }
 
 fn breaking(found: &[Difference]) -> usize {
@@ -122,13 +119,12 @@ fn markdown(titles: &[String; 2], found: &[Difference]) -> String {
     lines.join("\n")
 }
 
-fn json(titles: &[String; 2], found: &[Difference]) -> Result<String, Failure> {
+fn json(titles: &[String; 2], found: &[Difference]) -> String {
     let value = serde_json::json!({
         "before": titles[0],
         "after": titles[1],
         "breaking": breaking(found),
         "differences": found,
     });
-    serde_json::to_string_pretty(&value)
-        .map_err(|error| Failure::Failed(format!("this cannot be written as JSON: {error}")))
+    format!("{value:#}")
 }

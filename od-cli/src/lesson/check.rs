@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use od_bench::lesson::{Lesson, Problem, prove};
 
-use super::{Terminal, files, show_problems};
+use super::file::{files, show_problems};
+use crate::failure::Failure;
 use crate::output::note;
-use crate::{Failure, report};
+use crate::report;
+use crate::terminal::Terminal;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
@@ -22,7 +24,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let path = Path::new(&file.path);
         let problems = match &file.lesson {
             Ok(lesson) => {
-                let mut problems = prove(lesson, &mut Terminal::beside(path));
+                let mut problems = prove(lesson, &mut Terminal::beside(path, ("gxmm", None)));
                 problems.extend(dead_links(lesson, path));
                 problems
             }

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::{builtin, files, show_problems};
-use crate::Failure;
+use super::builtin;
+use super::file::{files, show_problems};
+use crate::failure::Failure;
 use crate::output::Output;
 
 #[derive(clap::Args)]

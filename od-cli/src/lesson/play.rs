@@ -6,9 +6,11 @@ use std::path::PathBuf;
 use od_bench::lesson::{Progress, Watched};
 use od_bench::script::{Bench, Reader, Script, run_on};
 
-use super::{File, Terminal};
+use super::file::File;
+use crate::failure::Failure;
 use crate::output::{Output, error, note};
-use crate::{Failure, report};
+use crate::report;
+use crate::terminal::Terminal;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
@@ -28,7 +30,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let lesson = File::read(&args.file)?.usable()?;
     let path = args.file.display();
-    let mut host = Terminal::beside(&args.file);
+    let mut host = Terminal::beside(&args.file, ("gxmm", None));
     let mut bench = lesson
         .set_up(&mut host)
         .map_err(|problem| Failure::Usage(format!("{path}:{problem}")))?;
@@ -67,7 +69,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 struct Take {
     progress: Progress,
     bench: Bench,
-    host: Terminal,
+    host: Terminal<'static>,
 }
 
 impl Take {

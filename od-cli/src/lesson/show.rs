@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use od_bench::lesson::{Lesson, Step};
 
-use super::File;
-use crate::Failure;
-use crate::output::Output;
+use super::file::File;
+use crate::failure::Failure;
+use crate::output;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
@@ -29,14 +29,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.step.is_some_and(|step| step == 0 || step > steps) {
         return Err(Failure::Usage(format!("the lesson has steps 1 to {steps}")));
     }
-    let mut output = Output::new();
-    for line in text(&lesson, args).trim_end().lines() {
-        if !output.line(line)? {
-            return Ok(());
-        }
-    }
-    output.flush()?;
-    Ok(())
+    output::print(&text(&lesson, args))
 }
 
 fn text(lesson: &Lesson, args: &Args) -> String {

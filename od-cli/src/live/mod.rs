@@ -1,5 +1,6 @@
 //! A device on a real bus, as a master sees it: an SDO client over a link.
 
+mod link;
 mod slcan;
 
 use std::time::{Duration, Instant};
@@ -7,21 +8,14 @@ use std::time::{Duration, Instant};
 use od_client::sdo::{Options, SdoError};
 use od_client::{Event, lss};
 use od_model::Address;
-use od_wire::{Frame, NodeId};
+use od_wire::NodeId;
 
-use crate::Failure;
+use crate::failure::Failure;
+use link::Link;
 
 /// An answer within 1 s, as devices that save or calibrate take their time; a value of at most
 /// 1 MiB, as a longer one is a device gone wild.
 const OPTIONS: Options = Options::DEFAULT;
-
-/// What carries frames.
-pub(crate) trait Link {
-    /// Sends a frame.
-    fn send(&mut self, frame: &Frame) -> Result<(), Failure>;
-    /// The next frame, if one comes before `until`.
-    fn receive(&mut self, until: Instant) -> Result<Option<Frame>, Failure>;
-}
 
 /// A link by its name on the command line: `slcan:HOST:PORT`.
 pub(crate) fn open(name: &str) -> Result<Box<dyn Link>, Failure> {
@@ -50,6 +44,11 @@ impl<'l> Client<'l> {
             client: od_client::Client::with(OPTIONS, lss::Options::DEFAULT),
             start: Instant::now(),
         }
+    }
+
+    /// The node ID.
+    pub(crate) fn node(&self) -> NodeId {
+        self.node
     }
 
     /// The bytes of an object, or the code of the abort; a device that says nothing, or

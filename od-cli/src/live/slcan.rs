@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use od_runtime::Frame;
 
-use super::Link;
-use crate::Failure;
+use super::link::Link;
+use crate::failure::Failure;
 use od_bench::links::slcan;
 
 pub(crate) struct Client {

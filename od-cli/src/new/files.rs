@@ -6,7 +6,14 @@ use od_eds::{Description, Tables};
 use od_model::{Address, Kind, Literal};
 use od_runtime::encoder::EncoderProfile;
 
-use super::DeviceFile;
+/// What the crate is made of.
+pub(super) struct DeviceFile {
+    /// `eds` or `dcf`.
+    pub(super) ending: &'static str,
+    /// The file that goes into the crate.
+    pub(super) bytes: Vec<u8>,
+    pub(super) description: Description,
+}
 
 /// A crate that is to be.
 pub(super) struct Project<'p> {

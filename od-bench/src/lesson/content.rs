@@ -1,0 +1,112 @@
+//! A lesson that was read: its texts, its steps, and the bench that it asks for.
+
+use std::prelude::v1::*;
+
+use super::condition::Line;
+use super::quiz::Quiz;
+use crate::grammar::problem::Problem;
+use crate::script::{Bench, Host, Script, Stop, run_on};
+
+/// A lesson that was read.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Lesson {
+    /// What it is called.
+    pub title: String,
+    /// What it is about, in a sentence; may be empty.
+    pub summary: String,
+    /// Language of its text, `en` if it says nothing.
+    pub language: String,
+    /// 1 for beginners, 2, 3.
+    pub level: u8,
+    /// How long it takes, about.
+    pub minutes: u16,
+    /// Objects that its text names though no device of it has them, as `2FFFh`.
+    pub absent: Vec<od_model::Address>,
+    /// What stands before the first step, as Markdown.
+    pub intro: String,
+    /// The script that makes the bench.
+    pub set_up: Block,
+    /// What there is to do, in order.
+    pub steps: Vec<Step>,
+    /// Where links lead, each with its line.
+    pub(super) links: Vec<(u32, String)>,
+    /// Objects that its text names, each with its line.
+    pub(super) objects: Vec<(u32, od_model::Address)>,
+}
+
+/// Lines of a script, with their place in the lesson.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Block {
+    /// Number of the first line in the lesson, counted from 1; 0 where there is no such block.
+    pub line: u32,
+    /// The lines.
+    pub text: String,
+}
+
+/// One step of a lesson.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Step {
+    /// Line of its heading.
+    pub line: u32,
+    /// What it is called.
+    pub title: String,
+    /// What there is to do and why, as Markdown.
+    pub text: String,
+    /// Each tells a bit more than the one before, as Markdown.
+    pub hints: Vec<String>,
+    /// What just happened, once it is done, as Markdown.
+    pub happened: String,
+    /// A question about bytes that are still to come.
+    pub quiz: Option<Quiz>,
+    /// The lines that do it.
+    pub solution: Block,
+    /// What has to hold, all of it.
+    pub(super) checkpoint: Vec<Line>,
+}
+
+impl Lesson {
+    /// Makes the bench: runs the set-up.
+    ///
+    /// # Errors
+    /// Which line of the lesson cannot be carried out, and why.
+    pub fn set_up(&self, host: &mut dyn Host) -> Result<Bench, Problem> {
+        self.set_up_on(Bench::default(), host)
+    }
+
+    /// As [`set_up`](Self::set_up), with a bench whose time has begun already.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn set_up_on(&self, mut bench: Bench, host: &mut dyn Host) -> Result<Bench, Problem> {
+        // Lessons are about a real wire, unless they say otherwise.
+        bench.bus.line.is_real = true;
+        let script = self.set_up.script().map_err(|mut all| all.remove(0))?;
+        run_on(&script, &mut bench, host).map_err(|stop| stopped(&stop))?;
+        while bench.bus.poll().is_some() {}
+        while bench.bus.line.poll().is_some() {}
+        Ok(bench)
+    }
+}
+
+impl Block {
+    /// Its lines as a script that counts lines as the lesson does.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn script(&self) -> Result<Script, Vec<Problem>> {
+        Script::parse_at(&self.text, self.line)
+    }
+}
+
+/// Why a block stopped, as a problem of the lesson.
+pub(super) fn stopped(stop: &Stop) -> Problem {
+    let why = std::format!("{stop}");
+    // The first line of it says where, and that stands in the problem.
+    let why: Vec<_> = why.lines().skip(1).map(str::trim).collect();
+    Problem {
+        line: stop.line,
+        column: 1,
+        message: std::format!("`{}` does not work: {}", stop.text, why.join(" ")),
+        help: "play the block with `odkit run` to see what comes".into(),
+    }
+}
