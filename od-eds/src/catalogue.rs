@@ -5,7 +5,7 @@
 //! | blank | what it becomes |
 //! |---|---|
 //! | `{low}` | the fact of this name |
-//! | `{id:03X}` | a number, hexadecimal with at least three digits |
+//! | `{id:03X}` | a number or an index, hexadecimal with at least three digits |
 //! | `{count:entry\|entries}` | a count and its noun: "1 entry", "2 entries" |
 //! | `{LowLimit}`, `{key}` | this key, and the one that the finding is about |
 //! | `{DataType={right}}` | this key set to a value, which may have blanks too |
@@ -183,7 +183,8 @@ impl Blanks<'_> {
             Fact::FormOf(data_type) => self.words.form_of(*data_type),
             Fact::Code(code) => code.name().into(),
             Fact::Access(access) => access.name().into(),
-            Fact::Index(index) => format!("{index:04X}h"),
+            Fact::Index(index) if form.is_empty() => format!("{index:04X}h"),
+            Fact::Index(index) => counted(i128::from(*index), form),
             Fact::Object(address) => address.to_string(),
             Fact::Section(index, sub) => self.words.section(*index, *sub),
             Fact::Key(key) => self.words.key(*key).into(),

@@ -127,7 +127,7 @@ macro_rules! facts {
 }
 
 facts! {
-    Number(i128) Number(i64) Number(u64) Number(u32) Number(u8)
+    Number(i128) Number(i64) Number(u64) Number(u32) Number(u16) Number(u8)
     Value(Value) Type(DataType) Code(ObjectCode) Access(Access)
     Object(Address) Key(Key) Text(String) Text(&str) List(Vec<Fact>)
 }

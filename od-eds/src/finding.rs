@@ -69,6 +69,11 @@ pub struct Form {
     pub help: &'static str,
 }
 
+impl Form {
+    /// The sentences of the rule itself: `Form { says: "…", ..Form::OWN }` has the rule's help.
+    pub(crate) const OWN: Self = Self { says: "", help: "" };
+}
+
 /// How the findings of a rule are found.
 #[derive(Clone, Copy)]
 pub(crate) enum Check {
@@ -145,6 +150,20 @@ impl Rule {
         also: &[],
         check: Check::ByReader,
     };
+
+    /// All that its findings can say.
+    pub fn forms(&self) -> impl Iterator<Item = Form> {
+        let own = Form {
+            says: self.says,
+            help: self.help,
+        };
+        let or = |given: &'static str, own| if given.is_empty() { own } else { given };
+        let also = self.also.iter().map(move |also| Form {
+            says: or(also.says, own.says),
+            help: or(also.help, own.help),
+        });
+        core::iter::once(own).chain(also)
+    }
 
     /// A finding of this rule; place and facts are added to it.
     pub(crate) fn finding(&'static self) -> Finding {
@@ -276,7 +295,14 @@ impl Finding {
     /// Says another of the rule's sentences.
     #[must_use]
     pub(crate) fn form(mut self, form: &Form) -> Self {
-        self.form = *form;
+        for (own, other) in [
+            (&mut self.form.says, form.says),
+            (&mut self.form.help, form.help),
+        ] {
+            if !other.is_empty() {
+                *own = other;
+            }
+        }
         self
     }
 

@@ -1,6 +1,5 @@
 //! Reading and checking. Only this file asks if a text is an EDS or XML.
 
-use alloc::format;
 use alloc::vec::Vec;
 
 use crate::check::{Allows, check};
@@ -9,7 +8,7 @@ use crate::finding::{Finding, sort};
 use crate::read::modules;
 use crate::read::parsed::Parsed;
 use crate::read::sorted;
-use crate::rules;
+use crate::rules::text::{i0111, w0112};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
 #[cfg(feature = "xdd")]
@@ -87,30 +86,13 @@ fn encoded(document: &Document) -> Vec<Finding> {
     let (text, encoding) = (document.text(), document.encoding());
     let mut found = Vec::new();
     let first = text.find(|c: char| !c.is_ascii());
-    let marked = match document.has_mark() {
-        true => ", with a byte order mark",
-        false => "",
-    };
     // XML says how it is written, and every tool that reads XML knows these.
     if encoding != Encoding::Ascii && !is_xml(text) {
-        found.push(
-            rules::I0111
-                .told(
-                    lines::span(text, first.unwrap_or(0)),
-                    format!("the file is {encoding}{marked}"),
-                )
-                .with_help("where another reader fails, save it as ASCII"),
-        );
+        let first = lines::span(text, first.unwrap_or(0));
+        found.push(i0111::finding(first, encoding, document.has_mark()));
     }
     if let Some(at) = document.first_wrong() {
-        found.push(
-            rules::W0112
-                .told(
-                    lines::span(text, at),
-                    format!("here is a byte that is no character of {encoding}"),
-                )
-                .with_help("write the character anew, or save the file in one encoding"),
-        );
+        found.push(w0112::finding(lines::span(text, at), encoding));
     }
     found
 }

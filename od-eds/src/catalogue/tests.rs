@@ -73,21 +73,18 @@ fn every_sentence_is_said_and_filled() {
         }
     }
     for rule in RULES.iter().filter(|rule| !rule.code.starts_with("E07")) {
-        let own = (rule.says, rule.help);
-        let also = rule.also.iter().map(|form| (form.says, form.help));
-        for form in core::iter::once(own).chain(also) {
+        let forms: Vec<_> = rule.forms().map(|form| (form.says, form.help)).collect();
+        for form in forms.iter() {
             if form.0 != "{message}"
                 && !said
                     .get(rule.code)
-                    .is_some_and(|forms| forms.contains(&form))
+                    .is_some_and(|forms| forms.contains(form))
             {
                 faults.insert(format!("{}: no case says {form:?}", rule.code));
             }
         }
         for form in said.get(rule.code).into_iter().flatten() {
-            let known =
-                *form == own || rule.also.iter().any(|also| (also.says, also.help) == *form);
-            if form.0 != "{message}" && !known {
+            if form.0 != "{message}" && !forms.contains(form) {
                 faults.insert(format!(
                     "{}: not a sentence of the rule: {form:?}",
                     rule.code

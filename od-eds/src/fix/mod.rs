@@ -115,6 +115,16 @@ impl Fix {
         self.edit(span, Action::InsertAbove, text)
     }
 
+    /// Makes a comment of a line.
+    #[must_use]
+    pub(crate) fn comment_out(self, line: Span) -> Self {
+        let start = Span {
+            end: line.start,
+            ..line
+        };
+        self.replace(start, ";")
+    }
+
     /// Removes the line of `span`.
     #[must_use]
     pub fn remove_line(self, span: Span) -> Self {

@@ -8,15 +8,14 @@ use alloc::vec::Vec;
 use crate::description::{EntryDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
-use crate::fix::Fix;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
-use crate::rules;
+use crate::rules::structure::{w0313, w0314, w0321};
 use crate::scan::names::Compact;
 use crate::scan::number;
 use crate::scan::placed;
 use crate::scan::placed::{Placed, Text};
-use crate::span::{Span, Spanned};
+use crate::span::Spanned;
 use od_model::{Access, Address, DataType};
 
 /// The `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` of an object.
@@ -41,17 +40,7 @@ pub(crate) fn count(
         Some(number) if number > 0 => Some(Spanned::new(HIGHEST, given.span)),
         _ => None,
     };
-    reader.report(
-        rules::W0313
-            .told(
-                given.span,
-                format!(
-                    "CompactSubObj is a number from 1 to 254, not `{}`",
-                    given.value
-                ),
-            )
-            .with_help("write the number of members besides sub-index 0"),
-    );
+    reader.report(w0313::finding(&given));
     if count.is_none() {
         unread.push(("CompactSubObj".into(), given.value.into_owned()));
     }
@@ -96,16 +85,7 @@ pub(crate) fn expand(
                     let address = Address::new(address.index, sub);
                     give(Reader { address, log }, entry, compact, value);
                 }
-                None => log.push(
-                    rules::W0314
-                        .told(
-                            key.span,
-                            format!("there is no member `{}` to give this to", key.value),
-                        )
-                        .about(address)
-                        .with_label(count.span, "members are counted here")
-                        .with_help(format!("the members are 1 to {}", count.value)),
-                ),
+                None => log.push(w0314::finding(key, count).about(address)),
             }
         }
     }
@@ -123,28 +103,7 @@ fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Finding>) {
     if given.and_then(|given| crate::scan::number::number(given)) == i128::try_from(entries).ok() {
         return;
     }
-    let (span, message, fix) = match given {
-        Some(given) => (
-            given.span,
-            format!(
-                "NrOfEntries is {}, but the section has {entries}",
-                given.value
-            ),
-            Fix::safe().replace(given.span, format!("{entries}")),
-        ),
-        None => (
-            section.header,
-            "there is no NrOfEntries".into(),
-            Fix::safe().below(section.header, format!("NrOfEntries={entries}")),
-        ),
-    };
-    log.push(
-        rules::W0321
-            .told(span, message)
-            .about(address)
-            .with_help(format!("write `NrOfEntries={entries}`"))
-            .fix(fix),
-    );
+    log.push(w0321::finding(section.header, given, entries).about(address));
 }
 
 fn give(mut reader: Reader<'_>, entry: &mut EntryDescription, compact: Compact, value: &Text<'_>) {
@@ -182,17 +141,4 @@ fn highest(index: u16, count: &Spanned<u8>) -> EntryDescription {
         span: count.span,
         ..EntryDescription::new("NrOfObjects", DataType::Unsigned8)
     }
-}
-
-/// Names a compact section of an object that has no CompactSubObj.
-pub(crate) fn unclaimed(name: &str, header: Span, index: u16) -> Finding {
-    rules::W0209
-        .told(
-            header,
-            format!("[{name}] belongs to an object with CompactSubObj"),
-        )
-        .about(Address::new(index, 0))
-        .with_help(format!(
-            "write `CompactSubObj=` and the number of members in [{index:04X}], or remove the section"
-        ))
 }

@@ -11,6 +11,7 @@ use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
 use crate::rules;
+use crate::rules::structure::w0315;
 use crate::rules::text::w0109;
 use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416};
 use crate::scan::number;
@@ -46,11 +47,7 @@ impl Reader<'_> {
     pub(crate) fn name(&mut self, fields: &mut Fields<'_>) -> Spanned<String> {
         let name = fields.take("ParameterName").map(placed::owned);
         name.unwrap_or_else(|| {
-            self.report(
-                rules::W0315
-                    .told(fields.header, "there is no ParameterName")
-                    .with_help("write `ParameterName=` and a name"),
-            );
+            self.report(w0315::finding(fields.header));
             Spanned::from(String::new())
         })
     }

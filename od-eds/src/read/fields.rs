@@ -2,14 +2,13 @@
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::finding::Finding;
-use crate::fix::Fix;
 use crate::read::other::unknown_object_keys;
-use crate::rules;
+use crate::rules::structure::i0320;
+use crate::rules::text::w0107;
 use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
@@ -49,16 +48,7 @@ impl<'a> Fields<'a> {
         for (key, value) in &mut pairs {
             let numeric = NOT_EMPTY.iter().any(|name| key.eq_ignore_ascii_case(name));
             if numeric && before_comment(value).is_empty() {
-                log.push(
-                    rules::I0320
-                        .told(key.span, format!("`{}` is empty", key.value))
-                        .about(address)
-                        .with_help(format!(
-                            "give `{}` a value, or leave the line out",
-                            key.value
-                        ))
-                        .fix(Fix::safe().remove_line(key.span)),
-                );
+                log.push(i0320::finding(key).about(address));
                 value.value = Cow::Borrowed("");
             }
         }
@@ -128,17 +118,7 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Finding>)
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
-        log.push(
-            rules::W0107
-                .told(key.span, format!("`{}` stands twice", key.value))
-                .with_label(first.span, "this one counts")
-                .with_help(format!("remove `{}={}`", key.value, value.value))
-                .fix(match value == same {
-                    true => Fix::safe().remove_line(key.span),
-                    // Whoever takes the last one reads something else then.
-                    false => Fix::unsafe_fix().remove_line(key.span),
-                }),
-        );
+        log.push(w0107::finding(first.span, key, value, value == same));
         found.push(at);
     };
     // Sections are short; a tree is for the text that was made to be slow.

@@ -13,7 +13,8 @@ use alloc::vec::Vec;
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
 use crate::finding::Finding;
 use crate::read::sorted;
-use crate::rules;
+use crate::rules::lists::w0215;
+use crate::rules::structure::w0323;
 use crate::scan::known;
 use crate::scan::known::ModulePart;
 use crate::scan::names::Place;
@@ -235,16 +236,7 @@ fn extension(section: &Section, place: Place, log: &mut Vec<Finding>) -> Option<
     let given = section.get("Count");
     let count = given.and_then(|given| count(given));
     if count.is_none() {
-        let span = given.map_or(section.name.span, |given| given.span);
-        let message = match given {
-            Some(given) => format!("`{}` is no Count", given.value),
-            None => "there is no Count".into(),
-        };
-        log.push(
-            rules::W0323
-                .told(span, message)
-                .with_help("write how many sub-indices a module adds, or `0;` and its bits"),
-        );
+        log.push(w0323::finding(section.name.span, given));
     }
     let extend = section
         .get("ObjExtend")
@@ -301,14 +293,7 @@ fn listed(
     };
     for (index, span) in &listed {
         if !has(*index) {
-            log.push(
-                rules::W0215
-                    .told(
-                        *span,
-                        format!("{index:04X}h is listed, but has no section in module {module}"),
-                    )
-                    .with_help("write the section, or remove the entry"),
-            );
+            log.push(w0215::no_section(*span, *index, module));
         }
     }
     for (place, section) in found {
@@ -316,14 +301,7 @@ fn listed(
             continue;
         };
         if !listed.iter().any(|(listed, _)| listed == index) {
-            log.push(
-                rules::W0215
-                    .told(
-                        section.name.span,
-                        format!("{index:04X}h is not in [{name}]"),
-                    )
-                    .with_help(format!("add `0x{index:04X}` to [{name}]")),
-            );
+            log.push(w0215::unlisted(section.name.span, *index, &name));
         }
     }
 }

@@ -1,19 +1,18 @@
 //! One object: its own section and those of its members.
 
 use alloc::collections::BTreeMap;
-use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, ObjectDescription};
 use crate::fact::Key;
 use crate::finding::Finding;
-use crate::fix::Fix;
 use crate::read::compact;
 use crate::read::compact::CompactSections;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
-use crate::rules;
+use crate::rules::lists::e0208;
+use crate::rules::structure::{e0301, e0305, w0302, w0316, w0317, w0322};
 use crate::scan::placed::Placed;
 use crate::span::Spanned;
 use od_model::{Address, DataType, ObjectCode};
@@ -87,13 +86,7 @@ pub(crate) fn object(
         (None, SubNumber::Unread) => Spanned::from(counted),
         (None, SubNumber::Missing) if counted == 0 => Spanned::from(counted),
         (None, SubNumber::Missing) => {
-            let span = fields.header;
-            reader.report(
-                rules::W0317
-                    .told(span, "there is no SubNumber")
-                    .with_help(format!("write `SubNumber={counted}`"))
-                    .fix(Fix::safe().below(span, format!("SubNumber={counted}"))),
-            );
+            reader.report(w0317::finding(fields.header, counted));
             Spanned::from(counted)
         }
     };
@@ -116,17 +109,7 @@ fn orphan(
     log: &mut Vec<Finding>,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
-    log.push(
-        rules::E0208
-            .told(
-                span,
-                format!("there is no section [{index:04X}] for this member"),
-            )
-            .about(Address::new(index, 0))
-            .with_help(format!(
-                "write a section [{index:04X}] with `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)"
-            )),
-    );
+    log.push(e0208::finding(span, index));
     let entries: BTreeMap<_, _> = members
         .into_iter()
         .map(|(sub, section)| (sub, member(Address::new(index, sub), section, log)))
@@ -151,15 +134,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Vec<Finding>) -> Entr
     if let Some(given) = fields.take("ObjectType") {
         let code = reader.object_code(&given);
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
-            reader.report(
-                rules::W0322
-                    .told(
-                        given.span,
-                        format!("a sub-index is a VAR, not `{}`", given.value),
-                    )
-                    .with_help("write `ObjectType=0x7`")
-                    .fix(Fix::unsafe_fix().replace(given.span, "0x7")),
-            );
+            reader.report(w0322::finding(&given));
         }
         // A member is a VAR; what else is said is kept.
         if code != Some(ObjectCode::Var) {
@@ -209,26 +184,14 @@ fn object_code(
     };
     let Some(given) = fields.take("ObjectType") else {
         if has_members {
-            reader.report(
-                rules::W0302
-                    .told(
-                        fields.header,
-                        "there is no ObjectType, but there are members",
-                    )
-                    .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
-                    .fix(Fix::unsafe_fix().below(fields.header, "ObjectType=0x9")),
-            );
+            reader.report(w0302::finding(fields.header));
         }
         return Spanned::from(guess);
     };
     match reader.object_code(&given) {
         Some(code) => Spanned::new(code, given.span),
         None => {
-            reader.report(
-                rules::E0301
-                    .told(given.span, format!("`{}` is no object code", given.value))
-                    .with_help("write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD"),
-            );
+            reader.report(e0301::finding(&given));
             let span = given.span;
             unread.push(("ObjectType".into(), given.value.into_owned()));
             Spanned::new(guess, span)
@@ -250,21 +213,12 @@ fn contradiction(
         (None, Some(count)) => count.span,
         (None, None) => fields.header,
     };
-    let finding = rules::E0305
-        .told(span, format!("a {} has no sub-indices", *code))
-        .with_label(code.span, "the object code is declared here");
-    if count.is_some() {
-        let fix = Fix::unsafe_fix().replace(code.span, "0x8");
-        reader.report(finding.with_help("write `ObjectType=0x8` (ARRAY)").fix(fix));
-        return Spanned::new(ObjectCode::Array, code.span);
-    }
-    let fix = Fix::unsafe_fix().replace(code.span, "0x9");
-    reader.report(
-        finding
-            .with_help("write `ObjectType=0x9` (RECORD) or `ObjectType=0x8` (ARRAY)")
-            .fix(fix),
-    );
-    Spanned::new(ObjectCode::Record, code.span)
+    reader.report(e0305::finding(span, code, count.is_some()));
+    let meant = match count {
+        Some(_) => ObjectCode::Array,
+        None => ObjectCode::Record,
+    };
+    Spanned::new(meant, code.span)
 }
 
 /// SubNumber, and whether there is one.
@@ -293,11 +247,7 @@ fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unr
     match number {
         Some(number) => SubNumber::Given(Spanned::new(number, given.span)),
         None => {
-            reader.report(
-                rules::W0316
-                    .told(given.span, format!("`{}` is no number", given.value))
-                    .with_help("write how many sub-index sections there are"),
-            );
+            reader.report(w0316::finding(&given));
             unread.push(("SubNumber".into(), given.value.into_owned()));
             SubNumber::Unread
         }

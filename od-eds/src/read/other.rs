@@ -1,12 +1,11 @@
 //! Sections that describe no object: do they say what CiA 306 knows, and in its form?
 
-use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::finding::Finding;
-use crate::fix::Fix;
-use crate::rules;
+use crate::rules::lists::{i0211, w0213};
+use crate::rules::standard::{i0610, i0611, w0609};
+use crate::rules::structure::{i0319, w0318};
 use crate::scan::known;
 use crate::scan::known::{Form, Known, OBJECT_KEYS};
 use crate::scan::names::List;
@@ -25,15 +24,7 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Finding>) {
         return;
     };
     if known.name == "DeviceCommissioning" {
-        log.push(
-            rules::I0611
-                .told(
-                    placed.header,
-                    "`DeviceCommissioning` is not how CiA 306 spells it",
-                )
-                .with_help("write `[DeviceComissioning]`, with one m, as the standard does")
-                .fix(Fix::safe().replace(placed.header, "[DeviceComissioning]")),
-        );
+        log.push(i0611::finding(placed.header));
     }
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
@@ -50,19 +41,8 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Finding>) {
         .map(|known| known.name)
         .chain(List::ALL.map(List::name));
     log.push(match known::near(name, names) {
-        Some(meant) => rules::W0213
-            .told(
-                placed.header,
-                format!("there is no section [{}] in CiA 306", name.value),
-            )
-            .with_help(format!("write `[{meant}]`, if that is meant"))
-            .fix(Fix::unsafe_fix().replace(placed.header, format!("[{meant}]"))),
-        None => rules::I0211
-            .told(
-                placed.header,
-                format!("[{}] is no section of CiA 306", name.value),
-            )
-            .with_help("it is kept; if an object is meant, write `[2000]` or `[2000sub1]`"),
+        Some(meant) => w0213::finding(placed, meant),
+        None => i0211::finding(placed),
     });
 }
 
@@ -74,19 +54,8 @@ pub(crate) fn unknown_key<'a>(
     log: &mut Vec<Finding>,
 ) {
     log.push(match known::near(key, keys) {
-        Some(meant) => {
-            let meant = meant.replace('#', "1");
-            rules::W0318
-                .told(key.span, format!("there is no key `{}` here", key.value))
-                .with_help(format!("write `{meant}={value}`, if that is meant"))
-                .fix(Fix::unsafe_fix().replace(key.span, meant))
-        }
-        None => rules::I0319
-            .told(
-                key.span,
-                format!("`{}` is no key of CiA 306 here", key.value),
-            )
-            .with_help("it is kept, and nothing reads it"),
+        Some(meant) => w0318::finding(key, value, &meant.replace('#', "1")),
+        None => i0319::finding(key),
     });
 }
 
@@ -114,46 +83,19 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
     }
     let text = number::before_comment(value);
     let read = number::integer(text, &mut Vec::new()).map(|number| number.value);
-    let section = known.name.replace('#', "1");
-    let (fits, expected) = match form {
-        Form::Text => return,
-        Form::Flag => (matches!(read, Some(0 | 1)), String::from("`0` or `1`")),
-        Form::Number(most) => (
-            read.is_some_and(|number| (0..=i128::from(most)).contains(&number)),
-            match most {
-                u32::MAX => "a number such as `0x1A` with at most 32 bits".into(),
-                most => format!("a number from 0 to {most}"),
-            },
-        ),
-        Form::Version => (is_version(text), "a version such as `4.0`".into()),
-        Form::Date | Form::Time => {
-            let fits = match form {
-                Form::Date => is_date(value),
-                _ => is_time(value),
-            };
-            if !fits {
-                let form = match form {
-                    Form::Date => "month, day and year: `07-14-2026`",
-                    _ => "hour, minute and half of the day: `09:30AM`",
-                };
-                log.push(
-                    rules::I0610
-                        .told(value.span, format!("{key} is written as `{}`", value.value))
-                        .with_help(format!("write {form}")),
-                );
-            }
-            return;
-        }
+    let fits = match form {
+        Form::Text => true,
+        Form::Flag => matches!(read, Some(0 | 1)),
+        Form::Number(most) => read.is_some_and(|n| (0..=i128::from(most)).contains(&n)),
+        Form::Version => is_version(text),
+        Form::Date => is_date(value),
+        Form::Time => is_time(value),
     };
     if !fits {
-        log.push(
-            rules::W0609
-                .told(
-                    value.span,
-                    format!("[{section}]: `{}` is no value of {key}", value.value),
-                )
-                .with_help(format!("write {expected}, or leave it empty")),
-        );
+        log.push(match form {
+            Form::Date | Form::Time => i0610::finding(key, value, form),
+            _ => w0609::finding(&known.name.replace('#', "1"), key, value, form),
+        });
     }
 }
 

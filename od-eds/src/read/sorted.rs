@@ -8,13 +8,14 @@ use alloc::vec::Vec;
 
 use crate::description::Section;
 use crate::finding::Finding;
-use crate::fix::Fix;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
 use crate::read::parsed::Parsed;
-use crate::read::{compact, compact_pdo, faults, lists, other, own_types};
-use crate::rules;
+use crate::read::{compact_pdo, faults, lists, other, own_types};
+use crate::rules::lists::{i0212, w0209};
+use crate::rules::structure::{e0303, w0304};
+use crate::rules::text::w0106;
 use crate::scan::names::{List, Place, intended, place};
 use crate::scan::placed::{Placed, owned};
 use crate::scan::{lines, number::number};
@@ -116,15 +117,7 @@ impl<'a> Sorted<'a> {
         let (Some(meant), Some(right)) = (meant, meant.and_then(Place::name)) else {
             return exact;
         };
-        self.log.push(
-            rules::I0212
-                .told(
-                    section.header,
-                    format!("[{}] is read as [{right}]", name.value),
-                )
-                .with_help(format!("write `[{right}]`"))
-                .fix(Fix::safe().replace(section.header, format!("[{right}]"))),
-        );
+        self.log.push(i0212::finding(section, &right));
         meant
     }
 
@@ -136,12 +129,7 @@ impl<'a> Sorted<'a> {
             Entry::Vacant(entry) => {
                 entry.insert(section.header);
             }
-            Entry::Occupied(first) => self.log.push(
-                rules::W0106
-                    .told(section.header, format!("[{}] stands twice", name.value))
-                    .with_label(*first.get(), "this one counts")
-                    .with_help("put the keys of both into one section"),
-            ),
+            Entry::Occupied(first) => self.log.push(w0106::finding(&section, *first.get())),
         }
         self.others.push(section);
     }
@@ -153,9 +141,7 @@ impl<'a> Sorted<'a> {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
                 for section in core::mem::take(&mut sections.compact).into_values() {
-                    let name = &section.name;
-                    self.log
-                        .push(compact::unclaimed(name, section.header, index));
+                    self.log.push(w0209::finding(&section, index));
                     self.others.push(section);
                 }
             }
@@ -202,29 +188,20 @@ fn counts_members(own: &Placed<'_>) -> bool {
 
 /// Names a second section; what the first lacks is taken from it.
 fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Finding {
-    let name = second.name.value.clone();
     let contradict = second.pairs.iter().any(|(key, value)| {
         let same = first.get(key);
         same.is_some_and(|first| first != value)
     });
-    let (rule, message) = match contradict {
-        true => (
-            &rules::E0303,
-            format!("[{name}] stands twice, and the two differ"),
-        ),
-        false => (&rules::W0304, format!("[{name}] stands twice")),
+    let finding = match contradict {
+        true => e0303::finding(first, &second),
+        false => w0304::finding(first, &second),
     };
-    let finding = rule
-        .told(second.header, message)
-        .about(address)
-        .with_label(first.header, "this one counts")
-        .with_help("remove one of the sections");
     for (key, value) in second.pairs {
         if first.get(&key).is_none() {
             first.pairs.push((key, value));
         }
     }
-    finding
+    finding.about(address)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use crate::rules;
+use crate::rules::text::{e0114, e0115};
 use crate::scan::placed::Placed;
 use crate::span::{Span, Spanned};
 use crate::xdd::made::Made;
@@ -81,16 +81,8 @@ fn hex(
     if let Some(number) = fits.then(|| u16::from_str_radix(text, 16).ok()).flatten() {
         return Some(number);
     }
-    let message = match &given {
-        Some(given) => format!("`{}` is no {key}", given.value),
-        None => format!("there is no {key}"),
-    };
-    let span = given.map_or(header, |given| given.span);
-    reader
-        .log
-        .push(rules::E0114.told(span, message).with_help(format!(
-            "write {digits} hexadecimal digits; the element is left out"
-        )));
+    let finding = e0114::finding(header, key, given.as_ref(), digits);
+    reader.log.push(finding);
     None
 }
 
@@ -109,14 +101,7 @@ fn parameter<'a, 'i>(
         Some(own) => Some(Parameter::new(own, ids)),
         None => {
             let span = reader.attribute(node, "uniqueIDRef")?.span;
-            reader.log.push(
-                rules::E0115
-                    .told(
-                        span,
-                        format!("there is no parameter with the uniqueID `{id}`"),
-                    )
-                    .with_help("write the parameter, or the attributes of the object itself"),
-            );
+            reader.log.push(e0115::finding(span, id));
             None
         }
     }

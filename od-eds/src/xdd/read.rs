@@ -1,12 +1,13 @@
 //! From XML to a description: elements become the sections that an EDS has for them.
 
-use alloc::{format, vec};
+use alloc::string::ToString;
+use alloc::vec;
 
 use roxmltree::Document;
 
 use crate::read::parsed::Parsed;
 use crate::read::sorted;
-use crate::rules;
+use crate::rules::text::e0113;
 use crate::xdd::source::{Places, Reader};
 use crate::xdd::{info, objects};
 
@@ -20,9 +21,7 @@ pub(crate) fn parse(text: &str) -> Parsed {
         Err(error) => {
             let place = error.pos();
             let span = Places::new(text).at(place.row, place.col);
-            let finding = rules::E0113
-                .told(span, format!("the XML breaks here: {error}"))
-                .with_help("mend the XML; nothing is read of a file that is none");
+            let finding = e0113::finding(span, &error.to_string());
             return Parsed {
                 diagnostics: vec![finding],
                 ..Parsed::default()

@@ -1,7 +1,7 @@
 //! W0801: odkit-allow names no rule.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0801",

@@ -1,7 +1,7 @@
 //! W0802: odkit-allow gives no reason.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0802",

@@ -1,7 +1,7 @@
 //! E0701: edit of what does not exist.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0701",

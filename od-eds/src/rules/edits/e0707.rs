@@ -1,7 +1,7 @@
 //! E0707: value of an edit is none of its type.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0707",

@@ -1,7 +1,7 @@
 //! E0708: value of the base is none of the new type.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0708",

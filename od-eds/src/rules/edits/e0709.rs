@@ -1,7 +1,7 @@
 //! E0709: member with an object code.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0709",

@@ -1,7 +1,7 @@
 //! E0710: value field of an object with members.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0710",

@@ -1,7 +1,7 @@
-//! E0208: sub-index without its object.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::span::Span;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0208",
@@ -9,5 +9,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "sub-index without its object",
     why: "The section of the object itself says its code and name. The members are kept in an object without a name.",
     source: "CiA 306-1, object sections",
+    says: "there is no section [{object:04X}] for this member",
+    help: "write a section [{object:04X}] with `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
     ..Rule::NEW
 };
+
+/// The finding about the first section of a member without an object.
+pub(crate) fn finding(member: Span, index: u16) -> Finding {
+    RULE.at(member)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+}

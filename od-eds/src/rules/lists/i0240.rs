@@ -1,7 +1,7 @@
 //! I0240: [FileInfo] or [DeviceInfo] is missing.
 
-use crate::finding::Severity::Info;
 use crate::finding::Rule;
+use crate::finding::Severity::Info;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0240",

@@ -1,7 +1,8 @@
-//! W0201: listed object has no section.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Fact;
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::Span;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0201",
@@ -10,5 +11,15 @@ pub(crate) static RULE: Rule = Rule {
     why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Unsafe,
+    says: "{object} is listed, but there is no section [{object:04X}]",
+    help: "write the section, or remove the entry",
     ..Rule::NEW
 };
+
+/// The finding about an entry of a list whose object has no section.
+pub(crate) fn finding(entry: Span, index: u16) -> Finding {
+    RULE.at(entry)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+        .fix(Fix::unsafe_fix().remove_line(entry))
+}

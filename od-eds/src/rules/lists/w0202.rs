@@ -1,7 +1,8 @@
-//! W0202: object is in no list.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::names::List;
+use crate::span::Span;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0202",
@@ -9,5 +10,15 @@ pub(crate) static RULE: Rule = Rule {
     title: "object is in no list",
     why: "A reader that follows the lists does not see the object. It is taken to exist.",
     source: "CiA 306-1, object lists",
+    says: "{object} is in no list",
+    help: "add `0x{object:04X}` to [{list}]",
     ..Rule::NEW
 };
+
+/// The finding about an object that no list has.
+pub(crate) fn finding(object: Span, index: u16) -> Finding {
+    RULE.at(object)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+        .fact("list", List::of(index).name())
+}

@@ -1,7 +1,10 @@
-//! W0204: SupportedObjects does not count its list.
+use alloc::format;
+use alloc::string::ToString;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0204",
@@ -10,5 +13,29 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
+    says: "SupportedObjects is {given}, but the list has {found} entries",
+    help: "write `SupportedObjects={found}`",
+    also: &[MISSING],
     ..Rule::NEW
 };
+
+/// What a list without SupportedObjects says.
+const MISSING: Form = Form {
+    says: "there is no SupportedObjects",
+    ..Form::OWN
+};
+
+/// The finding about a SupportedObjects that is missing, or not the number of entries.
+pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: i128) -> Finding {
+    let finding = match given {
+        Some(given) => RULE
+            .at(given.span)
+            .fact("given", &*given.value)
+            .fix(Fix::safe().replace(given.span, found.to_string())),
+        None => RULE
+            .at(header)
+            .form(&MISSING)
+            .fix(Fix::safe().below(header, format!("SupportedObjects={found}"))),
+    };
+    finding.fact("found", found)
+}

@@ -1,7 +1,7 @@
-//! W0205: list entry is no index.
+use alloc::format;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0205",
@@ -9,5 +9,13 @@ pub(crate) static RULE: Rule = Rule {
     title: "list entry is no index",
     why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
     source: "CiA 306-1, object lists",
+    says: "`{entry}` lists no object",
+    help: "write a number and an index, for example `1=0x1000`",
     ..Rule::NEW
 };
+
+/// The finding about an entry that is not a number and an index.
+pub(crate) fn finding(key: &Text<'_>, value: &Text<'_>) -> Finding {
+    RULE.at(key.span)
+        .fact("entry", format!("{}={}", key.value, value.value))
+}

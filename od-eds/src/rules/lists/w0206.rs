@@ -1,7 +1,8 @@
-//! W0206: object is in the wrong list.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::names::List;
+use crate::span::Span;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0206",
@@ -9,5 +10,16 @@ pub(crate) static RULE: Rule = Rule {
     title: "object is in the wrong list",
     why: "2000h–5FFFh belong to [ManufacturerObjects], the mandatory three to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
+    says: "{object} belongs to [{right}], not to [{wrong}]",
+    help: "move the entry to [{right}]",
     ..Rule::NEW
 };
+
+/// The finding about an entry in a list that is not for its object.
+pub(crate) fn finding(entry: Span, index: u16, list: List) -> Finding {
+    RULE.at(entry)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+        .fact("right", List::of(index).name())
+        .fact("wrong", list.name())
+}

@@ -1,7 +1,8 @@
-//! W0207: object is listed twice.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Fact;
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::Span;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0207",
@@ -10,5 +11,16 @@ pub(crate) static RULE: Rule = Rule {
     why: "One entry is enough; some editors make two objects of two.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
+    says: "{object} is listed twice",
+    help: "remove one of the entries",
     ..Rule::NEW
 };
+
+/// The finding about a second entry for an object.
+pub(crate) fn finding(entry: Span, index: u16, first: Span) -> Finding {
+    RULE.at(entry)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+        .related(first, "it is listed here")
+        .fix(Fix::safe().remove_line(entry))
+}

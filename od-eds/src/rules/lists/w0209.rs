@@ -1,7 +1,7 @@
-//! W0209: compact section without CompactSubObj.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Fact;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::placed::Placed;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0209",
@@ -9,5 +9,15 @@ pub(crate) static RULE: Rule = Rule {
     title: "compact section without CompactSubObj",
     why: "[xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. The section is kept, and nothing reads it.",
     source: "CiA 306-1, CompactSubObj",
+    says: "[{name}] belongs to an object with {CompactSubObj}",
+    help: "write `{CompactSubObj=}` and the number of members in [{object:04X}], or remove the section",
     ..Rule::NEW
 };
+
+/// The finding about a compact section of an object that has no CompactSubObj.
+pub(crate) fn finding(section: &Placed<'_>, index: u16) -> Finding {
+    RULE.at(section.header)
+        .about(Address::new(index, 0))
+        .fact("object", Fact::Index(index))
+        .fact("name", &*section.name.value)
+}

@@ -1,7 +1,9 @@
-//! W0242: list entries are not numbered 1, 2, 3.
+use alloc::string::ToString;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::number::number;
+use crate::scan::placed::{Placed, Text};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0242",
@@ -10,5 +12,29 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers ask for entry 1, 2, 3 up to SupportedObjects, and miss an entry of another number. All entries are read.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
+    says: "this is entry {place} of the list, and has number {number}",
+    help: "number the entries 1, 2, 3 and so on",
     ..Rule::NEW
 };
+
+/// The finding about the first entry of a list whose number is not its place.
+pub(crate) fn finding(list: &Placed<'_>, key: &Text<'_>, place: i128) -> Finding {
+    RULE.at(key.span)
+        .fact("place", place)
+        .fact("number", &*key.value)
+        .fix(renumbered(list))
+}
+
+/// Gives every entry the number of its place.
+pub(crate) fn renumbered(list: &Placed<'_>) -> Fix {
+    let entries = list.pairs.iter();
+    let entries = entries.filter(|(key, _)| number(key).is_some());
+    (1i128..)
+        .zip(entries)
+        .fold(Fix::safe(), |fix, (place, (key, _))| {
+            match number(key) == Some(place) {
+                true => fix,
+                false => fix.replace(key.span, place.to_string()),
+            }
+        })
+}

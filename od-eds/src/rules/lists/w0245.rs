@@ -1,7 +1,7 @@
 //! W0245: segment of [DynamicChannels] is incomplete.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0245",

@@ -1,7 +1,7 @@
 //! W0903: measuring device lacks what it says it has.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0903",

@@ -1,7 +1,7 @@
 //! W0904: encoder lacks a mandatory object.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0904",

@@ -1,7 +1,7 @@
 //! W0955: preset is outside the range.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0955",

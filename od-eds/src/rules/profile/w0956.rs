@@ -1,7 +1,7 @@
 //! W0956: more units a revolution than there are.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0956",

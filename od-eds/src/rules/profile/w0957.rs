@@ -1,7 +1,7 @@
 //! W0957: device type and revolutions disagree.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0957",

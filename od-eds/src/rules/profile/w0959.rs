@@ -1,7 +1,7 @@
 //! W0959: alarm or warning that is not supported.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0959",

@@ -1,7 +1,7 @@
 //! W0963: no PDO carries the position.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0963",

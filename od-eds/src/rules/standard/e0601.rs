@@ -1,7 +1,7 @@
 //! E0601: object 1000h is missing.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0601",

@@ -1,7 +1,7 @@
 //! E0602: object 1001h is missing.
 
-use crate::finding::Severity::Error;
 use crate::finding::Rule;
+use crate::finding::Severity::Error;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0602",

@@ -1,7 +1,6 @@
-//! I0610: date or time is not written as CiA 306 writes it.
-
-use crate::finding::Severity::Info;
-use crate::finding::Rule;
+use crate::finding::{Finding, Form, Rule, Severity::Info};
+use crate::scan::known::Form as Wanted;
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0610",
@@ -9,5 +8,23 @@ pub(crate) static RULE: Rule = Rule {
     title: "date or time is not written as CiA 306 writes it",
     why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
     source: "CiA 306-1, FileInfo",
+    says: "{name} is written as `{given}`",
+    help: "write month, day and year: `07-14-2026`",
+    also: &[TIME],
     ..Rule::NEW
 };
+
+const TIME: Form = Form {
+    help: "write hour, minute and half of the day: `09:30AM`",
+    ..Form::OWN
+};
+
+/// The finding about a date or a time in another form.
+pub(crate) fn finding(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
+    let finding = RULE.at(given.span).fact("name", key);
+    let finding = finding.fact("given", &*given.value);
+    match wanted {
+        Wanted::Time => finding.form(&TIME),
+        _ => finding,
+    }
+}

@@ -1,7 +1,7 @@
 //! W0633: standard object lacks a member.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0633",

@@ -1,7 +1,7 @@
 //! W0634: LSS without an LSS address.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0634",

@@ -1,7 +1,7 @@
 //! W0637: device supports no bit rate.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0637",

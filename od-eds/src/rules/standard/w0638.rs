@@ -1,7 +1,7 @@
 //! W0638: node ID or bit rate of a DCF is none.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0638",

@@ -1,7 +1,7 @@
 //! W0642: object without the one it belongs to.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0642",

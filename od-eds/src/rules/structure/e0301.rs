@@ -1,7 +1,6 @@
-//! E0301: ObjectType is no object code.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0301",
@@ -9,5 +8,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "ObjectType is no object code",
     why: "The object code says what kind of object it is. It is guessed from what the object has.",
     source: "CiA 301, object codes",
+    says: "`{given}` is no object code",
+    help: "write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD",
     ..Rule::NEW
 };
+
+/// The finding about an ObjectType that no object code has.
+pub(crate) fn finding(given: &Text<'_>) -> Finding {
+    RULE.at(given.span)
+        .key(Key::ObjectType)
+        .fact("given", &*given.value)
+}

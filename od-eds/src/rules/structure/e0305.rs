@@ -1,7 +1,7 @@
-//! E0305: VAR has sub-indices.
-
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Error};
+use crate::fix::Fix;
+use crate::span::{Span, Spanned};
+use od_model::ObjectCode;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0305",
@@ -10,5 +10,25 @@ pub(crate) static RULE: Rule = Rule {
     why: "Only an ARRAY or a RECORD has sub-indices. It is taken for a RECORD; a value of its own becomes sub-index 0 where there is none.",
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
+    says: "a {code} has no sub-indices",
+    help: "write `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
+    also: &[COMPACT],
     ..Rule::NEW
 };
+
+/// What an object with CompactSubObj says.
+const COMPACT: Form = Form {
+    help: "write `{ObjectType=0x8}` (ARRAY)",
+    ..Form::OWN
+};
+
+/// The finding about members of an object that has none by its code, at the first of them.
+pub(crate) fn finding(member: Span, code: Spanned<ObjectCode>, compact: bool) -> Finding {
+    let finding = RULE.at(member).fact("code", *code);
+    let finding = finding.related(code.span, "the object code is declared here");
+    let fix = |right| Fix::unsafe_fix().replace(code.span, right);
+    match compact {
+        true => finding.form(&COMPACT).fix(fix("0x8")),
+        false => finding.fix(fix("0x9")),
+    }
+}

@@ -1,7 +1,7 @@
 //! I0346: two objects have one name.
 
-use crate::finding::Severity::Info;
 use crate::finding::Rule;
+use crate::finding::Severity::Info;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0346",

@@ -1,7 +1,6 @@
-//! W0314: compact section names a member that does not exist.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::placed::Text;
+use crate::span::Spanned;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0314",
@@ -9,5 +8,15 @@ pub(crate) static RULE: Rule = Rule {
     title: "compact section names a member that does not exist",
     why: "The entry is left out.",
     source: "CiA 306-1, CompactSubObj",
+    says: "there is no member `{given}` to give this to",
+    help: "the members are 1 to {count}",
     ..Rule::NEW
 };
+
+/// The finding about an entry of a compact section for a member that does not exist.
+pub(crate) fn finding(given: &Text<'_>, count: &Spanned<u8>) -> Finding {
+    RULE.at(given.span)
+        .fact("given", &*given.value)
+        .fact("count", count.value)
+        .related(count.span, "members are counted here")
+}

@@ -1,7 +1,5 @@
-//! W0315: ParameterName is missing.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0315",
@@ -9,5 +7,12 @@ pub(crate) static RULE: Rule = Rule {
     title: "ParameterName is missing",
     why: "Every object and every member has a name.",
     source: "CiA 306-1, object sections",
+    says: "there is no {ParameterName}",
+    help: "write `{ParameterName=}` and a name",
     ..Rule::NEW
 };
+
+/// The finding about a section without ParameterName.
+pub(crate) fn finding(header: Span) -> Finding {
+    RULE.at(header)
+}

@@ -1,7 +1,6 @@
-//! W0316: SubNumber is no number.
-
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::fact::Key;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0316",
@@ -9,5 +8,14 @@ pub(crate) static RULE: Rule = Rule {
     title: "SubNumber is no number",
     why: "SubNumber is the number of sub-index sections. They are counted instead.",
     source: "CiA 306-1, object sections",
+    says: "`{given}` is no number",
+    help: "write how many sub-index sections there are",
     ..Rule::NEW
 };
+
+/// The finding about a SubNumber that is not a number.
+pub(crate) fn finding(given: &Text<'_>) -> Finding {
+    RULE.at(given.span)
+        .key(Key::SubNumber)
+        .fact("given", &*given.value)
+}

@@ -1,7 +1,8 @@
-//! W0317: SubNumber is missing.
+use alloc::format;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0317",
@@ -10,5 +11,13 @@ pub(crate) static RULE: Rule = Rule {
     why: "An object with members says how many. They are counted instead.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
+    says: "there is no {SubNumber}",
+    help: "write `{SubNumber={count}}`",
     ..Rule::NEW
 };
+
+/// The finding about an object with so many members and no SubNumber.
+pub(crate) fn finding(header: Span, count: u32) -> Finding {
+    let fix = Fix::safe().below(header, format!("SubNumber={count}"));
+    RULE.at(header).fact("count", count).fix(fix)
+}

@@ -1,7 +1,10 @@
-//! W0321: NrOfEntries does not count its section.
+use alloc::format;
+use alloc::string::ToString;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0321",
@@ -10,5 +13,29 @@ pub(crate) static RULE: Rule = Rule {
     why: "Many readers read as many entries as it says and no more. All entries are read.",
     source: "CiA 306-1, CompactSubObj",
     fixability: Fixability::Safe,
+    says: "NrOfEntries is {given}, but the section has {found}",
+    help: "write `NrOfEntries={found}`",
+    also: &[MISSING],
     ..Rule::NEW
 };
+
+/// What a section without NrOfEntries says.
+const MISSING: Form = Form {
+    says: "there is no NrOfEntries",
+    ..Form::OWN
+};
+
+/// The finding about an NrOfEntries that is missing, or not the number of entries.
+pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: usize) -> Finding {
+    let finding = match given {
+        Some(given) => RULE
+            .at(given.span)
+            .fact("given", &*given.value)
+            .fix(Fix::safe().replace(given.span, found.to_string())),
+        None => RULE
+            .at(header)
+            .form(&MISSING)
+            .fix(Fix::safe().below(header, format!("NrOfEntries={found}"))),
+    };
+    finding.fact("found", found)
+}

@@ -1,7 +1,7 @@
-//! W0322: sub-index is no VAR.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Key;
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0322",
@@ -10,5 +10,15 @@ pub(crate) static RULE: Rule = Rule {
     why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
+    says: "a sub-index is a VAR, not `{given}`",
+    help: "write `{ObjectType=0x7}`",
     ..Rule::NEW
 };
+
+/// The finding about the ObjectType of a sub-index.
+pub(crate) fn finding(given: &Text<'_>) -> Finding {
+    RULE.at(given.span)
+        .key(Key::ObjectType)
+        .fact("given", &*given.value)
+        .fix(Fix::unsafe_fix().replace(given.span, "0x7"))
+}

@@ -1,7 +1,7 @@
-//! W0323: Count of a module is none.
+use alloc::string::String;
 
-use crate::finding::Severity::Warning;
-use crate::finding::Rule;
+use crate::finding::{Finding, Form, Rule, Severity::Warning};
+use crate::span::{Span, Spanned};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0323",
@@ -9,5 +9,22 @@ pub(crate) static RULE: Rule = Rule {
     title: "Count of a module is none",
     why: "Count says how many sub-indices a module adds: a number, or `0;` and the bits that share one. One is taken.",
     source: "CiA 306-1, modular devices",
+    says: "`{given}` is no Count",
+    help: "write how many sub-indices a module adds, or `0;` and its bits",
+    also: &[MISSING],
     ..Rule::NEW
 };
+
+/// What an extension without Count says.
+const MISSING: Form = Form {
+    says: "there is no Count",
+    ..Form::OWN
+};
+
+/// The finding about the Count of an extension that is not valid, or missing.
+pub(crate) fn finding(header: Span, given: Option<&Spanned<String>>) -> Finding {
+    match given {
+        Some(given) => RULE.at(given.span).fact("given", &*given.value),
+        None => RULE.at(header).form(&MISSING),
+    }
+}

@@ -1,7 +1,7 @@
 //! W0342: ObjFlags has reserved bits.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0342",

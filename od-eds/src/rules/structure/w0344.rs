@@ -1,7 +1,7 @@
 //! W0344: name is longer than 241 characters.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0344",

@@ -1,7 +1,7 @@
 //! W0351: ARRAY has a gap.
 
-use crate::finding::Severity::Warning;
 use crate::finding::Rule;
+use crate::finding::Severity::Warning;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0351",

@@ -1,7 +1,5 @@
-//! E0113: XML is not well-formed.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0113",
@@ -9,5 +7,12 @@ pub(crate) static RULE: Rule = Rule {
     title: "XML is not well-formed",
     why: "Nothing can be read of such a file.",
     source: "XML 1.0",
+    says: "the XML breaks here: {error}",
+    help: "mend the XML; nothing is read of a file that is none",
     ..Rule::NEW
 };
+
+/// The finding about the place where the XML breaks, in the words of its parser.
+pub(crate) fn finding(at: Span, error: &str) -> Finding {
+    RULE.at(at).fact("error", error)
+}

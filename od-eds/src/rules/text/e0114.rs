@@ -1,7 +1,7 @@
-//! E0114: object of an XDD has no index.
+use alloc::string::String;
 
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::finding::{Finding, Form, Rule, Severity::Error};
+use crate::span::{Span, Spanned};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0114",
@@ -9,5 +9,28 @@ pub(crate) static RULE: Rule = Rule {
     title: "object of an XDD has no index",
     why: "An index is four, a sub-index two hexadecimal digits without `0x`. The element is left out.",
     source: "CiA 311, CANopenObject",
+    says: "`{given}` is no {name}",
+    help: "write {digits} hexadecimal digits; the element is left out",
+    also: &[MISSING],
     ..Rule::NEW
 };
+
+/// What an element without the attribute says.
+const MISSING: Form = Form {
+    says: "there is no {name}",
+    ..Form::OWN
+};
+
+/// The finding about an index or a sub-index: an attribute that is not valid, or is missing.
+pub(crate) fn finding(
+    element: Span,
+    name: &str,
+    given: Option<&Spanned<String>>,
+    digits: usize,
+) -> Finding {
+    let finding = match given {
+        Some(given) => RULE.at(given.span).fact("given", &*given.value),
+        None => RULE.at(element).form(&MISSING),
+    };
+    finding.fact("name", name).fact("digits", digits)
+}

@@ -1,7 +1,5 @@
-//! E0115: object of an XDD refers to no parameter.
-
-use crate::finding::Severity::Error;
-use crate::finding::Rule;
+use crate::finding::{Finding, Rule, Severity::Error};
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0115",
@@ -9,5 +7,12 @@ pub(crate) static RULE: Rule = Rule {
     title: "object of an XDD refers to no parameter",
     why: "Type, access and default of the object are said of the parameter. What the object says itself is read.",
     source: "CiA 311, CANopenObject",
+    says: "there is no parameter with the uniqueID `{given}`",
+    help: "write the parameter, or the attributes of the object itself",
     ..Rule::NEW
 };
+
+/// The finding about a reference that leads to no parameter.
+pub(crate) fn finding(at: Span, id: &str) -> Finding {
+    RULE.at(at).fact("given", id)
+}

@@ -1,7 +1,6 @@
-//! I0111: file is not ASCII.
-
-use crate::finding::Severity::Info;
-use crate::finding::Rule;
+use crate::finding::{Finding, Form, Rule, Severity::Info};
+use crate::scan::encoding::Encoding;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0111",
@@ -9,5 +8,23 @@ pub(crate) static RULE: Rule = Rule {
     title: "file is not ASCII",
     why: "CiA 306 asks for ASCII. UTF-8, UTF-16 and Windows-1252 are read, with or without a byte order mark; many readers know only one of them.",
     source: "CiA 306-1, file format",
+    says: "the file is {encoding}",
+    help: "where another reader fails, save it as ASCII",
+    also: &[MARKED],
     ..Rule::NEW
 };
+
+/// What a file with a byte order mark says.
+const MARKED: Form = Form {
+    says: "the file is {encoding}, with a byte order mark",
+    ..Form::OWN
+};
+
+/// The finding about a file that is not ASCII, at its first character that is not.
+pub(crate) fn finding(first: Span, encoding: Encoding, marked: bool) -> Finding {
+    let finding = RULE.at(first).fact("encoding", encoding.name());
+    match marked {
+        true => finding.form(&MARKED),
+        false => finding,
+    }
+}

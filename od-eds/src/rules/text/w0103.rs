@@ -1,7 +1,8 @@
-//! W0103: section header has no closing bracket.
+use alloc::format;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::{Span, Spanned};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0103",
@@ -10,5 +11,13 @@ pub(crate) static RULE: Rule = Rule {
     why: "Most readers stop at such a line. The header is taken to end with its line.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
+    says: "the section `{given}` has no closing bracket",
+    help: "write `[{given}]`",
     ..Rule::NEW
 };
+
+/// The finding about a header that its line ends.
+pub(crate) fn finding(line: Span, name: Spanned<&str>) -> Finding {
+    let fix = Fix::safe().replace(name.span, format!("{}]", *name));
+    RULE.at(line).fact("given", *name).fix(fix)
+}

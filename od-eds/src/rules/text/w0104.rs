@@ -1,7 +1,8 @@
-//! W0104: text behind a section header.
+use alloc::format;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::Spanned;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0104",
@@ -10,5 +11,14 @@ pub(crate) static RULE: Rule = Rule {
     why: "Most readers stop at such a line. The text is ignored.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
+    says: "`{given}` stands behind the section `[{name}]`",
+    help: "give a comment a line of its own that begins with `;`",
     ..Rule::NEW
 };
+
+/// The finding about text behind a header, which becomes a comment below it.
+pub(crate) fn finding(name: &str, text: Spanned<&str>) -> Finding {
+    let comment = format!("\n;{}", text.trim_start_matches([';', '#']));
+    let finding = RULE.at(text.span).fact("given", *text).fact("name", name);
+    finding.fix(Fix::safe().replace(text.span, comment))
+}

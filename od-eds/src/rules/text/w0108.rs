@@ -1,7 +1,6 @@
-//! W0108: `:` instead of `=`.
-
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0108",
@@ -10,5 +9,13 @@ pub(crate) static RULE: Rule = Rule {
     why: "Only some readers know it. It is read as `=`.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
+    says: "`{name}` is separated from its value by `:`",
+    help: "write `{name}={given}`",
     ..Rule::NEW
 };
+
+/// The finding about a colon between key and value.
+pub(crate) fn finding(colon: Span, key: &str, value: &str) -> Finding {
+    let finding = RULE.at(colon).fact("name", key).fact("given", value);
+    finding.fix(Fix::safe().replace(colon, "="))
+}
