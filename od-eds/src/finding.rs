@@ -9,7 +9,7 @@ use od_model::Address;
 use crate::description::Description;
 use crate::fact::{Fact, Key};
 use crate::fix::Fix;
-use crate::span::{Span, token, token_of};
+use crate::span::{Span, Spanned, token, token_of};
 use crate::subject::{Entry, Object, Subject};
 
 /// Severity of a finding.
@@ -190,6 +190,11 @@ impl Rule {
         }
     }
 
+    /// A finding at a piece of the text, which is its fact `given`.
+    pub(crate) fn given(&'static self, given: &Spanned<impl AsRef<str>>) -> Finding {
+        self.at(given.span).fact("given", given.as_ref())
+    }
+
     /// A finding about a value or an object; there if `span` is in no text.
     pub(crate) fn on(&'static self, subject: &impl Subject, span: Span) -> Finding {
         self.at(span.or(subject.span())).about(subject.address())
@@ -290,6 +295,13 @@ impl Finding {
     pub(crate) fn about(mut self, object: Address) -> Self {
         self.object = Some(object);
         self
+    }
+
+    /// Adds the object at an index, which is its fact `object`.
+    #[must_use]
+    pub(crate) fn index(self, index: u16) -> Self {
+        self.about(Address::new(index, 0))
+            .fact("object", Fact::Index(index))
     }
 
     /// Says another of the rule's sentences.

@@ -1,7 +1,5 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Rule, Severity::Error};
 use crate::span::Span;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0208",
@@ -16,7 +14,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about the first section of a member without an object.
 pub(crate) fn finding(member: Span, index: u16) -> Finding {
-    RULE.at(member)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+    RULE.at(member).index(index)
 }

@@ -1,8 +1,6 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::span::Span;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0201",
@@ -19,7 +17,6 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about an entry of a list whose object has no section.
 pub(crate) fn finding(entry: Span, index: u16) -> Finding {
     RULE.at(entry)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+        .index(index)
         .fix(Fix::unsafe_fix().remove_line(entry))
 }

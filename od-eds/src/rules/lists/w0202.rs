@@ -1,8 +1,6 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::scan::names::List;
 use crate::span::Span;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0202",
@@ -18,7 +16,6 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about an object that no list has.
 pub(crate) fn finding(object: Span, index: u16) -> Finding {
     RULE.at(object)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+        .index(index)
         .fact("list", List::of(index).name())
 }

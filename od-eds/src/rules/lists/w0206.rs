@@ -1,8 +1,6 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::scan::names::List;
 use crate::span::Span;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0206",
@@ -18,8 +16,7 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about an entry in a list that is not for its object.
 pub(crate) fn finding(entry: Span, index: u16, list: List) -> Finding {
     RULE.at(entry)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+        .index(index)
         .fact("right", List::of(index).name())
         .fact("wrong", list.name())
 }

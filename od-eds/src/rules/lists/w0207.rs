@@ -1,8 +1,6 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::span::Span;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0207",
@@ -19,8 +17,7 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about a second entry for an object.
 pub(crate) fn finding(entry: Span, index: u16, first: Span) -> Finding {
     RULE.at(entry)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+        .index(index)
         .related(first, "it is listed here")
         .fix(Fix::safe().remove_line(entry))
 }

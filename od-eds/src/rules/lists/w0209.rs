@@ -1,7 +1,5 @@
-use crate::fact::Fact;
 use crate::finding::{Finding, Rule, Severity::Warning};
 use crate::scan::placed::Placed;
-use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0209",
@@ -17,7 +15,6 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about a compact section of an object that has no CompactSubObj.
 pub(crate) fn finding(section: &Placed<'_>, index: u16) -> Finding {
     RULE.at(section.header)
-        .about(Address::new(index, 0))
-        .fact("object", Fact::Index(index))
+        .index(index)
         .fact("name", &*section.name.value)
 }

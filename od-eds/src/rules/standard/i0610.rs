@@ -21,8 +21,7 @@ const TIME: Form = Form {
 
 /// The finding about a date or a time in another form.
 pub(crate) fn finding(key: &str, given: &Text<'_>, wanted: Wanted) -> Finding {
-    let finding = RULE.at(given.span).fact("name", key);
-    let finding = finding.fact("given", &*given.value);
+    let finding = RULE.given(given).fact("name", key);
     match wanted {
         Wanted::Time => finding.form(&TIME),
         _ => finding,

@@ -15,7 +15,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an ObjectType that no object code has.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
-        .key(Key::ObjectType)
-        .fact("given", &*given.value)
+    RULE.given(given).key(Key::ObjectType)
 }

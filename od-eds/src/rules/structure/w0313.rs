@@ -15,7 +15,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a CompactSubObj that does not count members.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
-        .key(Key::CompactSubObj)
-        .fact("given", &*given.value)
+    RULE.given(given).key(Key::CompactSubObj)
 }

@@ -15,8 +15,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an entry of a compact section for a member that does not exist.
 pub(crate) fn finding(given: &Text<'_>, count: &Spanned<u8>) -> Finding {
-    RULE.at(given.span)
-        .fact("given", &*given.value)
+    RULE.given(given)
         .fact("count", count.value)
         .related(count.span, "members are counted here")
 }

@@ -15,7 +15,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a SubNumber that is not a number.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
-        .key(Key::SubNumber)
-        .fact("given", &*given.value)
+    RULE.given(given).key(Key::SubNumber)
 }

@@ -29,8 +29,7 @@ const MISSING: Form = Form {
 pub(crate) fn finding(header: Span, given: Option<&Text<'_>>, found: usize) -> Finding {
     let finding = match given {
         Some(given) => RULE
-            .at(given.span)
-            .fact("given", &*given.value)
+            .given(given)
             .fix(Fix::safe().replace(given.span, found.to_string())),
         None => RULE
             .at(header)

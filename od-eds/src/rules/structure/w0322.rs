@@ -17,8 +17,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about the ObjectType of a sub-index.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
+    RULE.given(given)
         .key(Key::ObjectType)
-        .fact("given", &*given.value)
         .fix(Fix::unsafe_fix().replace(given.span, "0x7"))
 }

@@ -24,7 +24,7 @@ const MISSING: Form = Form {
 /// The finding about the Count of an extension that is not valid, or missing.
 pub(crate) fn finding(header: Span, given: Option<&Spanned<String>>) -> Finding {
     match given {
-        Some(given) => RULE.at(given.span).fact("given", &*given.value),
+        Some(given) => RULE.given(given),
         None => RULE.at(header).form(&MISSING),
     }
 }

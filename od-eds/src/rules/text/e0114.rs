@@ -29,7 +29,7 @@ pub(crate) fn finding(
     digits: usize,
 ) -> Finding {
     let finding = match given {
-        Some(given) => RULE.at(given.span).fact("given", &*given.value),
+        Some(given) => RULE.given(given),
         None => RULE.at(element).form(&MISSING),
     };
     finding.fact("name", name).fact("digits", digits)

@@ -16,6 +16,6 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a line without a key.
 pub(crate) fn finding(line: Spanned<&str>) -> Finding {
-    let finding = RULE.at(line.span).fact("given", *line);
+    let finding = RULE.given(&line);
     finding.fix(Fix::safe().comment_out(line.span))
 }

@@ -19,6 +19,6 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about text behind a header, which becomes a comment below it.
 pub(crate) fn finding(name: &str, text: Spanned<&str>) -> Finding {
     let comment = format!("\n;{}", text.trim_start_matches([';', '#']));
-    let finding = RULE.at(text.span).fact("given", *text).fact("name", name);
+    let finding = RULE.given(&text).fact("name", name);
     finding.fix(Fix::safe().replace(text.span, comment))
 }

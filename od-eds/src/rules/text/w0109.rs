@@ -21,7 +21,7 @@ pub(crate) static RULE: Rule = Rule {
 pub(crate) fn finding(key: Key, given: &Text<'_>, value: &str) -> Finding {
     let comment = given.get(value.len()..).unwrap_or_default().trim();
     let comment = format!("{value}\n;{}", &comment[comment.len().min(1)..]);
-    let finding = RULE.at(given.span).key(key).fact("given", &*given.value);
+    let finding = RULE.given(given).key(key);
     finding
         .fact("right", value)
         .fix(Fix::safe().replace(given.span, comment))

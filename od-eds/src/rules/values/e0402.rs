@@ -15,7 +15,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a DataType that no type has.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
-        .key(Key::DataType)
-        .fact("given", &*given.value)
+    RULE.given(given).key(Key::DataType)
 }

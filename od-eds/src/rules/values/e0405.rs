@@ -15,7 +15,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an AccessType that there is not.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
-        .key(Key::AccessType)
-        .fact("given", &*given.value)
+    RULE.given(given).key(Key::AccessType)
 }

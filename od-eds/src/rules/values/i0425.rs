@@ -15,9 +15,9 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a type that stands for one of CiA 301.
 pub(crate) fn finding(given: &Text<'_>, stands_for: &Text<'_>) -> Finding {
-    let finding = RULE.at(given.span).key(Key::DataType);
-    let finding = finding
-        .fact("given", &*given.value)
+    let finding = RULE
+        .given(given)
+        .key(Key::DataType)
         .fact("right", &*stands_for.value);
     finding.related(stands_for.span, "it stands for this type")
 }

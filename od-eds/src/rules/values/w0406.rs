@@ -17,8 +17,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a PDOMapping that says neither yes nor no.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
-    RULE.at(given.span)
+    RULE.given(given)
         .key(Key::PdoMapping)
-        .fact("given", &*given.value)
         .fix(Fix::unsafe_fix().replace(given.span, "0"))
 }

@@ -47,9 +47,10 @@ pub(crate) fn emptied(finding: Finding) -> Finding {
 
 /// The finding about a limit of a type that has none.
 pub(crate) fn no_limits(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
-    let finding = RULE.at(given.span).form(&NO_LIMITS).key(key);
-    let finding = finding
-        .fact("given", &*given.value)
+    let finding = RULE
+        .given(given)
+        .form(&NO_LIMITS)
+        .key(key)
         .fact("type", *data_type);
     emptied(finding.related(data_type.span, DECLARED))
 }
