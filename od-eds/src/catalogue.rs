@@ -11,7 +11,6 @@
 //! | `{DataType={right}}` | this key set to a value, which may have blanks too |
 //! | `{{`, `}}` | a brace |
 
-use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -113,10 +112,7 @@ pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     let filled = |english| Blanks { finding, words }.fill(words.sentence(english), false);
     let labels = finding.related.iter().map(|related| Label {
         span: related.span,
-        text: match related.says {
-            Cow::Borrowed(english) => filled(english),
-            Cow::Owned(ref told) => told.clone(),
-        },
+        text: filled(related.says),
     });
     Sentence {
         code: finding.rule.code,
@@ -175,6 +171,10 @@ impl Blanks<'_> {
         }
     }
 
+    fn all(&self, facts: &[Fact], form: &str) -> Vec<String> {
+        facts.iter().map(|fact| self.shown(fact, form)).collect()
+    }
+
     fn shown(&self, fact: &Fact, form: &str) -> String {
         match fact {
             Fact::Number(number) => counted(*number, form),
@@ -189,9 +189,14 @@ impl Blanks<'_> {
             Fact::Section(index, sub) => self.words.section(*index, *sub),
             Fact::Key(key) => self.words.key(*key).into(),
             Fact::Text(text) => text.clone(),
-            Fact::List(facts) => {
-                let shown: Vec<String> = facts.iter().map(|fact| self.shown(fact, form)).collect();
-                shown.join(", ")
+            Fact::List(facts) => self.all(facts, form).join(", "),
+            Fact::OneOf(facts) => {
+                let mut all = self.all(facts, form);
+                let last = all.pop().unwrap_or_default();
+                match all.is_empty() {
+                    true => last,
+                    false => format!("{} or {last}", all.join(", ")),
+                }
             }
         }
     }

@@ -103,6 +103,8 @@ pub enum Fact {
     Text(String),
     /// Several, with commas between.
     List(Vec<Fact>),
+    /// Several, one of which is enough.
+    OneOf(Vec<Fact>),
 }
 
 impl Fact {

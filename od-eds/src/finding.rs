@@ -241,7 +241,7 @@ pub struct Related {
     /// Place that the label marks.
     pub span: Span,
     /// The label, with blanks as a [`Form`] has them.
-    pub says: alloc::borrow::Cow<'static, str>,
+    pub says: &'static str,
 }
 
 /// One report at one place, as data: [`say`](crate::say) makes the sentence.
@@ -322,7 +322,6 @@ impl Finding {
     #[must_use]
     pub(crate) fn related(mut self, span: Span, says: &'static str) -> Self {
         if span.line != 0 {
-            let says = says.into();
             self.related.push(Related { span, says });
         }
         self
@@ -346,16 +345,6 @@ impl Finding {
     #[must_use]
     pub(crate) fn fix(mut self, fix: Fix) -> Self {
         self.fix = fix.placed();
-        self
-    }
-
-    /// Adds a second place with words that were made where it was found.
-    #[must_use]
-    pub(crate) fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
-        if span.line != 0 {
-            let says = text.into().into();
-            self.related.push(Related { span, says });
-        }
         self
     }
 

@@ -24,6 +24,7 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+mod allow;
 mod catalogue;
 pub mod check;
 pub mod convert;

@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use crate::check::{Allows, check};
+use crate::allow::Allows;
+use crate::check::check;
 use crate::document::Document;
 use crate::finding::{Finding, sort};
 use crate::read::modules;

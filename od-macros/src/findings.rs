@@ -190,7 +190,7 @@ impl Vocabulary for Row {
     }
 
     fn section(&self, index: u16, sub: Option<u8>) -> String {
-        format!("`add {} {{ … }}`", Target { index, sub })
+        format!("a row `add {} {{ … }}`", Target { index, sub })
     }
 }
 

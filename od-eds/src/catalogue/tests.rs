@@ -27,7 +27,7 @@ fn blanks<'a>(text: &'a str, names: &mut BTreeSet<&'a str>) {
 /// Blanks without a fact, and facts without a blank.
 fn gaps(finding: &Finding) -> Vec<String> {
     let mut names = BTreeSet::new();
-    let labels = finding.related.iter().map(|related| &*related.says);
+    let labels = finding.related.iter().map(|related| related.says);
     let labels: Vec<&str> = labels.collect();
     for text in [finding.form.says, finding.form.help]
         .into_iter()
@@ -72,7 +72,12 @@ fn every_sentence_is_said_and_filled() {
             forms.insert((finding.form.says, finding.form.help));
         }
     }
-    for rule in RULES.iter().filter(|rule| !rule.code.starts_with("E07")) {
+    // Edits of a macro call have tests of their own; without the feature no XDD is read.
+    let is_said = |code: &str| {
+        let of_xdd = matches!(code, "E0113" | "E0114" | "E0115");
+        !code.starts_with("E07") && (cfg!(feature = "xdd") || !of_xdd)
+    };
+    for rule in RULES.iter().filter(|rule| is_said(rule.code)) {
         let forms: Vec<_> = rule.forms().map(|form| (form.says, form.help)).collect();
         for form in forms.iter() {
             if form.0 != "{message}"

@@ -1,4 +1,4 @@
-//! 08: findings that a file allows. One file a rule.
+//! 08: findings that a file allows. One file per rule.
 
 catalogue! {
     w0801 W0801

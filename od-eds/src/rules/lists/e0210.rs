@@ -1,13 +1,22 @@
-//! E0210: text has no objects.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0210",
     severity: Error,
-    title: "text has no objects",
-    why: "This is no EDS and no DCF, or an empty one.",
+    title: "file defines no object",
+    why: "The file is empty, or it is not an EDS or a DCF. No device can be built.",
     source: "CiA 306-1",
+    says: "the file defines no object",
+    help: "add a section for each object, such as [1000]",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    if description.objects.is_empty() {
+        findings.push(RULE.finding());
+    }
+}

@@ -1,13 +1,24 @@
-//! I0240: [FileInfo] or [DeviceInfo] is missing.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Info;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Info};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0240",
     severity: Info,
     title: "[FileInfo] or [DeviceInfo] is missing",
-    why: "Tools read there what the file is, and which device it is for.",
+    why: "A tool reads there what the file is and which device it describes.",
     source: "CiA 306-1, FileInfo and DeviceInfo",
+    says: "section [{section}] is missing",
+    help: "add a section [{section}]",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    for name in ["FileInfo", "DeviceInfo"] {
+        if !description.objects.is_empty() && description.section(name).is_none() {
+            findings.push(RULE.finding().fact("section", name));
+        }
+    }
+}

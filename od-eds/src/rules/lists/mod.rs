@@ -1,4 +1,4 @@
-//! 02: lists, sections and keys against each other. One file a rule.
+//! 02: lists, sections and keys against each other. One file per rule.
 
 catalogue! {
     w0201 W0201

@@ -1,14 +1,54 @@
-//! W0241: Lines does not count [Comments].
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::description::Description;
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0241",
     severity: Warning,
-    title: "Lines does not count [Comments]",
+    title: "Lines does not match [Comments]",
     why: "A tool that trusts Lines shows too few comments, or stops at a missing one.",
     source: "CiA 306-1, Comments",
     fixability: Fixability::Safe,
+    says: "Lines is {given}, but [Comments] has {lines:line|lines}",
+    help: "write `Lines={lines}`",
+    also: &[MISSING],
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+/// Sentence for comments without Lines.
+const MISSING: Form = Form {
+    says: "[Comments] has {lines:line|lines}, but lacks Lines",
+    ..Form::OWN
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let section = description.section("Comments");
+    let Some(section) = section.filter(|_| !description.objects.is_empty()) else {
+        return;
+    };
+    let is_line = |key: &str| {
+        let word = key.get(.."Line".len());
+        word.is_some_and(|word| word.eq_ignore_ascii_case("Line"))
+            && key["Line".len()..].parse::<u32>().is_ok()
+    };
+    let lines = section.pairs.iter().filter(|(key, _)| is_line(key)).count();
+    let name = section.name.span;
+    let finding = match section.get("Lines") {
+        Some(given) if number(given) == Some(lines as i128) => return,
+        Some(given) => RULE
+            .at(given.span)
+            .fact("given", given.as_str())
+            .fix(Fix::safe().replace(given.span, format!("{lines}"))),
+        None if lines == 0 => return,
+        None => RULE
+            .at(name)
+            .form(&MISSING)
+            .fix(Fix::safe().below(name, format!("Lines={lines}"))),
+    };
+    findings.push(finding.fact("lines", lines));
+}

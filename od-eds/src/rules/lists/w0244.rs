@@ -1,14 +1,47 @@
-//! W0244: NrOfEntries does not count its list.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::description::Description;
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0244",
     severity: Warning,
-    title: "NrOfEntries does not count its list",
-    why: "A configuration tool reads as many entries as it says and no more.",
+    title: "NrOfEntries does not match its list",
+    why: "A configuration tool reads only as many entries as NrOfEntries says.",
     source: "CiA 306-1, SupportedModules",
     fixability: Fixability::Safe,
+    says: "NrOfEntries is {given}, but the list has {count:entry|entries}",
+    help: "write `NrOfEntries={count}`",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    for section in description
+        .sections
+        .iter()
+        .filter(|section| is_counted(&section.name))
+    {
+        let entries = section.pairs.iter();
+        let count = entries.filter(|(key, _)| number(key).is_some()).count();
+        let given = section.get("NrOfEntries");
+        if let Some(given) = given.filter(|given| number(given) != Some(count as i128)) {
+            let fix = Fix::safe().replace(given.span, format!("{count}"));
+            let finding = RULE.at(given.span).fact("given", given.as_str());
+            findings.push(finding.fact("count", count).fix(fix));
+        }
+    }
+}
+
+/// `[M1FixedObjects]`, `[M1SubExtends]`
+fn is_counted(name: &str) -> bool {
+    let Some(rest) = name.strip_prefix(['M', 'm']) else {
+        return false;
+    };
+    let word = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    let mut known = ["FixedObjects", "SubExtends"].iter();
+    word.len() < rest.len() && known.any(|known| word.eq_ignore_ascii_case(known))
+}

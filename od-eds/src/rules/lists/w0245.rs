@@ -1,13 +1,36 @@
-//! W0245: segment of [DynamicChannels] is incomplete.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0245",
     severity: Warning,
     title: "segment of [DynamicChannels] is incomplete",
-    why: "A programmable device says for every segment the type, the direction and the range of its objects.",
+    why: "A programmable device cannot place its variables: each segment needs a type, a direction and a range.",
     source: "CiA 306-1, DynamicChannels",
+    says: "{field} of segment {segment} is missing",
+    help: "add `{field}=`, or lower NrOfSeg",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(channels) = description.section("DynamicChannels") else {
+        return;
+    };
+    let Some(given) = channels.get("NrOfSeg") else {
+        return;
+    };
+    for segment in 1..=number(given).unwrap_or(0).clamp(0, 255) {
+        let fields = ["Type", "Dir", "Range"].map(|field| format!("{field}{segment}"));
+        for field in fields {
+            if channels.get(&field).is_none() {
+                let finding = RULE.at(given.span).fact("field", field);
+                findings.push(finding.fact("segment", segment));
+            }
+        }
+    }
+}

@@ -1,4 +1,7 @@
-//! 09: device profiles. One file a rule.
+//! 09: device profiles. One file per rule.
+
+mod shared;
+mod table;
 
 catalogue! {
     w0901 W0901

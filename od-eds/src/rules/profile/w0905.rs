@@ -1,14 +1,22 @@
-//! W0905: profile object has another code or type.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::rules::profile::shared::types;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0905",
     severity: Warning,
-    title: "profile object has another code or type",
+    title: "profile object has another object code or type",
     why: "A master that knows the object from the device profile reads and writes it with another length.",
     source: "CiA 401 and CiA 402, object overview",
     fixability: Fixability::Unsafe,
+    says: "{object} is {given}, but CiA {profile} specifies {right}",
+    help: "write `{key={right}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    types(&RULE, &[401, 402], object, findings);
+}

@@ -1,14 +1,22 @@
-//! W0950: encoder object has another code or type.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::rules::profile::shared::types;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0950",
     severity: Warning,
-    title: "encoder object has another code or type",
+    title: "encoder object has another object code or type",
     why: "A master that knows the object from CiA 406 reads and writes it with another length.",
     source: "CiA 406, object overview",
     fixability: Fixability::Unsafe,
+    says: "{object} is {given}, but CiA {profile} specifies {right}",
+    help: "write `{key={right}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    types(&RULE, &[406], object, findings);
+}

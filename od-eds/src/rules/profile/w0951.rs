@@ -1,14 +1,22 @@
-//! W0951: encoder object has another access.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::rules::profile::shared::access;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0951",
     severity: Warning,
     title: "encoder object has another access",
-    why: "What CiA 406 has as read only is not to be written; what is written by masters must be writable.",
+    why: "A master that writes the object gets an abort, or can change a value that only the device sets.",
     source: "CiA 406, object overview",
     fixability: Fixability::Unsafe,
+    says: "{AccessType} of {object} is `{given}`, but CiA {profile} specifies `{right}`",
+    help: "write `{AccessType={right}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    access(&RULE, &[406], object, findings);
+}

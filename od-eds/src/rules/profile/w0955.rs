@@ -1,13 +1,34 @@
-//! W0955: preset is outside the range.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::Encoder;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0955",
     severity: Warning,
-    title: "preset is outside the range",
-    why: "6003h is a position, and positions go from 0 to one below 6002h.",
+    title: "preset value is outside the range",
+    why: "The encoder cannot take the preset value as its position. Positions are 0 to 6002h minus 1.",
     source: "CiA 406, object 6003h",
+    says: "preset value {preset} is outside the range 0 to {last}",
+    help: "write a position in the range, such as `{DefaultValue=0}`",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(encoder) = Encoder::of(description) else {
+        return;
+    };
+    if let (Some(preset), Some(range)) = (encoder.value(0x6003), encoder.value(0x6002))
+        && range.value > 0
+        && preset.value >= range.value
+    {
+        let finding = RULE.at(preset.span).about(Address::new(0x6003, 0));
+        let finding = finding
+            .fact("preset", preset.value)
+            .fact("last", range.value - 1);
+        findings.push(finding.related(range.span, "6002h is set here"));
+    }
+}

@@ -1,13 +1,34 @@
-//! W0956: more units a revolution than there are.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::Encoder;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0956",
     severity: Warning,
-    title: "more units a revolution than there are",
-    why: "6001h cannot be finer than the resolution that 6501h says.",
+    title: "measuring units exceed the singleturn resolution",
+    why: "The encoder cannot deliver steps that are finer than its singleturn resolution.",
     source: "CiA 406, objects 6001h and 6501h",
+    says: "6001h is {units}, but the singleturn resolution (6501h) is {physical}",
+    help: "write at most {physical}",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(encoder) = Encoder::of(description) else {
+        return;
+    };
+    if let (Some(units), Some(physical)) = (encoder.value(0x6001), encoder.value(0x6501))
+        && physical.value > 0
+        && units.value > physical.value
+    {
+        let finding = RULE.at(units.span).about(Address::new(0x6001, 0));
+        let finding = finding
+            .fact("units", units.value)
+            .fact("physical", physical.value);
+        findings.push(finding.related(physical.span, "6501h is set here"));
+    }
+}

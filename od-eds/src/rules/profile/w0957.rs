@@ -1,13 +1,52 @@
-//! W0957: device type and revolutions disagree.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::rules::profile::shared::Encoder;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0957",
     severity: Warning,
     title: "device type and revolutions disagree",
-    why: "1000h says whether the encoder counts revolutions, 6502h how many.",
+    why: "A master that reads only one of the two objects treats the encoder as the wrong kind.",
     source: "CiA 406, objects 1000h and 6502h",
+    says: "1000h declares a multiturn encoder, but 6502h declares {turns:revolution|revolutions}",
+    help: "correct 6502h, or bits 16 to 31 of 1000h (1: singleturn, 2: multiturn)",
+    also: &[SINGLETURN],
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+/// Sentence for a singleturn encoder.
+const SINGLETURN: Form = Form {
+    says: "1000h declares a singleturn encoder, but 6502h declares {turns:revolution|revolutions}",
+    ..Form::OWN
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(encoder) = Encoder::of(description) else {
+        return;
+    };
+    let (Some(turns), Some(many)) = (encoder.value(0x6502), encoder.is_multiturn()) else {
+        return;
+    };
+    // Some devices count steps in 6502h, as in 6002h.
+    let revolutions = match (encoder.value(0x6002), encoder.value(0x6501)) {
+        (Some(range), Some(physical))
+            if range.value == turns.value && (2..=turns.value).contains(&physical.value) =>
+        {
+            turns.value / physical.value
+        }
+        _ => turns.value,
+    };
+    if many == (revolutions <= 1) {
+        let finding = RULE.at(turns.span).about(Address::new(0x6502, 0));
+        let finding = finding.fact("turns", revolutions);
+        findings.push(if many {
+            finding
+        } else {
+            finding.form(&SINGLETURN)
+        });
+    }
+}

@@ -1,13 +1,47 @@
-//! W0960: cams are incomplete.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::device;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0960",
     severity: Warning,
-    title: "cams are incomplete",
-    why: "A cam channel has its state, enable, polarity, two limits and a hysteresis.",
+    title: "cam objects are incomplete",
+    why: "A master that configures a cam gets an abort. A cam channel has state, enable, polarity, two limits and a hysteresis.",
     source: "CiA 406, objects 6300h to 6330h",
+    says: "{first} defines cams, but {object} (CAM {what}) is missing",
+    help: "add {missing}",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+/// Objects of a cam channel.
+const OBJECTS: [(u16, &str); 6] = [
+    (0x6300, "state"),
+    (0x6301, "enable"),
+    (0x6302, "polarity"),
+    (0x6310, "low limit"),
+    (0x6320, "high limit"),
+    (0x6330, "hysteresis"),
+];
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let cams = description.objects.range(0x6300..=0x63FF).next();
+    let Some((first, cams)) = cams.filter(|_| device(description, 406).is_some()) else {
+        return;
+    };
+    for (index, what) in OBJECTS {
+        if !description.objects.contains_key(&index) {
+            let finding = RULE
+                .at(cams.span)
+                .about(Address::new(index, 0))
+                .fact("what", what);
+            let finding = finding.fact("first", Fact::Index(*first));
+            let finding = finding.fact("object", Fact::Index(index));
+            findings.push(finding.fact("missing", Fact::Section(index, None)));
+        }
+    }
+}

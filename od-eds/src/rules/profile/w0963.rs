@@ -1,13 +1,36 @@
-//! W0963: no PDO carries the position.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::{POSITIONS, device};
+use crate::subject::start_number;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0963",
     severity: Warning,
-    title: "no PDO carries the position",
-    why: "As it is shipped, an encoder sends its position in the first TPDO.",
+    title: "no TPDO maps the position value",
+    why: "A master receives no position until it maps one.",
     source: "CiA 406, PDO mapping",
+    says: "no TPDO maps the position value",
+    help: "write `{DefaultValue=0x60040020}` in [1A00sub1] (6004h, 32 bits)",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let mut mappings = description.objects.range(0x1A00..=0x1BFF).peekable();
+    let Some((first, object)) = mappings.peek().copied() else {
+        return;
+    };
+    let carries = mappings.any(|(index, object)| {
+        object.entries.range(1..=64).any(|(sub, _)| {
+            let target = start_number(description, Address::new(*index, *sub));
+            let target = target.map(|target| (target.value >> 16) as u16);
+            target.is_some_and(|target| POSITIONS.contains(&target) || target == 0x600C)
+        })
+    });
+    if !carries && device(description, 406).is_some() {
+        findings.push(RULE.at(object.span).about(Address::new(*first, 0)));
+    }
+}

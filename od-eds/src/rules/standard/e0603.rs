@@ -1,13 +1,26 @@
-//! E0603: object 1018h is missing.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::description::Description;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0603",
     severity: Error,
     title: "object 1018h is missing",
-    why: "Every CANopen device has it; a master identifies the device by it.",
+    why: "A master cannot identify the device.",
     source: "CiA 301, object 1018h",
+    says: "mandatory object 1018h (identity object) is missing",
+    help: "add {missing}",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    // A file without objects has a rule of its own.
+    if !description.objects.is_empty() && !description.objects.contains_key(&0x1018) {
+        let finding = RULE.finding().about(Address::new(0x1018, 0));
+        findings.push(finding.fact("missing", Fact::Section(0x1018, None)));
+    }
+}

@@ -1,14 +1,31 @@
-//! E0604: object 1000h is not as CiA 301 says.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::rules::standard::shared::{code, data_type};
+use crate::subject::Object;
+use od_model::{DataType, ObjectCode};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0604",
     severity: Error,
-    title: "object 1000h is not as CiA 301 says",
-    why: "A VAR, UNSIGNED32, read only.",
+    title: "object 1000h differs from CiA 301",
+    why: "A master that reads 1000h as an UNSIGNED32 VAR gets another length, or an abort.",
     source: "CiA 301, object 1000h",
     fixability: Fixability::Unsafe,
+    says: "{object} is {given}, but CiA 301 specifies {right}",
+    help: "write `{key={right}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    if object.index != 0x1000 {
+        return;
+    }
+    findings.extend(code(&RULE, object, &[ObjectCode::Var]));
+    let value = object
+        .entries()
+        .next()
+        .filter(|_| !object.code.has_members());
+    findings.extend(value.and_then(|value| data_type(&RULE, &value, DataType::Unsigned32)));
+}

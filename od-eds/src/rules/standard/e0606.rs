@@ -1,14 +1,53 @@
-//! E0606: object 1018h is not as CiA 301 says.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Error};
+use crate::rules::standard::shared::{code, data_type};
+use crate::subject::Object;
+use od_model::{DataType, ObjectCode};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0606",
     severity: Error,
-    title: "object 1018h is not as CiA 301 says",
-    why: "A RECORD with UNSIGNED32 members, read only; sub-index 1, the vendor ID, is mandatory.",
+    title: "object 1018h differs from CiA 301",
+    why: "A master that reads the identity gets another length, or an abort. 1018h is a RECORD of UNSIGNED32; sub-index 1, the vendor-ID, is mandatory.",
     source: "CiA 301, object 1018h",
     fixability: Fixability::Unsafe,
+    says: "{object} is {given}, but CiA 301 specifies {right}",
+    help: "write `{key={right}}`",
+    also: &[NO_VENDOR],
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+/// Sentence for an identity without a vendor-ID.
+const NO_VENDOR: Form = Form {
+    says: "1018h lacks sub-index 1 (vendor-ID)",
+    help: "add {missing}",
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    if object.index != 0x1018 {
+        return;
+    }
+    findings.extend(code(
+        &RULE,
+        object,
+        &[ObjectCode::Record, ObjectCode::Array],
+    ));
+    if !object.code.has_members() {
+        return;
+    }
+    if !object.object.entries.contains_key(&1) {
+        let missing = Fact::Section(0x1018, Some(1));
+        findings.push(
+            RULE.on(object, object.span)
+                .form(&NO_VENDOR)
+                .fact("missing", missing),
+        );
+    }
+    let known = object
+        .entries()
+        .filter(|entry| (1..=4).contains(&entry.address.sub));
+    findings.extend(known.filter_map(|entry| data_type(&RULE, &entry, DataType::Unsigned32)));
+}

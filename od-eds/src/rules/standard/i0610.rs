@@ -5,17 +5,17 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "I0610",
     severity: Info,
-    title: "date or time is not written as CiA 306 writes it",
-    why: "`MM-DD-YYYY` and `hh:mmAM`. It is kept as it is; some editors drop it.",
+    title: "date or time is not as CiA 306 specifies",
+    why: "Some editors drop the value; odkit keeps it. CiA 306 specifies `MM-DD-YYYY` and `hh:mmAM`.",
     source: "CiA 306-1, FileInfo",
-    says: "{name} is written as `{given}`",
-    help: "write month, day and year: `07-14-2026`",
+    says: "{name} `{given}` is not as CiA 306 specifies",
+    help: "write month, day and year, such as `07-14-2026`",
     also: &[TIME],
     ..Rule::NEW
 };
 
 const TIME: Form = Form {
-    help: "write hour, minute and half of the day: `09:30AM`",
+    help: "write hour, minute, and AM or PM, such as `09:30AM`",
     ..Form::OWN
 };
 

@@ -5,12 +5,12 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "I0611",
     severity: Info,
-    title: "DeviceCommissioning with two m",
-    why: "The standard writes `DeviceComissioning`. Both are read; many readers know only one.",
+    title: "DeviceCommissioning is spelled with two m",
+    why: "Many tools know only the spelling of the standard, `DeviceComissioning`. odkit reads both.",
     source: "CiA 306-1, DCF",
     fixability: Fixability::Safe,
-    says: "`DeviceCommissioning` is not how CiA 306 spells it",
-    help: "write `[DeviceComissioning]`, with one m, as the standard does",
+    says: "CiA 306 spells `DeviceCommissioning` with one m",
+    help: "write `[DeviceComissioning]`",
     ..Rule::NEW
 };
 

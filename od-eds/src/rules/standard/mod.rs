@@ -1,4 +1,7 @@
-//! 06: mandatory and standard objects, identity, `[DeviceInfo]`. One file a rule.
+//! 06: mandatory and standard objects, identity, `[DeviceInfo]`. One file per rule.
+
+mod shared;
+mod table;
 
 catalogue! {
     e0601 E0601

@@ -1,14 +1,49 @@
-//! W0607: identity differs from [DeviceInfo].
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::description::Description;
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::scan::number::number;
+use crate::subject::start_number;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0607",
     severity: Warning,
     title: "identity differs from [DeviceInfo]",
-    why: "VendorNumber, ProductNumber and RevisionNumber are the defaults of 1018h; a master picks the EDS by them.",
+    why: "A tool that picks the EDS by vendor, product and revision finds no match. [DeviceInfo] repeats the default values of 1018h.",
     source: "CiA 306-1, DeviceInfo",
     fixability: Fixability::Unsafe,
+    says: "{field} is 0x{given:X}, but {object} is 0x{value:X}",
+    help: "write `{field}=0x{value:X}`, or correct {object}",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(info) = description.section("DeviceInfo") else {
+        return;
+    };
+    for (field, sub) in [
+        ("VendorNumber", 1),
+        ("ProductNumber", 2),
+        ("RevisionNumber", 3),
+    ] {
+        let address = Address::new(0x1018, sub);
+        let object = start_number(description, address);
+        let (Some(given), Some(object)) = (info.get(field), object) else {
+            continue;
+        };
+        // 0 means that the value is not known.
+        let differs = |given: &i128| *given != 0 && *given != i128::from(object.value);
+        let Some(number) = number(given).filter(|given| object.value != 0 && differs(given)) else {
+            continue;
+        };
+        let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:X}", object.value));
+        let finding = RULE.at(given.span).about(address).fact("field", field);
+        let finding = finding.fact("given", number).fact("object", address);
+        let finding = finding.fact("value", object.value).fix(fix);
+        findings.push(finding.related(object.span, "{object} is set here"));
+    }
+}

@@ -1,14 +1,43 @@
-//! W0631: standard object has another type.
+use alloc::format;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::standard::table::of;
+use crate::subject::Entry;
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0631",
     severity: Warning,
-    title: "standard object has another type",
+    title: "standard object has another data type",
     why: "A master that knows the object from the standard reads and writes it with another length.",
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
+    says: "{object} ({name}) is {given}, but {standard} specifies {right}",
+    help: "write `{DataType={right}}`",
+    check: Check::Entry(check),
     ..Rule::NEW
 };
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let Address { index, sub } = entry.address;
+    let own_rule = matches!(index, 0x1000 | 0x1001 | 0x1018)
+        || matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF if sub <= 2)
+        || matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+    if let Some(standard) = of(index).filter(|found| found.is_like(*entry.object.code))
+        && let Some(value) = standard.value(sub)
+        && let Some(given) = entry.data_type.filter(|given| **given != value.data_type)
+        && !own_rule
+    {
+        let code = format!("0x{:04X}", value.data_type.code());
+        let finding = RULE.on(entry, given.span).fact("object", entry.shown());
+        let finding = finding
+            .fact("name", standard.name)
+            .fact("right", value.data_type);
+        let finding = finding
+            .fact("standard", standard.source())
+            .fact("given", *given);
+        findings.push(finding.fix(Fix::unsafe_fix().replace(given.span, code)));
+    }
+}

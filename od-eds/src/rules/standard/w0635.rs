@@ -1,13 +1,25 @@
-//! W0635: device has no error control.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0635",
     severity: Warning,
     title: "device has no error control",
-    why: "Every device has a heartbeat or node guarding; without one, nobody notices that it is gone.",
+    why: "Without a heartbeat or node guarding, no master notices that the node has failed.",
     source: "CiA 301, error control",
+    says: "1017h (heartbeat) and 100Ch (node guarding) are both missing",
+    help: "add {missing}; every device needs one of the two",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let has = |index| description.objects.contains_key(&index);
+    if has(0x1000) && !has(0x1017) && !has(0x100C) {
+        let missing = Fact::Section(0x1017, None);
+        findings.push(RULE.finding().fact("missing", missing));
+    }
+}

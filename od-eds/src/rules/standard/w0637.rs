@@ -1,13 +1,34 @@
-//! W0637: device supports no bit rate.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0637",
     severity: Warning,
     title: "device supports no bit rate",
-    why: "[DeviceInfo] says the bit rates of a device; a tool that offers what all devices have offers nothing.",
+    why: "A tool that offers the bit rates of all devices on the bus offers none.",
     source: "CiA 306-1, DeviceInfo",
+    says: "[DeviceInfo] sets every bit rate to 0",
+    help: "write 1 for each supported bit rate, such as `BaudRate_125=1`",
+    check: Check::Device(check),
     ..Rule::NEW
 };
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(info) = description.section("DeviceInfo") else {
+        return;
+    };
+    let is_rate = |key: &str| {
+        let start = key.get(.."BaudRate_".len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case("BaudRate_"))
+    };
+    let mut rates = info.pairs.iter().filter(|(key, _)| is_rate(key)).peekable();
+    let Some((_, first)) = rates.peek() else {
+        return;
+    };
+    if rates.all(|(_, rate)| number(rate) == Some(0)) && !description.objects.is_empty() {
+        findings.push(RULE.at(first.span));
+    }
+}

@@ -1,14 +1,23 @@
-//! E0310: sub-index 0 promises members that do not exist.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Error;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
+use crate::rules::structure::shared::Count;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0310",
     severity: Error,
-    title: "sub-index 0 promises members that do not exist",
-    why: "A master that reads up to the highest sub-index gets an abort. A value that counts entries in use may be lower than the members, never higher.",
+    title: "PDO mapping counts entries that do not exist",
+    why: "A node cannot build a PDO from mapping entries that do not exist. In a macro call the rule covers every object. Sub-index 0 of a mapping may be lower than the highest sub-index, never higher.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
+    says: "sub-index 0 is {given}, but the highest sub-index is {highest}",
+    help: "write `{DefaultValue={highest}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let count = Count::of(object).filter(|count| count.is_too_high() && count.is_error());
+    findings.extend(count.map(|count| count.finding(&RULE)));
+}

@@ -1,13 +1,35 @@
-//! I0345: two members have one name.
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Info;
+use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0345",
     severity: Info,
-    title: "two members have one name",
-    why: "Masters that find values by their names find only one of them.",
+    title: "two sub-objects have the same name",
+    why: "A master that finds values by name finds only one of them.",
     source: "odkit; python-canopen and others look up by name",
+    says: "two sub-objects have the name `{name}`",
+    help: "write another name",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    // Sub-objects of the standards are known by their number.
+    if !object.code.has_members() || matches!(object.index, 0x1000..=0x1FFF) {
+        return;
+    }
+    let mut names = BTreeMap::new();
+    for entry in object.entries().filter(|entry| !entry.name.is_empty()) {
+        let (name, span) = (entry.entry.name.value.as_str(), entry.name.span);
+        // All that CompactSubObj stands for has the place of one name.
+        if let Some(first) = names.insert(name, span)
+            && first != span
+        {
+            let finding = RULE.on(&entry, span).fact("name", name);
+            findings.push(finding.related(first, "first used here"));
+        }
+    }
+}

@@ -1,4 +1,6 @@
-//! 03: what an object consists of. One file a rule.
+//! 03: what an object consists of. One file per rule.
+
+mod shared;
 
 catalogue! {
     e0301 E0301

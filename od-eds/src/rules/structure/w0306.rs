@@ -1,13 +1,32 @@
-//! W0306: ARRAY or RECORD has no members.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::fact::{Fact, Key};
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::Object;
+use od_model::ObjectCode;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0306",
     severity: Warning,
-    title: "ARRAY or RECORD has no members",
-    why: "There is nothing to read or write. The object is taken not to exist.",
+    title: "ARRAY or RECORD has no sub-objects",
+    why: "A master finds nothing to read or write. odkit leaves the object out of the dictionary.",
     source: "CiA 306-1, object sections",
+    says: "the {code} has no sub-objects",
+    help: "add {missing} and one for each sub-object",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let has_some = object.code.has_members() && *object.code != ObjectCode::DefStruct;
+    // The reader reported a CompactSubObj that it could not read.
+    let unread = object
+        .extra
+        .iter()
+        .any(|(key, _)| Key::CompactSubObj.is(key));
+    if has_some && object.object.entries.is_empty() && !unread {
+        let missing = Fact::Section(object.index, Some(0));
+        let finding = RULE.on(object, object.span).fact("code", *object.code);
+        findings.push(finding.fact("missing", missing));
+    }
+}

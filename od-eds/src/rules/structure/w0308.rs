@@ -1,14 +1,32 @@
-//! W0308: SubNumber does not count the sub-indices.
+use alloc::string::ToString;
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::structure::shared::counts;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0308",
     severity: Warning,
-    title: "SubNumber does not count the sub-indices",
-    why: "SubNumber is the number of sub-index sections, sub-index 0 included. Readers that trust it miss members.",
+    title: "SubNumber does not match the sub-objects",
+    why: "A tool that trusts SubNumber misses sub-objects, or fails where one is missing. SubNumber counts the sub-index sections, sub-index 0 included; odkit counts them itself.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
+    says: "{SubNumber} is {given}, but the object has {count:sub-index|sub-indices}",
+    help: "write `{SubNumber={count}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let count = object.object.entries.len();
+    let given = object
+        .sub_number
+        .filter(|given| given.value as usize != count);
+    if let Some(given) = given.filter(|_| counts(object)) {
+        let finding = RULE.on(object, given.span).fact("given", given.value);
+        let finding = finding.fact("count", count);
+        findings.push(finding.fix(Fix::safe().replace(given.span, count.to_string())));
+    }
+}

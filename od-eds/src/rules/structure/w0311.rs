@@ -1,14 +1,28 @@
-//! W0311: sub-index 0 is lower than the highest member.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::rules::structure::shared::{Count, counts_in_use};
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0311",
     severity: Warning,
-    title: "sub-index 0 is lower than the highest member",
-    why: "A master that reads up to sub-index 0 never sees the members above it.",
+    title: "sub-index 0 is lower than the highest sub-index",
+    why: "A master that reads up to sub-index 0 never sees the sub-objects above it.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
+    says: "sub-index 0 is {given}, but sub-index {highest} exists",
+    help: "write `{DefaultValue={highest}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let Some(count) = Count::of(object) else {
+        return;
+    };
+    let in_use = count.entry.access.writable() || counts_in_use(object.index);
+    if count.given.value < u64::from(count.highest) && !in_use {
+        findings.push(count.finding(&RULE));
+    }
+}

@@ -1,14 +1,40 @@
-//! W0312: members of an ARRAY differ in type.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::subject::Object;
+use od_model::ObjectCode;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0312",
     severity: Warning,
-    title: "members of an ARRAY differ in type",
-    why: "The members of an ARRAY are all of one type; those of a RECORD may differ.",
+    title: "sub-objects of an ARRAY differ in type",
+    why: "A master that reads all sub-objects of an ARRAY with one type reads some of them wrong. Those of a RECORD may differ.",
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
+    says: "{object} is {given}, but {first} of the same ARRAY is {right}",
+    help: "write `{ObjectType=0x9}` (RECORD) if the types are correct",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    if *object.code != ObjectCode::Array {
+        return;
+    }
+    let typed = object
+        .entries()
+        .filter_map(|entry| Some((entry.data_type?, entry)));
+    let mut typed = typed.filter(|(_, entry)| (1..=254).contains(&entry.address.sub));
+    let Some((right, first)) = typed.next() else {
+        return;
+    };
+    if let Some((given, entry)) = typed.find(|(given, _)| *given != right) {
+        let finding = RULE.on(&entry, given.span).fact("object", entry.shown());
+        let finding = finding.fact("given", *given).fact("first", first.shown());
+        let finding = finding.fact("right", *right);
+        let finding = finding.related(right.span, "declared as {right} here");
+        let finding = finding.related(object.code.span, "declared as ARRAY here");
+        findings.push(finding.fix(Fix::unsafe_fix().replace(object.code.span, "0x9")));
+    }
+}

@@ -1,14 +1,32 @@
-//! W0347: sub-index 0 of a standard object can be written.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::structure::shared::counts_in_use;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0347",
     severity: Warning,
-    title: "sub-index 0 of a standard object can be written",
-    why: "Sub-index 0 counts the members, which no master changes; 1003h and the mappings are the exception.",
+    title: "sub-index 0 of a standard object is writable",
+    why: "A master that changes the number of sub-objects makes other masters read sub-objects that do not exist. Only 1003h and PDO mappings have a writable sub-index 0.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
+    says: "sub-index 0 counts the sub-objects, but its {AccessType} is `{given}`",
+    help: "write `{AccessType=const}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let fixed = matches!(object.index, 0x1000..0x1F00) && !counts_in_use(object.index);
+    if !fixed || !object.code.has_members() {
+        return;
+    }
+    let first = object.entries().next();
+    if let Some(count) = first.filter(|entry| entry.address.sub == 0 && entry.access.writable()) {
+        let access = count.access;
+        let finding = RULE.on(&count, access.span).fact("given", *access);
+        findings.push(finding.fix(Fix::unsafe_fix().replace(access.span, "const")));
+    }
+}

@@ -1,14 +1,23 @@
-//! W0350: sub-index 0 is higher than the highest member.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::rules::structure::shared::Count;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0350",
     severity: Warning,
-    title: "sub-index 0 is higher than the highest member",
-    why: "A master that reads up to sub-index 0 gets an abort for what does not exist.",
+    title: "sub-index 0 is higher than the highest sub-index",
+    why: "A master that reads up to sub-index 0 gets an abort for each sub-object that does not exist.",
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
+    says: "sub-index 0 is {given}, but the highest sub-index is {highest}",
+    help: "write `{DefaultValue={highest}}`",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let count = Count::of(object).filter(|count| count.is_too_high() && !count.is_error());
+    findings.extend(count.map(|count| count.finding(&RULE)));
+}

@@ -1,13 +1,28 @@
-//! W0351: ARRAY has a gap.
+use alloc::vec::Vec;
 
-use crate::finding::Rule;
-use crate::finding::Severity::Warning;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::Object;
+use od_model::ObjectCode;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0351",
     severity: Warning,
     title: "ARRAY has a gap",
-    why: "The members of an ARRAY have the sub-indices 1, 2, 3 and so on; a master that walks through it gets an abort at the gap.",
+    why: "A master that reads sub-indices 1, 2, 3 and so on gets an abort at the gap.",
     source: "CiA 301, object codes",
+    says: "this ARRAY has sub-index {given} but no sub-index {missing}",
+    help: "number the sub-objects without a gap, or write `{ObjectType=0x9}` (RECORD)",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let entries = object.entries();
+    let entries = entries.filter(|entry| (1..=254).contains(&entry.address.sub));
+    let mut gaps = (1u8..=254).zip(entries);
+    let gap = gaps.find(|(expected, entry)| entry.address.sub != *expected);
+    if let Some((missing, entry)) = gap.filter(|_| *object.code == ObjectCode::Array) {
+        let finding = RULE.on(&entry, entry.span).fact("missing", missing);
+        findings.push(finding.fact("given", entry.address.sub));
+    }
+}

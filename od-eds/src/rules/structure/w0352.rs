@@ -1,14 +1,27 @@
-//! W0352: SubNumber of an object without members.
+use alloc::vec::Vec;
 
-use crate::finding::Severity::Warning;
-use crate::finding::{Fixability, Rule};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0352",
     severity: Warning,
-    title: "SubNumber of an object without members",
-    why: "Only an ARRAY or a RECORD has sub-indices to count.",
+    title: "SubNumber of an object without sub-objects",
+    why: "A tool that trusts SubNumber reads sub-objects that do not exist. Only an ARRAY or a RECORD has sub-objects to count.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
+    says: "{SubNumber} is {given}, but {code} has no sub-objects",
+    help: "remove {SubNumber}",
+    check: Check::Object(check),
     ..Rule::NEW
 };
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let given = object.sub_number.filter(|given| given.value > 1);
+    if let Some(given) = given.filter(|_| !object.code.has_members()) {
+        let finding = RULE.on(object, given.span).fact("given", given.value);
+        let finding = finding.fact("code", *object.code);
+        findings.push(finding.fix(Fix::unsafe_fix().remove_line(given.span)));
+    }
+}

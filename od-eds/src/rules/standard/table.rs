@@ -36,6 +36,29 @@ impl Standard {
         }
     }
 
+    /// What the standard says of a sub-index.
+    pub(super) fn value(&self, sub: u8) -> Option<&Value> {
+        match &self.members {
+            Members::Var(value) if sub == 0 => Some(value),
+            Members::Array(value) if (1..=254).contains(&sub) => Some(value),
+            Members::Record(members) => {
+                let found = members.iter().find(|(known, _, _)| *known == sub);
+                found.map(|(_, value, _)| value)
+            }
+            _ => None,
+        }
+    }
+
+    /// Does an object of this code have the same values on the bus?
+    pub(super) fn is_like(&self, own: ObjectCode) -> bool {
+        let right = self.code();
+        // An ARRAY and a RECORD of one type are the same on the bus; a VAR of type DOMAIN is
+        // what others call a DOMAIN.
+        own == right
+            || own.has_members() && right.has_members()
+            || matches!((own, right), (ObjectCode::Domain, ObjectCode::Var))
+    }
+
     /// Which standard it is in.
     pub(super) const fn source(&self) -> &'static str {
         match self.first {
@@ -138,7 +161,7 @@ const TABLE: &[Standard] = &[
     var(0x1001, "error register", Unsigned8, Ro),
     var(0x1002, "manufacturer status register", Unsigned32, Ro),
     array(0x1003, "pre-defined error field", Unsigned32, Ro),
-    var(0x1005, "COB-ID SYNC", Unsigned32, Rw),
+    var(0x1005, "COB-ID SYNC message", Unsigned32, Rw),
     var(0x1006, "communication cycle period", Unsigned32, Rw),
     var(0x1007, "synchronous window length", Unsigned32, Rw),
     var(0x1008, "manufacturer device name", VisibleString, Const),
@@ -158,7 +181,7 @@ const TABLE: &[Standard] = &[
     var(0x100D, "life time factor", Unsigned8, Rw),
     array(0x1010, "store parameters", Unsigned32, Rw),
     array(0x1011, "restore default parameters", Unsigned32, Rw),
-    var(0x1012, "COB-ID TIME", Unsigned32, Rw),
+    var(0x1012, "COB-ID time stamp message", Unsigned32, Rw),
     var(0x1013, "high resolution time stamp", Unsigned32, Rw),
     var(0x1014, "COB-ID EMCY", Unsigned32, Rw),
     var(0x1015, "inhibit time EMCY", Unsigned16, Rw),

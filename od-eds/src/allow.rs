@@ -1,20 +1,18 @@
-//! What a file allows: `;odkit-allow=W0311 reason` in a comment of its own.
+//! Findings that a file allows: `;odkit-allow=W0311 reason` in a comment of its own.
 //!
-//! Before the first section and in `[FileInfo]` it holds for the whole file. In the
-//! section of an object or a member it holds for what is found there and for
-//! everything about that object; in any other section for what is found there.
-//! A reason is asked for, because the next reader of the file has to judge it.
+//! Before the first section and in `[FileInfo]` it holds for the whole file. In the section of an
+//! object or a sub-object it holds for the findings there and for all findings about that object;
+//! in any other section for the findings there. A reason is required, because the next person who
+//! reads the file has to judge it.
 
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::sort;
-use crate::finding::Finding;
-use crate::finding::Rule;
-use crate::fix::Fix;
-use crate::rules;
+use crate::finding::{Finding, Rule, sort};
+use crate::rules::allow::{i0803, w0801, w0802};
 use crate::rules::rule;
+use crate::scan::{lines::lines, names::object_of};
 use crate::span::Span;
 
 /// The word that makes a comment one of ours.
@@ -38,7 +36,7 @@ enum Scope {
     Section(u32, u32, Option<u16>),
 }
 
-/// All that a text allows, and what is wrong with how it says so.
+/// All that a text allows, and the findings about the comments that say so.
 #[derive(Clone, Debug, Default)]
 pub struct Allows {
     allows: Vec<Allow>,
@@ -57,7 +55,7 @@ impl Allows {
         }
         let mut scope = Scope::File;
         let mut open = 0;
-        for line in crate::scan::lines::lines(text) {
+        for line in lines(text) {
             let trimmed = line.text.trim();
             if let Some(inside) = trimmed.strip_prefix('[') {
                 allows.close(open, line.number);
@@ -66,7 +64,7 @@ impl Allows {
                 scope = match name.eq_ignore_ascii_case("FileInfo") {
                     true => Scope::File,
                     false => {
-                        let index = crate::scan::names::object_of(name);
+                        let index = object_of(name);
                         Scope::Section(line.number, u32::MAX, index)
                     }
                 };
@@ -99,16 +97,7 @@ impl Allows {
             None => (text, ""),
         };
         if reason.is_empty() {
-            self.findings.push(
-                rules::W0802
-                    .told(
-                        span(text),
-                        format!("`{text}` is to be allowed without a reason"),
-                    )
-                    .with_help(format!(
-                        "write `;{WORD}={codes} ` and why it is as it should be"
-                    )),
-            );
+            self.findings.push(w0802::finding(codes, span(text)));
             return;
         }
         for given in codes.split(',') {
@@ -119,35 +108,24 @@ impl Allows {
                     scope: scope.clone(),
                     used: false,
                 }),
-                None => self.findings.push(
-                    rules::W0801
-                        .told(span(given), format!("`{given}` is no code of a finding"))
-                        .with_help(
-                            "write a code such as `W0311`; `odkit explain --list` has them all",
-                        ),
-                ),
+                None => self.findings.push(w0801::finding(given, span(given))),
             }
         }
     }
 
-    /// Takes out what is allowed, and adds what is to be said about the comments.
+    /// Removes what is allowed, and adds the findings about the comments themselves.
     pub fn apply(mut self, findings: &mut Vec<Finding>) {
         self.filter(findings);
-        for allow in self.allows.iter().filter(|allow| !allow.used) {
-            self.findings.push(
-                rules::I0803
-                    .told(allow.span, format!("there is no {} to allow", allow.code))
-                    .with_help("leave it out")
-                    .fix(Fix::unsafe_fix().remove_line(allow.span)),
-            );
-        }
+        let unused = self.allows.iter().filter(|allow| !allow.used);
+        let unused = unused.map(|allow| i0803::finding(allow.code, allow.span));
+        self.findings.extend(unused);
         if !self.findings.is_empty() {
             findings.append(&mut self.findings);
             sort(findings);
         }
     }
 
-    /// Takes out what is allowed.
+    /// Removes what is allowed.
     pub fn filter(&mut self, findings: &mut Vec<Finding>) {
         if !self.allows.is_empty() {
             findings.retain(|finding| !self.allowed(finding));
@@ -175,8 +153,8 @@ impl Allows {
     }
 }
 
-/// The rule of a code that can be allowed: all but those about edits and about this.
-pub(super) fn known(code: &str) -> Option<&'static Rule> {
+/// The rule of a code that can be allowed: all but those about edits and about allowing.
+fn known(code: &str) -> Option<&'static Rule> {
     rule(code).filter(|rule| !matches!(&rule.code[1..3], "07" | "08"))
 }
 
@@ -184,14 +162,14 @@ pub(super) fn known(code: &str) -> Option<&'static Rule> {
 ///
 /// # Errors
 ///
-/// What is wrong with it, in words.
+/// A sentence that names what is wrong.
 pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), String> {
     let (code, index) = match text.split_once(':') {
         Some((code, index)) => (code, Some(index)),
         None => (text, None),
     };
     let rule = known(code).ok_or_else(|| {
-        format!("`{code}` is no code of a finding; `odkit explain --list` has them all")
+        format!("`{code}` is not the code of a finding; `odkit explain --list` lists them all")
     })?;
     let Some(index) = index else {
         return Ok((rule.code, None));
@@ -204,7 +182,7 @@ pub fn parse_allow(text: &str) -> Result<(&'static str, Option<u16>), String> {
     match u16::from_str_radix(digits, 16) {
         Ok(index) if !digits.starts_with('+') => Ok((rule.code, Some(index))),
         _ => Err(format!(
-            "`{index}` is no index; write four hexadecimal digits such as `2000`"
+            "`{index}` is not an index; write four hexadecimal digits such as `2000`"
         )),
     }
 }

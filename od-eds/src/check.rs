@@ -1,0 +1,61 @@
+//! Checks: the walk that shows objects and values to the rules.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, sort};
+use crate::subject::objects;
+
+pub use crate::allow::{Allows, parse_allow};
+pub use crate::finding::{Fixability, Rule};
+#[cfg(feature = "explain")]
+pub use crate::rules::{Pair, pair};
+pub use crate::rules::{RULES, rule};
+
+/// Runs all checks and returns the findings in file order.
+///
+/// Findings about the text itself come from [`parse`](crate::parse()).
+pub fn check(description: &Description) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    run(description, &mut findings);
+    once(description, &mut findings);
+    sort(&mut findings);
+    findings
+}
+
+/// Runs the checks of all rules, in one pass over the objects.
+fn run(description: &Description, findings: &mut Vec<Finding>) {
+    let (mut of_entries, mut of_objects, mut of_device) = (Vec::new(), Vec::new(), Vec::new());
+    for rule in RULES {
+        match rule.check {
+            Check::Entry(check) => of_entries.push(check),
+            Check::Object(check) => of_objects.push(check),
+            Check::Device(check) => of_device.push(check),
+            Check::ByReader | Check::ByEdit => {}
+        }
+    }
+    for object in objects(description) {
+        for entry in object.entries() {
+            of_entries.iter().for_each(|check| check(&entry, findings));
+        }
+        of_objects.iter().for_each(|check| check(&object, findings));
+    }
+    of_device
+        .iter()
+        .for_each(|check| check(description, findings));
+}
+
+/// Keeps the first of the same findings about sub-objects that one section describes (CompactSubObj).
+fn once(description: &Description, findings: &mut Vec<Finding>) {
+    let mut known = BTreeSet::new();
+    findings.retain(|finding| {
+        let (Some(address), Some(span)) = (finding.object, finding.span()) else {
+            return true;
+        };
+        let own = description.entry(address).map(|entry| entry.span);
+        let object = description.objects.get(&address.index);
+        let copied = own.is_some() && own == object.map(|object| object.span) && address.sub > 0;
+        !copied || known.insert((finding.rule.code, span, address.index))
+    });
+}

@@ -1,0 +1,178 @@
+//! The device type (1000h), and what the rules about profiles share.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use od_model::{Access, Address};
+
+use crate::description::Description;
+use crate::fact::{Fact, Key};
+use crate::finding::{Finding, Rule};
+use crate::fix::Fix;
+use crate::rules::profile::table::{self, of};
+use crate::span::Spanned;
+use crate::subject::{Object, start_number};
+
+/// The device type: the number of the profile, and 16 bits that the profile defines.
+#[derive(Clone, Copy)]
+pub(super) struct DeviceType {
+    profile: u16,
+    additional: u16,
+}
+
+impl DeviceType {
+    /// Returns if this bit of the upper half of 1000h is set.
+    pub(super) const fn has(self, bit: u32) -> bool {
+        self.additional & 1 << bit != 0
+    }
+}
+
+/// The device, if it follows this profile.
+pub(super) fn device(description: &Description, profile: u16) -> Option<DeviceType> {
+    device_type(description).filter(|device| device.profile == profile)
+}
+
+fn device_type(description: &Description) -> Option<DeviceType> {
+    let number = start_number(description, Address::new(0x1000, 0))?;
+    let number = u32::try_from(number.value).ok()?;
+    let [a, b, c, d] = number.to_le_bytes();
+    Some(DeviceType {
+        profile: u16::from_le_bytes([a, b]),
+        additional: u16::from_le_bytes([c, d]),
+    })
+}
+
+/// The finding about a mandatory object that is missing; one of these is enough.
+pub(super) fn need(
+    rule: &'static Rule,
+    description: &Description,
+    any_of: &[u16],
+    what: &'static str,
+) -> Option<Finding> {
+    let exists = |index: &u16| description.objects.contains_key(index);
+    let first = any_of.first().filter(|_| !any_of.iter().any(exists))?;
+    let device_type = start_number(description, Address::new(0x1000, 0));
+    let objects = any_of.iter().map(|index| Fact::Index(*index)).collect();
+    let finding = rule.at(device_type.map(|number| number.span).unwrap_or_default());
+    let finding = finding.about(Address::new(*first, 0)).fact("what", what);
+    let finding = finding.fact("objects", Fact::OneOf(objects));
+    Some(finding.fact("missing", Fact::Section(*first, None)))
+}
+
+/// The profile of the device, and what it says of this object.
+fn in_profile(object: &Object<'_>) -> Option<(u16, &'static table::Object)> {
+    if !matches!(object.index, 0x6000..=0x9FFF) {
+        return None;
+    }
+    let profile = device_type(object.description)?.profile;
+    Some((profile, of(profile, object.index)?))
+}
+
+/// Reports code and types of an object of one of these profiles.
+pub(super) fn types(
+    rule: &'static Rule,
+    profiles: &[u16],
+    object: &Object<'_>,
+    findings: &mut Vec<Finding>,
+) {
+    let standard = in_profile(object).filter(|(profile, _)| profiles.contains(profile));
+    let Some((profile, standard)) = standard else {
+        return;
+    };
+    let code = standard.code;
+    if object.code.has_members() != code.has_members() {
+        let finding = rule.on(object, object.code.span).key(Key::ObjectType);
+        let finding = finding
+            .fact("object", Fact::Index(object.index))
+            .fact("right", code);
+        let finding = finding.fact("profile", u32::from(profile));
+        findings.push(finding.fact("given", *object.code));
+        return;
+    }
+    let subs = u8::from(code.has_members())..=254;
+    for entry in object
+        .entries()
+        .filter(|entry| subs.contains(&entry.address.sub))
+    {
+        let types = standard.data_types;
+        let given = entry.data_type.filter(|given| !types.contains(given));
+        if let (Some(given), Some(right)) = (given, types.first()) {
+            let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:04X}", right.code()));
+            let finding = rule.on(&entry, given.span).key(Key::DataType);
+            let finding = finding.fact("object", entry.shown());
+            let finding = finding
+                .fact("right", *right)
+                .fact("profile", u32::from(profile));
+            findings.push(finding.fact("given", *given).fix(fix));
+        }
+    }
+}
+
+/// Reports the access of the values of an object of one of these profiles.
+pub(super) fn access(
+    rule: &'static Rule,
+    profiles: &[u16],
+    object: &Object<'_>,
+    findings: &mut Vec<Finding>,
+) {
+    let standard = in_profile(object).filter(|(profile, standard)| {
+        let alike = object.code.has_members() == standard.code.has_members();
+        profiles.contains(profile) && alike
+    });
+    let Some((profile, standard)) = standard else {
+        return;
+    };
+    let Some(writable) = standard.writable else {
+        return;
+    };
+    let subs = u8::from(standard.code.has_members())..=254;
+    for entry in object
+        .entries()
+        .filter(|entry| subs.contains(&entry.address.sub))
+    {
+        if entry.access.writable() != writable {
+            let right = if writable { Access::Rw } else { Access::Ro };
+            let finding = rule
+                .on(&entry, entry.access.span)
+                .fact("object", entry.shown());
+            let finding = finding.fact("profile", u32::from(profile));
+            let finding = finding.fact("given", *entry.access).fact("right", right);
+            let fix = Fix::unsafe_fix().replace(entry.access.span, right.name());
+            findings.push(finding.fix(fix));
+        }
+    }
+}
+
+/// An encoder (CiA 406), with the default values of its objects.
+pub(super) struct Encoder<'a> {
+    pub(super) description: &'a Description,
+    device: DeviceType,
+}
+
+/// Objects that hold the position of an encoder.
+pub(super) const POSITIONS: [u16; 4] = [0x6004, 0x6008, 0x6020, 0x6050];
+
+impl<'a> Encoder<'a> {
+    /// The device, if it is one.
+    pub(super) fn of(description: &'a Description) -> Option<Self> {
+        let device = device(description, 406)?;
+        Some(Self {
+            description,
+            device,
+        })
+    }
+
+    /// The number that an object starts with.
+    pub(super) fn value(&self, index: u16) -> Option<Spanned<u64>> {
+        start_number(self.description, Address::new(index, 0))
+    }
+
+    /// Returns if it counts revolutions; `None` for linear and unknown encoders.
+    pub(super) const fn is_multiturn(&self) -> Option<bool> {
+        match self.device.additional {
+            1 => Some(false),
+            2 => Some(true),
+            _ => None,
+        }
+    }
+}

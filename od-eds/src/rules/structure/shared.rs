@@ -1,0 +1,89 @@
+//! What the rules about sub-index 0 share.
+
+use alloc::string::ToString;
+
+use od_model::{DataType, ObjectCode};
+
+use crate::finding::{Finding, Rule};
+use crate::fix::Fix;
+use crate::span::{Spanned, token_of};
+use crate::subject::{Entry, Object, start_number};
+
+/// Returns if the object has sub-objects, which a sub-index 0 is to count.
+pub(super) fn counts(object: &Object<'_>) -> bool {
+    let described = object.code.has_members() && *object.code != ObjectCode::DefStruct;
+    described && !object.object.entries.is_empty()
+}
+
+/// The highest sub-index that exists. FFh does not count: it describes the object.
+pub(super) fn highest(object: &Object<'_>) -> u8 {
+    let subs = object.object.entries.range(..255);
+    subs.map(|(sub, _)| *sub).next_back().unwrap_or(0)
+}
+
+/// Sub-index 0, if there is one.
+pub(super) fn sub_index_0<'a>(object: &Object<'a>) -> Option<Entry<'a>> {
+    let first = object.entries().next().filter(|_| counts(object));
+    first.filter(|entry| entry.address.sub == 0)
+}
+
+/// Is it the mapping of a PDO?
+const fn is_mapping(index: u16) -> bool {
+    matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
+}
+
+/// Objects whose sub-index 0 changes with their content.
+pub(super) const fn counts_in_use(index: u16) -> bool {
+    index == 0x1003 || is_mapping(index)
+}
+
+/// What sub-index 0 says, beside what exists.
+pub(super) struct Count<'a> {
+    pub(super) entry: Entry<'a>,
+    pub(super) given: Spanned<u64>,
+    pub(super) highest: u8,
+}
+
+impl<'a> Count<'a> {
+    /// The count of an object; `None` where it has none, or one that counts nothing.
+    pub(super) fn of(object: &Object<'a>) -> Option<Self> {
+        let entry = sub_index_0(object)?;
+        if entry
+            .data_type
+            .is_some_and(|given| *given != DataType::Unsigned8)
+        {
+            return None;
+        }
+        let given = start_number(object.description, entry.address)?;
+        // 254 and 255 are multiplexed PDOs.
+        if counts_in_use(object.index) && matches!(given.value, 254 | 255) {
+            return None;
+        }
+        let highest = highest(object);
+        Some(Self {
+            entry,
+            given,
+            highest,
+        })
+    }
+
+    /// Returns if it says more than exists.
+    pub(super) fn is_too_high(&self) -> bool {
+        self.given.value > u64::from(self.highest)
+    }
+
+    /// Returns if it makes a device unsound: a PDO cannot be made of entries that do not exist. The
+    /// values of a macro call are the author's own to correct.
+    pub(super) fn is_error(&self) -> bool {
+        is_mapping(self.entry.address.index) || token_of(self.given.span).is_some()
+    }
+
+    /// The finding that it is wrong.
+    pub(super) fn finding(&self, rule: &'static Rule) -> Finding {
+        let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());
+        rule.on(&self.entry, self.given.span)
+            .fact("given", self.given.value)
+            .fact("highest", self.highest)
+            .fix(fix)
+    }
+}
