@@ -56,7 +56,7 @@ impl Bench {
             let count = self.bus.devices().len();
             format!(
                 "device `{name}` does not exist; write its number, 1 to {count}, or the name \
-                 behind `as` in its `device` line"
+                 after `as` in its `device` line"
             )
         })
     }

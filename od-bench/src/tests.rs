@@ -164,7 +164,7 @@ fn frames_become_plain_words() {
             ),
             (
                 "581#6000600000000000",
-                "SDO node 1: 6000h Operating parameters taken",
+                "SDO node 1: write of 6000h Operating parameters confirmed",
             ),
             (
                 "581#8000200000000206",
@@ -176,23 +176,23 @@ fn frames_become_plain_words() {
             ),
             ("000#0101", "NMT node 1: start"),
             ("000#8100", "NMT: reset node, all nodes"),
-            ("080#", "SYNC: all act at once"),
+            ("080#", "SYNC: triggers synchronous PDOs"),
             (
                 "181#92950700",
                 "PDO node 1: TPDO1 Position value = 497042 (79592h)",
             ),
-            ("281#R", "PDO node 1: TPDO2 asked for"),
+            ("281#R", "PDO node 1: TPDO2 requested (RTR)"),
             ("701#7F", "NMT EC node 1: Pre-operational"),
-            ("701#R", "NMT EC node 1: which state? (guarding)"),
+            ("701#R", "NMT EC node 1: node guarding request"),
             (
                 "081#00FF810000100000",
                 "EMCY node 1: FF00h battery low, error register 81h, 00 00 10 00 00",
             ),
             ("7E5#1105000000000000", "LSS: configure node ID 5"),
-            ("7E4#5AEC000000000000", "LSS: inquire vendor ID: ECh"),
+            ("7E4#5AEC000000000000", "LSS: inquire vendor-ID: ECh"),
             ("385#0102", "PDO node 5: TPDO3 2 bytes"),
-            ("1FFFFFFF#", "?: no service has this identifier"),
-            ("000#77", "NMT: no command that CiA 301 knows"),
+            ("1FFFFFFF#", "?: no service uses this CAN-ID"),
+            ("000#77", "NMT: command not defined in CiA 301"),
         ],
     );
 }
@@ -233,7 +233,7 @@ fn transfers_are_followed_to_their_end() {
             ),
             (
                 "587#A40220007F000000",
-                "SDO node 7: 2002h Domain may come in blocks of 127",
+                "SDO node 7: write of 2002h Domain accepted in blocks of 127",
             ),
             (
                 "607#0101020304050607",
@@ -245,13 +245,16 @@ fn transfers_are_followed_to_their_end() {
             ),
             (
                 "587#A2027F0000000000",
-                "SDO node 7: block of 2002h Domain taken up to segment 2",
+                "SDO node 7: block of 2002h Domain confirmed up to segment 2",
             ),
             (
                 "607#D9B4120000000000",
                 "SDO node 7: 2002h Domain is complete, CRC 12B4h",
             ),
-            ("587#A100000000000000", "SDO node 7: 2002h Domain written"),
+            (
+                "587#A100000000000000",
+                "SDO node 7: write of 2002h Domain confirmed",
+            ),
             ("207#0500", "PDO node 7: RPDO1 Integer16 = 5"),
         ],
     );

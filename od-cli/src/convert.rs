@@ -17,19 +17,19 @@ pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
     #[arg(value_name = "DEVICE|FILE")]
     input: String,
-    /// What it becomes; the ending of the output file says it, too
+    /// Target format [default: by the extension of the output file]
     #[arg(long, value_enum, required_unless_present = "output")]
     to: Option<Form>,
-    /// File to write; standard output where none is given
+    /// Output file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Node ID of the configured device, for a DCF
+    /// Node ID of the configured device (DCF only)
     #[arg(long, value_name = "ID", value_parser = source::node_id)]
     node_id: Option<NodeId>,
-    /// Bit rate of the configured device in kbit/s, for a DCF
+    /// Bit rate of the configured device in kbit/s (DCF only)
     #[arg(long, value_name = "KBIT")]
     bit_rate: Option<u16>,
-    /// Value of the configured device, for a DCF; as often as there are values
+    /// Value of an object of the configured device (DCF only); may be repeated
     #[arg(long = "set", value_name = "OBJECT=VALUE")]
     values: Vec<String>,
 }
@@ -38,9 +38,9 @@ pub(crate) struct Args {
 enum Form {
     /// CiA 306 device description, in canonical form
     Eds,
-    /// The same with node ID, bit rate and values of one configured device
+    /// CiA 306 device configuration: EDS with node ID, bit rate and values of one device
     Dcf,
-    /// CiA 311 device description in XML; an XDC where the input is a DCF
+    /// CiA 311 device description in XML; an XDC if the input is a DCF
     #[value(alias = "xdc")]
     Xdd,
     /// Datasheet in Markdown
@@ -53,7 +53,7 @@ enum Form {
 }
 
 impl Form {
-    /// What the ending of a file's name asks for.
+    /// The format that a file's extension names.
     fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {
@@ -73,13 +73,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .to
         .or_else(|| Form::of(args.output.as_deref()?))
         .ok_or_else(|| {
-            Failure::Usage("say what it becomes: --to eds, dcf, xdd, md, c or json".into())
+            Failure::Usage(
+                "the target format is missing; add `--to eds`, dcf, xdd, md, c or json".into(),
+            )
         })?;
     if form != Form::Dcf
         && (args.node_id.is_some() || args.bit_rate.is_some() || !args.values.is_empty())
     {
         return Err(Failure::Usage(
-            "--node-id, --bit-rate and --set configure a device: they go with --to dcf".into(),
+            "`--node-id`, `--bit-rate` and `--set` need `--to dcf`".into(),
         ));
     }
     let source = Source::find(&args.input)?;
@@ -112,7 +114,7 @@ fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> 
         description.commission("NodeID", &node_id.raw().to_string());
     } else if description.commissioned_node_id().is_none() {
         return Err(Failure::Usage(
-            "a DCF is of one device: say its node ID, --node-id 5".into(),
+            "a DCF needs a node ID; add `--node-id 5`".into(),
         ));
     }
     if let Some(rate) = args.bit_rate {
@@ -120,7 +122,9 @@ fn configure(description: &mut Description, args: &Args) -> Result<(), Failure> 
     }
     for setting in &args.values {
         let (object, text) = setting.split_once('=').ok_or_else(|| {
-            Failure::Usage(format!("`{setting}` sets nothing; write --set 6001h=4096"))
+            Failure::Usage(format!(
+                "`--set {setting}` has no value; write `--set 6001h=4096`"
+            ))
         })?;
         dcf::set(description, object.trim(), text.trim()).map_err(Failure::Usage)?;
     }

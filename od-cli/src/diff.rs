@@ -1,4 +1,4 @@
-//! `odkit diff`: what two dictionaries say differently, or a file and a device on a bus.
+//! `odkit diff`: differences between two dictionaries, or a dictionary and a node on a bus.
 
 mod device;
 mod show;
@@ -11,44 +11,44 @@ use crate::failure::Failure;
 use crate::live;
 use crate::source::{self, Source};
 
-/// Compare two object dictionaries, or one with a device on a bus
+/// Compare two object dictionaries, or one with a node on a bus
 ///
-/// What stands in the second alone is added, what stands in the first alone is removed. A
-/// difference breaks where a master that was set up for the first may fail with the second.
+/// An object only in the second dictionary is added, an object only in the first is removed. A
+/// difference is breaking if a master configured for the first device may fail with the second.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
     #[arg(value_name = "DEVICE|FILE")]
     before: String,
-    /// What it is compared with
+    /// Built-in device, or EDS or DCF file, to compare with
     #[arg(
         value_name = "DEVICE|FILE",
         required_unless_present = "live",
         conflicts_with = "live"
     )]
     after: Option<String>,
-    /// Compare with the device on this bus: slcan:HOST:PORT
+    /// Compare with the node on this bus: slcan:HOST:PORT
     #[arg(long, value_name = "LINK")]
     live: Option<String>,
-    /// Node ID of the device on the bus
+    /// Node ID of the node on the bus
     #[arg(long, value_name = "ID", default_value = "1", value_parser = source::node_id, requires = "live")]
     node_id: NodeId,
-    /// Also list values on the device that are not the defaults
+    /// Also list current values that differ from the default values
     #[arg(long, requires = "live")]
     values: bool,
-    /// How to show it
+    /// Format of the output
     #[arg(long, value_enum, default_value = "text")]
     format: show::Format,
-    /// Exit code 1 if there is such a difference
+    /// Exit with code 1 if a difference of this kind is found
     #[arg(long, value_enum, value_name = "WHAT")]
     fail_on: Option<FailOn>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum FailOn {
-    /// Something that a master may fail over
+    /// Breaking differences
     Breaking,
-    /// Anything at all
+    /// Any difference
     Any,
 }
 

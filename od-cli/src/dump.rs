@@ -15,7 +15,7 @@ pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
     #[arg(value_name = "DEVICE|FILE")]
     device: String,
-    /// How to show it
+    /// Format of the output
     #[arg(long, value_enum, default_value = "table")]
     format: Format,
 }
@@ -24,7 +24,7 @@ pub(crate) struct Args {
 enum Format {
     /// Aligned columns
     Table,
-    /// A page in Markdown: identity, what the device does, objects
+    /// Datasheet in Markdown: identity, functions, objects
     Md,
 }
 

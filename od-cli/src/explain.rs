@@ -1,4 +1,4 @@
-//! `odkit explain`: what a code means, and what to do about it.
+//! `odkit explain`: the meaning of a rule, with an example and its fix.
 
 use od_eds::Severity;
 use od_eds::check::{RULES, Rule, pair, rule};
@@ -8,13 +8,13 @@ use crate::output;
 
 mod example;
 
-/// Explain the code of a finding: why it matters, with an example before and after
+/// Explain a rule by its code: why it matters, with an example before and after
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// The codes, such as `E0412`
+    /// Codes of rules, such as `E0412`
     #[arg(required_unless_present = "list", value_name = "CODE")]
     codes: Vec<String>,
-    /// List all codes
+    /// List all rules
     #[arg(long, conflicts_with = "codes")]
     list: bool,
 }
@@ -44,12 +44,12 @@ const fn word(severity: Severity) -> &'static str {
 }
 
 fn unknown(code: &str) -> Failure {
-    // A code never changes its meaning, but somebody may remember the wrong letter.
+    // The digits identify a rule; only the letter may be wrong.
     let digits = code.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     let near = RULES.iter().find(|rule| &rule.code[1..] == digits);
     Failure::Usage(match near {
-        Some(near) => format!("there is no code `{code}`; did you mean {}?", near.code),
-        None => format!("there is no code `{code}`; `odkit explain --list` has them all"),
+        Some(near) => format!("rule `{code}` does not exist; did you mean {}?", near.code),
+        None => format!("rule `{code}` does not exist; `odkit explain --list` lists all rules"),
     })
 }
 
@@ -71,12 +71,12 @@ fn text(rule: &Rule) -> String {
         text.push_str(&format!("\nExample:\n    {}\n", rule.example));
     }
     let fix = match rule.fixability.name() {
-        "by hand" => "by hand; nobody but you knows what is meant".to_owned(),
+        "by hand" => "none; correct the file yourself".to_owned(),
         "safe" => "`odkit check --fix`".to_owned(),
-        "unsafe" => "`odkit check --unsafe-fixes`; look at the result".to_owned(),
-        _ => "`odkit check --fix` where nothing is lost by it, else `--unsafe-fixes`".to_owned(),
+        "unsafe" => "`odkit check --unsafe-fixes`; review the result".to_owned(),
+        _ => "`odkit check --fix`, or `--unsafe-fixes` if content is lost".to_owned(),
     };
-    text.push_str(&format!("\nMend:   {fix}\nSource: {}\n", rule.source));
+    text.push_str(&format!("\nFix:    {fix}\nSource: {}\n", rule.source));
     if !matches!(&rule.code[1..3], "07" | "08") {
         text.push_str(&format!(
             "Allow:  `;odkit-allow={} reason` in the file, or `--allow {}`\n",

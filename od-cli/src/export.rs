@@ -12,7 +12,7 @@ pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
     #[arg(value_name = "DEVICE|FILE")]
     device: String,
-    /// File to write; standard output where none is given
+    /// Output file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -9,12 +9,11 @@ mod show;
 
 use crate::failure::Failure;
 
-/// List, read, take and check lessons
+/// List, show, take and check lessons
 ///
 /// A lesson is a Markdown file, or the name of one that comes with odkit (`odkit lesson list`);
-/// LESSONS.md says how to write one. Exit code 0: all is as it
-/// should be; 1: a checkpoint is not reached, or a lesson has mistakes; 2: wrong usage, or a
-/// file that cannot be read.
+/// LESSONS.md describes the format. Exit code 0: no mistakes, or all steps done; 1: a checkpoint is
+/// not reached, or a lesson has mistakes; 2: wrong usage, or a file that cannot be read.
 #[derive(clap::Args)]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 pub(crate) struct Args {
@@ -26,12 +25,12 @@ pub(crate) struct Args {
 enum Command {
     /// List lessons: file, level, minutes, steps, title
     List(list::Args),
-    /// Show a lesson as text, without what would give it away
+    /// Show a lesson as text, without its solution
     Show(show::Args),
-    /// Take a lesson: lines of a script come from standard input, in virtual time
+    /// Take a lesson in virtual time: script lines come from standard input
     Run(play::Args),
-    /// Check lessons: nothing holds at the start, the solution reaches every checkpoint, and
-    /// each of its lines is needed
+    /// Check lessons: no checkpoint holds at the start, the solution reaches every checkpoint,
+    /// and each of its lines is needed
     Check(check::Args),
 }
 

@@ -31,7 +31,7 @@ use crate::failure::Failure;
 /// CANopen devices from EDS files.
 #[derive(Parser)]
 #[command(name = "odkit", version, max_term_width = 100)]
-#[command(about = "Run, check and look into CANopen devices that are described by EDS files")]
+#[command(about = "Check, convert and simulate CANopen devices described by EDS files")]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]

@@ -1,7 +1,7 @@
-//! `odkit new`: a crate with a device of an EDS file, that builds, runs and is tested at once.
+//! `odkit new`: a crate for the device of an EDS file, which builds, runs and passes its tests.
 
 mod files;
-mod mend;
+mod repair;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,9 +13,9 @@ use crate::source::Source;
 use crate::{output, report};
 use files::DeviceFile;
 
-/// Make a crate of an EDS file: device, program, script, tests
+/// Make a crate from an EDS file: device, program, script, tests
 ///
-/// What a device cannot be built of is mended in the copy of the file, and told.
+/// Errors in the file are fixed in the crate's copy; each change is listed.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// EDS or DCF file, or a built-in device to start from
@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Name of the crate: letters, digits, `-` and `_`
     #[arg(long)]
     name: String,
-    /// Folder to make [default: the name]
+    /// Folder to create [default: the name of the crate]
     #[arg(long, value_name = "FOLDER")]
     path: Option<PathBuf>,
     /// Checkout of odkit to depend on, instead of the published crates
@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .unwrap_or_else(|| PathBuf::from(&args.name));
     if fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Failure::Failed(format!(
-            "{} is there already, and not empty; take another --name or --path",
+            "{} exists and is not empty; choose another `--name` or `--path`",
             folder.display()
         )));
     }
@@ -64,15 +64,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let folder = folder.display();
     output::print(&format!(
-        "{folder}: {} objects of {}\n\n  cd {folder}\n  cargo test    # its script and its types\n  \
-         cargo run     # on slcan; `cargo run -- --help` has the other links",
-        device.description.objects.len(),
+        "{folder}: {} of {}\n\n  cd {folder}\n  cargo test    # runs its script and checks its types\n  \
+         cargo run     # opens an slcan port; `cargo run -- --help` lists the other links",
+        report::plural(device.description.objects.len(), "object"),
         args.file
     ))
 }
 
-/// The file as it is, if it is sound; else what could be mended of it, and how.
-fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
+/// The file unchanged if it has no errors; else a fixed copy, and a list of the changes.
+fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
     let source = Source::find(name)?;
     let Parsed {
         mut description,
@@ -83,15 +83,15 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
-    let mut notes = mend::Notes::new();
+    let mut notes = repair::Notes::new();
     let is_sound = !diagnostics.iter().any(Finding::is_error);
     if !is_sound {
-        notes = mend::mend(&mut description).map_err(|left| {
+        notes = repair::fix(&mut description).map_err(|left| {
             let text = od_eds::canonical(&description);
             let colours = output::error_colours();
             output::note_text(&report::render(&source.path, &text, &left, colours));
             Failure::Failed(format!(
-                "{} cannot be made sound by itself; mend it (`odkit check` shows everything)",
+                "{} has errors that odkit cannot fix; correct them (`odkit check` shows all findings)",
                 source.path
             ))
         })?;
@@ -109,9 +109,9 @@ fn device(name: &str) -> Result<(DeviceFile, mend::Notes), Failure> {
     Ok((device, notes))
 }
 
-/// The checkout that this program was built in, if it still stands there.
+/// The checkout in which this program was built, if it still exists.
 fn checkout() -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?;
-    let stands = root.join("od-model/Cargo.toml").is_file() && root.join("xtask").is_dir();
-    stands.then(|| root.to_path_buf())
+    let exists = root.join("od-model/Cargo.toml").is_file() && root.join("xtask").is_dir();
+    exists.then(|| root.to_path_buf())
 }

@@ -27,7 +27,7 @@ fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence) -> Group<'a> 
     let level = match sentence.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
-        Severity::Info => Level::INFO,
+        Severity::Info => Level::INFO.with_name("remark"),
     };
     let mut group = level
         .primary_title(short(&sentence.message))

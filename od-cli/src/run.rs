@@ -15,19 +15,20 @@ use crate::{report, source};
 
 /// Run a script in virtual time: candump lines in, candump lines out
 ///
-/// Exit code 0: every expectation held; 1: one did not, and it is shown with what came
-/// instead; 2: the script cannot be read or carried out. Same script, same output.
+/// Exit code 0: every expectation held; 1: an expectation failed (it is shown with the frame or
+/// value that came instead); 2: the script cannot be read or carried out. The same script gives the
+/// same output.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The script, or `-` for standard input
     script: String,
-    /// Built-in device or EDS file for a script that names none
+    /// Built-in device or EDS file for a script without a `device` line
     #[arg(long, default_value = "gxmm", value_name = "DEVICE|FILE")]
     device: String,
     /// Node ID of that device
     #[arg(long, value_name = "N", value_parser = source::node_id)]
     node_id: Option<NodeId>,
-    /// Print the frames that the script sends, too
+    /// Also print the frames that the script sends
     #[arg(long)]
     echo: bool,
 }
@@ -82,7 +83,7 @@ fn read(path: &str) -> Result<String, Failure> {
     };
     match result {
         Ok(()) => String::from_utf8(bytes)
-            .map_err(|_| Failure::Usage(format!("{path}: a script is UTF-8 text"))),
+            .map_err(|_| Failure::Usage(format!("{path}: the file is not UTF-8"))),
         Err(error) => Err(Failure::Usage(format!(
             "{path}: {}",
             source::read_error(&error)

@@ -9,19 +9,19 @@ use crate::source::Source;
 
 /// Run live nodes; masters connect over slcan, SocketCAN or socketcand
 ///
-/// Several devices and several masters share the bus: frames of one reach all others, whatever
-/// link they come by. Time is real. Ctrl-C ends it.
+/// All devices and masters share one bus: a frame of one reaches all others over every link. Time is
+/// real. Press Ctrl-C to stop.
 ///
 /// Links: slcan:HOST:PORT (TCP), slcan:pty (a pseudo-terminal, whose path is printed),
 /// slcan:/dev/ttyUSB0[@BAUD] (serial), socketcand:HOST:PORT, socketcan:vcan0 (Linux), and -
-/// (standard input and output: frames and lines like `power cycle 2s`, as scripts have them,
-/// go in; a candump log comes out).
+/// (standard input takes frames and script lines such as `power cycle 2s`; standard output is a
+/// candump log).
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in devices, or EDS or DCF files
     #[arg(value_name = "DEVICE|FILE", required_unless_present = "more")]
     devices: Vec<String>,
-    /// One more device on the bus; may be given again
+    /// Another device on the bus; may be repeated
     #[arg(long = "device", value_name = "DEVICE|FILE")]
     more: Vec<String>,
     #[command(flatten)]

@@ -95,7 +95,7 @@ impl Source {
         let shown = path.display().to_string();
         let bytes = fs::read(path).map_err(|error| {
             let why = read_error(&error);
-            Failure::Failed(format!("the overlay {shown}: {why}"))
+            Failure::Failed(format!("overlay {shown}: {why}"))
         })?;
         let overlay = od_eds::decode(&bytes).into_owned();
         let made = od_eds::overlay(self.text(), &overlay).map_err(|faults| {
@@ -104,7 +104,7 @@ impl Source {
             }
             let count = report::plural(faults.len(), "section");
             Failure::Failed(format!(
-                "{shown}: {count} to remove cannot be; {} has other ones",
+                "{shown}: cannot remove {count}; name sections of {}",
                 self.path
             ))
         })?;
@@ -157,7 +157,7 @@ impl Source {
     fn described(&self, parsed: Parsed) -> Result<Parsed, Failure> {
         if parsed.description.objects.is_empty() {
             return Err(Failure::Failed(format!(
-                "{} describes no object; is it an EDS, DCF or XDD file?",
+                "{} does not define any object; is it an EDS, DCF or XDD file?",
                 self.path
             )));
         }
@@ -221,23 +221,25 @@ impl Source {
             Some(device) if !device.dictionary().objects().is_empty() => {
                 let count = report::plural(findings.len(), "error");
                 output::error(&format!(
-                    "{path} has {count} (`odkit check` shows everything); it runs without \
-                     what cannot be used"
+                    "{path} has {count}; the simulation leaves out the invalid objects \
+                     (`odkit check` shows all findings)"
                 ));
                 Ok(device)
             }
             _ => Err(format!(
-                "{path} describes no object that could run; is it an EDS or DCF file?"
+                "{path} does not define any object with a value; is it an EDS or DCF file?"
             )),
         }
     }
 }
 
 fn unknown(name: &str, error: &std::io::Error) -> Failure {
+    if error.kind() != std::io::ErrorKind::NotFound {
+        return Failure::Failed(format!("{name}: {}", read_error(error)));
+    }
     let names: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
-    let error = read_error(error);
     Failure::Failed(format!(
-        "`{name}` is no built-in device ({}), and as a file {error}",
+        "no built-in device or file is named `{name}`\nhelp: built-in devices are {}",
         names.join(", ")
     ))
 }
@@ -246,7 +248,7 @@ fn unknown(name: &str, error: &std::io::Error) -> Failure {
 pub(crate) fn read_error(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "it does not exist".into(),
-        std::io::ErrorKind::PermissionDenied => "it may not be read".into(),
+        std::io::ErrorKind::PermissionDenied => "it cannot be read (permission denied)".into(),
         std::io::ErrorKind::IsADirectory => "it is a folder".into(),
         _ => format!("it cannot be read: {error}"),
     }
@@ -258,6 +260,6 @@ pub(crate) fn device_list() -> String {
     for kind in DEVICES {
         list.push_str(&format!("  {:<8} {}\n", kind.name, kind.title));
     }
-    list.push_str("\nExit codes: 0 all is well, 1 something failed, 2 wrong usage\n");
+    list.push_str("\nExit codes: 0 success, 1 failure, 2 wrong usage\n");
     list
 }

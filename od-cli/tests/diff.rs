@@ -112,7 +112,7 @@ fn a_live_device_is_read_object_by_object() {
     let nobody = odkit(&["diff", "gxam", "--live", &sim.1, "--node-id", "6"], "");
     assert_eq!(nobody.code, 1);
     assert!(
-        nobody.err.contains("node 6 does not answer"),
+        nobody.err.contains("node 6 does not respond"),
         "{}",
         nobody.err
     );

@@ -49,5 +49,9 @@ fn a_file_is_written_or_it_is_said_why_not() {
         "",
     );
     assert_eq!(export.code, 1);
-    assert!(export.err.contains("describes no object"), "{}", export.err);
+    assert!(
+        export.err.contains("does not define any object"),
+        "{}",
+        export.err
+    );
 }

@@ -55,7 +55,7 @@ fn wrong_usage_is_two() {
     assert_eq!(odkit(&["check"], "").code, 2);
     let id = odkit(&["sim", "gxmm", "--node-id", "128"], "");
     assert_eq!(id.code, 2);
-    assert!(id.err.contains("a number from 1 to 127"), "{}", id.err);
+    assert!(id.err.contains("a node ID from 1 to 127"), "{}", id.err);
     assert_eq!(odkit(&["dump", "gxmm", "--format", "xml"], "").code, 2);
 }
 
@@ -93,7 +93,7 @@ fn check_counts_over_all_files() {
     assert_eq!(both.code, 1);
     assert_eq!(both.err, "odkit: no-such.eds: it does not exist\n");
     assert!(
-        both.out.ends_with("; 1 file not readable\n"),
+        both.out.ends_with("; 1 file could not be read\n"),
         "{}",
         both.out
     );
@@ -163,13 +163,17 @@ fn dump_says_what_is_no_device() {
     assert!(
         missing
             .err
-            .contains("`gxmx` is no built-in device (gxmm, gxam"),
+            .contains("`gxmx`\nhelp: built-in devices are gxmm, gxam"),
         "{}",
         missing.err
     );
     let other = odkit(&["dump", &repository("Cargo.toml")], "");
     assert_eq!(other.code, 1);
-    assert!(other.err.contains("describes no object"), "{}", other.err);
+    assert!(
+        other.err.contains("does not define any object"),
+        "{}",
+        other.err
+    );
 }
 
 #[test]
@@ -181,7 +185,8 @@ fn a_file_with_errors_runs_as_far_as_it_goes() {
     );
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(
-        run.err.contains("it runs without what cannot be used"),
+        run.err
+            .contains("the simulation leaves out the invalid objects"),
         "{}",
         run.err
     );

@@ -30,7 +30,7 @@ fn the_lessons_of_the_repository_are_listed_and_proved() {
     let check = odkit(&["lesson", "check", &folder], "");
     assert_eq!(check.code, 0, "{}", check.err);
     assert!(
-        check.err.ends_with("lessons: all is as it should be\n"),
+        check.err.ends_with("lessons, no mistakes\n"),
         "{}",
         check.err
     );
@@ -135,12 +135,14 @@ fn mistakes_have_a_line_and_a_remedy() {
     assert!(
         check
             .err
-            .contains(":10:1: no device of the set-up has 1019h:00; "),
+            .contains(":10:1: no device of the set-up has object 1019h:00; "),
         "{}",
         check.err
     );
     assert!(
-        check.err.contains(":10:1: there is no file gone.md; "),
+        check
+            .err
+            .contains(":10:1: the linked file gone.md does not exist; "),
         "{}",
         check.err
     );

@@ -74,14 +74,18 @@ AccessType=rw
 ";
 
 #[test]
-fn a_broken_file_is_mended_and_what_was_mended_is_told() {
+fn a_broken_file_is_fixed_and_each_change_is_listed() {
     let eds = file("broken-new.eds", BROKEN).display().to_string();
     let folder = fresh("new-broken");
     let path = folder.display().to_string();
     let made = odkit(&["new", &eds, "--name", "gate", "--path", &path], "");
     assert_eq!(made.code, 0, "{}", made.err);
     let readme = read(&folder, "README.md");
-    for told in ["`fast` has no meaning", "1000h: added", "2001h: left out"] {
+    for told in [
+        "removed the invalid DefaultValue `fast`",
+        "1000h: added",
+        "2001h: removed",
+    ] {
         assert!(readme.contains(told), "{told}\n{readme}");
         assert!(made.err.contains(told), "{told}\n{}", made.err);
     }

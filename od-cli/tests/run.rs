@@ -65,10 +65,10 @@ fn a_script_that_cannot_be_read_names_every_line() {
     assert_eq!(run.code, 2);
     for line in [
         "-:1:1: `frobnicate` is not a verb or a frame; begin the line with a frame",
-        "-:2:6: `5` is not a duration; write it like 500ms",
+        "-:2:6: `5` is not a duration; write 500ms",
         "-:3:12: half a byte; write bytes as two hex digits",
         "-:4:11: the number is missing; write `shaft at",
-        "-:5:6: `g` is no hex digit; data is",
+        "-:5:6: `g` is not a hex digit; write 0",
         "odkit: -: 5 lines cannot be read",
     ] {
         assert!(run.err.contains(line), "{line}\n{}", run.err);
@@ -79,8 +79,11 @@ fn a_script_that_cannot_be_read_names_every_line() {
 #[test]
 fn a_line_that_cannot_be_carried_out_is_a_mistake_of_the_script() {
     for (script, why) in [
-        ("device gxmn", "`gxmn` is no built-in device (gxmm, gxam"),
-        ("wait 1s\nat 500ms sync", "time runs forward only"),
+        (
+            "device gxmn",
+            "`gxmn`\nhelp: built-in devices are gxmm, gxam",
+        ),
+        ("wait 1s\nat 500ms sync", "this moment is in the past"),
         (
             "use left",
             "device `left` does not exist; write its number, 1 to 1, or the name",

@@ -116,7 +116,7 @@ fn standard_input_takes_frames_and_the_world_outside() {
     );
     assert!(sim.out.starts_with("(0.0"), "{}", sim.out);
     for said in [
-        "line 7:1: only a script can do that",
+        "line 7:1: this line works only in a script",
         "line 8:1: `hello` is not a verb or a frame",
     ] {
         assert!(sim.err.contains(said), "{said}: {}", sim.err);
@@ -146,11 +146,11 @@ fn shafts_start_where_the_seed_says() {
 #[test]
 fn what_cannot_be_is_said_in_one_line() {
     for (args, code, why) in [
-        (&["sim", "gxmx"][..], 1, "is no built-in device"),
+        (&["sim", "gxmx"][..], 1, "no built-in device or file"),
         (
             &["sim", "gxmm", "--slcan", "nowhere"],
             2,
-            "is no address to listen on",
+            "is not a valid address",
         ),
         (
             &["sim", "gxmm", "--position", "north"],
@@ -162,7 +162,7 @@ fn what_cannot_be_is_said_in_one_line() {
         (
             &["sim", "gxmm", "--link", "udp:1"],
             2,
-            "is no link; there are slcan:",
+            "is not a valid link; write slcan:",
         ),
         (
             &["sim", "gxmm", "--link", "-", "--link", "-"],
@@ -172,7 +172,7 @@ fn what_cannot_be_is_said_in_one_line() {
         (
             &["sim", "gxmm", "--link", "slcan:/dev/nothing"],
             1,
-            "no serial port /dev/nothing",
+            "serial port /dev/nothing does not exist",
         ),
         (
             &["sim", "gxmm", "--link", "socketcan:vcan77"],
@@ -182,12 +182,12 @@ fn what_cannot_be_is_said_in_one_line() {
         (
             &["sim", "gxmm", "--node-id", "1", "--node-id", "2"],
             2,
-            "--node-id stands there 2 times, and there is 1 device",
+            "`--node-id` is given 2 times for 1 device",
         ),
         (
             &["sim", "gxmm", "--rpm", "inf"],
             2,
-            "no shaft that could stand or turn so",
+            "does not support this `--position` or `--rpm`",
         ),
     ] {
         let sim = odkit(args, "");

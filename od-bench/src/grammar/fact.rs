@@ -219,11 +219,14 @@ impl Fact {
             Self::BitRate(test) => format!("the bit rate{whose} {is} {} kbit/s", test.words()),
             Self::Turned(test) => {
                 let has = if not { "has not" } else { "has" };
-                format!("the shaft{whose} {has} turned {} revolutions", test.words())
+                format!(
+                    "the shaft{whose} {has} turned by {} revolutions",
+                    test.words()
+                )
             }
             Self::Rpm(test) => format!("the speed{whose} {is} {} rpm", test.words()),
             Self::Broken(name) => format!("the fault {name}{whose} {is} active"),
-            Self::Terminators(test) => format!("the bus line has {} terminators", test.words()),
+            Self::Terminators(test) => format!("the number of terminators is {}", test.words()),
         }
     }
 }

@@ -50,7 +50,7 @@ impl Frames {
             kind @ ("read" | "write") => {
                 let here = *tokens;
                 let Some(address) = values::address(tokens.next()) else {
-                    let help = "write it like 1017h or 1018h:01";
+                    let help = "write 1017h or 1018h:01";
                     return Err(here.problem("the object is missing", help));
                 };
                 match kind {
@@ -154,7 +154,7 @@ pub(super) fn abort(tokens: &mut Tokens<'_>) -> Result<AbortCode, Problem> {
     code.and_then(AbortCode::from_code).ok_or_else(|| {
         here.problem(
             format!("abort code `{word}` does not exist"),
-            "write eight hex digits, like 06090031h",
+            "write eight hex digits, such as 06090031h",
         )
     })
 }

@@ -44,7 +44,7 @@ pub(crate) fn line(
             problem
         })?,
         None if word == "wait" => {
-            return Err(start.problem("a line has one time", "remove one of the two"));
+            return Err(start.problem("a line can have only one time", "remove one of the two"));
         }
         None => {
             tokens = start;
@@ -79,7 +79,7 @@ fn time(tokens: &mut Tokens<'_>, origin: &mut Option<u64>) -> Result<When, Probl
         },
         _ => {
             let message = format!("`{stamp}` is not a time stamp");
-            return Err(here.problem(message, "write seconds in parentheses, like (0.100000)"));
+            return Err(here.problem(message, "write seconds in parentheses, such as (0.100000)"));
         }
     };
     let first = *origin.get_or_insert(if micros >= WALL_CLOCK { micros } else { 0 });

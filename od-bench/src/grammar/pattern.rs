@@ -31,7 +31,7 @@ impl Pattern {
             return Err(Error::new(
                 1,
                 format!("`{text}` has no `#`"),
-                "write a frame like 581#60 *",
+                "write a frame such as 581#60 *",
             ));
         };
         let start = id.chars().count() + 2;
@@ -53,7 +53,7 @@ impl Pattern {
         while let Some((at, first)) = chars.next() {
             let column = start + at;
             if pattern.open {
-                return Err(Error::new(column, "`*` is the end of the frame", HELP));
+                return Err(Error::new(column, "unexpected byte after `*`", HELP));
             }
             if first == '*' {
                 pattern.open = true;
@@ -67,7 +67,7 @@ impl Pattern {
                     _ => {
                         return Err(Error::new(
                             column,
-                            format!("`{high}{low}` is no byte"),
+                            format!("`{high}{low}` is not a byte"),
                             HELP,
                         ));
                     }

@@ -52,7 +52,7 @@ fn several_on_a_bus() {
 
 #[test]
 fn mistakes_are_found_in_every_line() {
-    check("wait", "1:5: a duration is missing; write it like 500ms");
+    check("wait", "1:5: a duration is missing; write 500ms");
     check("\n  wait 5", "2:8: `5` is not a duration");
     check("wait 99999999999999999999s", "1:6: `99");
     check(
@@ -123,7 +123,7 @@ fn mistakes_are_found_in_every_line() {
     );
     check("(1.2.3) 601#", "1:1: `(1.2.3)` is not a time stamp");
     check("power on now", "1:10: unexpected `now`");
-    check("after 5ms wait 5ms", "1:11: a line has one time");
+    check("after 5ms wait 5ms", "1:11: a line can have only one time");
 }
 
 #[test]
@@ -202,7 +202,10 @@ fn a_frame_by_name_is_a_frame_for_the_device() {
         assert_eq!(typed(text, &device).as_deref(), Ok(expected), "{text}");
     }
     for (text, expected) in [
-        ("write 1008h = \"a name\"", "a frame carries 1 to 4 bytes"),
+        (
+            "write 1008h = \"a name\"",
+            "an expedited download has 1 to 4 bytes",
+        ),
         ("write 1017h = 99999", "UNSIGNED16"),
         ("read nothing", "no object is called `nothing`"),
     ] {

@@ -176,7 +176,7 @@ impl<'t> Tokens<'t> {
         }
         Err(self.problem(
             format!("unexpected `{}`", self.peek()),
-            "remove it, or write it in a line of its own; a comment begins with `#`",
+            "remove it, or write it into a line of its own; a comment begins with `#`",
         ))
     }
 
@@ -246,7 +246,7 @@ impl<'t> Tokens<'t> {
             "" => String::from("a duration is missing"),
             _ => format!("`{word}` is not a duration"),
         };
-        Err(here.problem(message, "write it like 500ms, 1.5s, 20us or 2min"))
+        Err(here.problem(message, "write 500ms, 1.5s, 20us or 2min"))
     }
 
     /// A whole number in a range.

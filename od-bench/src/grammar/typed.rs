@@ -63,7 +63,7 @@ impl Typed {
                     Some(data) => data.copy_from_slice(&bytes),
                     None => {
                         return Err(format!(
-                            "a frame carries 1 to 4 bytes of a value, not {len}; write `sdo write …`"
+                            "an expedited download has 1 to 4 bytes, not {len}; write `sdo write …`"
                         ));
                     }
                 }

@@ -51,7 +51,7 @@ pub(super) const VERBS: [Verb; 18] = [
            usage: "`write 1017h = 500`" },
     Verb { name: "sdo", parse: sdo,
            usage: "`sdo read 6004h`, `sdo read 6004h = 5` or `sdo write 6001h = 4096`; add \
-                   ` aborts 06090031h` if it has to fail" },
+                   ` aborts 06090031h` to expect an abort" },
     Verb { name: "ignore", parse: ignore, usage: "`ignore 181#*` or `ignore nothing`" },
     Verb { name: "skip", parse: |_| Ok(Action::Skip), usage: "`skip`" },
     Verb { name: "expect", parse: |tokens| expect(tokens).map(Action::Expect),
@@ -189,7 +189,7 @@ fn expect(tokens: &mut Tokens<'_>) -> Result<Expect, Problem> {
     let here = *tokens;
     match Fact::parse(tokens)? {
         Some(Fact::Turned(_)) => {
-            let help = "only a step of a lesson begins somewhere; write `expect value 6004h = …`";
+            let help = "`turned` works in lessons only; write `expect value 6004h = …`";
             return Err(here.problem("a script cannot expect `turned`", help));
         }
         Some(fact) => return Ok(Expect::Fact(fact)),

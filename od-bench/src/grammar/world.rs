@@ -55,7 +55,7 @@ pub(super) fn label(tokens: &mut Tokens<'_>) -> Result<String, Problem> {
     match tokens.next() {
         "" => Err(tokens.problem(
             "the name of a device is missing",
-            "write the name behind `as` in its `device` line",
+            "write the name after `as` in its `device` line",
         )),
         label => Ok(label.to_owned()),
     }
@@ -81,7 +81,7 @@ pub(super) fn shaft(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let limit = if what == "turn" { 1e9 } else { 2e6 };
     if value.abs() > limit {
         let help = format!("the limit is {limit}");
-        return Err(here.problem("a shaft does not turn so far or so fast", help));
+        return Err(here.problem("the value is too large for a shaft", help));
     }
     if what == "turn" {
         return moves(Shaft::Turn(value));

@@ -32,8 +32,8 @@ pub(super) fn line(
     let say = tokens.take("--").then(|| tokens.rest().to_owned());
     if say.as_ref().is_some_and(String::is_empty) {
         return Err(tokens.problem(
-            "the words behind `--` are missing",
-            "write what the learner has to do",
+            "the text after `--` is missing",
+            "write a text for the learner",
         ));
     }
     let line = Line {
@@ -49,16 +49,16 @@ pub(super) fn line(
     }
     if then && !(line.waits() && before.is_some_and(Line::waits)) {
         return Err(start.problem(
-            "`then` needs a frame before and behind it",
-            "begin this line and the one above it with sent, came or seen",
+            "`then` needs a frame in this line and in the line above",
+            "begin both lines with sent, came or seen",
         ));
     }
     let limited =
         |one: &Alternative| matches!(&one.what, What::Seen(seen) if seen.within.is_some());
     if !then && line.alternatives.iter().any(limited) {
         return Err(start.problem(
-            "`within` needs something to count from",
-            "begin the line with `then`: the time counts from the line above",
+            "`within` needs a start",
+            "begin the line with `then`; the time counts from the line above",
         ));
     }
     Ok(Some(line))
@@ -79,7 +79,7 @@ fn alternative(tokens: &mut Tokens<'_>) -> Result<Alternative, Problem> {
             let (seen, device) = seen(who, tokens)?;
             let plain = seen.times == 1 && seen.every.is_none() && seen.within.is_none();
             if not && !plain {
-                let message = "a frame that must not come cannot have a number or a time";
+                let message = "`not` with a frame cannot have a number or a time";
                 return Err(here.problem(message, "write `not came 581#80*`"));
             }
             (What::Seen(seen), device, 0)
@@ -139,7 +139,7 @@ fn device_name(tokens: &mut Tokens<'_>) -> Result<String, Problem> {
     match tokens.next() {
         "" => Err(tokens.problem(
             "the device is missing",
-            "write its number, or the name behind `as` in the set-up",
+            "write its number, or the name after `as` in the set-up",
         )),
         name => Ok(name.to_owned()),
     }
@@ -171,7 +171,7 @@ fn state(tokens: &mut Tokens<'_>) -> Result<(What, Option<String>, u64), Problem
         return Err(start.problem(
             format!("`{}` is not a condition", start.peek()),
             format!(
-                "begin it with sent, came, seen, quiet, undisturbed, {}",
+                "begin the line with sent, came, seen, quiet, undisturbed, {}",
                 fact::NAMES
             ),
         ));

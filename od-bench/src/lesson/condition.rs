@@ -92,7 +92,7 @@ impl Alternative {
     fn words(&self, devices: &[VirtualDevice], device: Option<&VirtualDevice>) -> String {
         let mut text = match &self.what {
             What::Seen(seen) if self.not => {
-                return format!("meanwhile nobody sends {}", seen.what.words(devices));
+                return format!("no device sends {} in between", seen.what.words(devices));
             }
             What::Seen(seen) => return seen.words(devices, self.device.as_deref()),
             What::Fact(fact) => {
@@ -129,7 +129,7 @@ impl Seen {
             (Who::Learner, _, _) => format!("you send {what}"),
             (Who::Device, Some(device), _) => format!("device {device} sends {what}"),
             (Who::Device, None, _) => format!("a device sends {what}"),
-            (Who::Anybody, ..) => format!("somebody sends {what}"),
+            (Who::Anybody, ..) => format!("a device or you send {what}"),
         };
         if self.times > 1 {
             text.push_str(&format!(", {} times", self.times));

@@ -106,7 +106,7 @@ pub(super) fn stopped(stop: &Stop) -> Problem {
     Problem {
         line: stop.line,
         column: 1,
-        message: std::format!("`{}` does not work: {}", stop.text, why.join(" ")),
-        help: "play the block with `odkit run` to see what comes".into(),
+        message: std::format!("`{}` fails: {}", stop.text, why.join(" ")),
+        help: "run the block with `odkit run` to see its frames".into(),
     }
 }

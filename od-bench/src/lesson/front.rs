@@ -8,7 +8,7 @@ use od_model::values;
 use super::content::Lesson;
 use crate::grammar::problem::Problem;
 
-const KEYS: &str = "there are title, summary, level, minutes, language and absent";
+const KEYS: &str = "write title, summary, level, minutes, language or absent";
 
 /// Takes one line of it.
 pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), Problem> {
@@ -26,7 +26,7 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
     }
     let Some((key, value)) = text.split_once('=') else {
         return problem(
-            "a line between the `+++` has no `=`".into(),
+            "the front matter line has no `=`".into(),
             "write `title = \"Boot-up\"`",
         );
     };
@@ -45,8 +45,8 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
                     Some(address) => lesson.absent.push(address),
                     None => {
                         return problem(
-                            format!("`{}` is no object", word.trim()),
-                            "write objects like \"2FFFh, 1018h:09\"",
+                            format!("`{}` is not a valid object address", word.trim()),
+                            "write addresses such as \"2FFFh, 1018h:09\"",
                         );
                     }
                 }
@@ -54,19 +54,24 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
         }
         ("title" | "summary" | "language" | "absent", None) => {
             return problem(
-                format!("`{key}` is no text"),
-                "a text stands in quotes and is not empty",
+                format!("`{key}` is not a text"),
+                "write a text that is not empty, in quotes",
             );
         }
         ("level", _) => match value.parse() {
             Ok(level @ 1..=3) => lesson.level = level,
-            _ => return problem("the level does not fit".into(), "write 1, 2 or 3"),
+            _ => return problem("the level is not valid".into(), "write 1, 2 or 3"),
         },
         ("minutes", _) => match value.parse() {
             Ok(minutes @ 1..=600) => lesson.minutes = minutes,
-            _ => return problem("the minutes do not fit".into(), "write 1 to 600"),
+            _ => {
+                return problem(
+                    "the minutes are not valid".into(),
+                    "write a number from 1 to 600",
+                );
+            }
         },
-        _ => return problem(format!("there is no key `{key}`"), KEYS),
+        _ => return problem(format!("key `{key}` does not exist"), KEYS),
     }
     Ok(())
 }

@@ -87,8 +87,9 @@ impl Lesson {
             .map(|(line, address)| Problem {
                 line: *line,
                 column: 1,
-                message: format!("no device of the set-up has {address}"),
-                help: "mend the number, or list it in the front matter: absent = \"2FFFh\"".into(),
+                message: format!("no device of the set-up has object {address}"),
+                help: "correct the address, or add it to the front matter: `absent = \"2FFFh\"`"
+                    .into(),
             })
             .collect()
     }

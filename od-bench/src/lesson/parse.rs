@@ -66,7 +66,11 @@ fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
         seen: Vec::new(),
     };
     if text.len() > LONGEST {
-        reader.problem(1, "the lesson is too long", "the limit is 256 KiB");
+        reader.problem(
+            1,
+            "the lesson is longer than 256 KiB",
+            "split it into two lessons",
+        );
         return Err(reader.problems);
     }
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -141,13 +145,13 @@ impl Reader {
 
     /// `### Hint` and its like.
     fn heading(&mut self, number: u32, title: &str) {
-        const HELP: &str = "there are Hint, What just happened and Predict; other headings begin \
-                            with `####`";
+        const HELP: &str = "write Hint, Predict or What just happened; for another heading use \
+                            `####`";
         let Some(step) = self.lesson.steps.last_mut() else {
             return self.problem(
                 number,
-                "a part stands before the first step",
-                "`## ` begins a step",
+                "a part before the first step",
+                "begin a step with `## `",
             );
         };
         self.part = match title {
@@ -157,7 +161,11 @@ impl Reader {
             }
             "What just happened" => Part::Happened,
             "Predict" if step.quiz.is_some() => {
-                return self.problem(number, "a step has one question", "make another step");
+                return self.problem(
+                    number,
+                    "a step can have only one question",
+                    "add another step",
+                );
             }
             "Predict" => {
                 step.quiz = Some(Quiz {
@@ -168,7 +176,7 @@ impl Reader {
                 });
                 Part::Question
             }
-            _ => return self.problem(number, format!("there is no part `{title}`"), HELP),
+            _ => return self.problem(number, format!("part `{title}` does not exist"), HELP),
         };
     }
 
@@ -209,24 +217,17 @@ impl Reader {
         let line = fence.line - 1;
         if self.seen.contains(&name) {
             let message = format!("a second `{name}` block");
-            return self.problem(
-                line,
-                message,
-                "one is allowed here; put its lines into the first",
-            );
+            return self.problem(line, message, "add its lines to the first block");
         }
         self.seen.push(name);
         let before_steps = self.lesson.steps.is_empty();
         if before_steps != (name == "set-up") {
             let (message, help) = match name {
                 "set-up" => (
-                    "the set-up stands in a step",
-                    "put it before the first `## `",
+                    "the set-up is inside a step",
+                    "move it before the first `## `",
                 ),
-                _ => (
-                    "a block stands before the first step",
-                    "`## ` begins a step",
-                ),
+                _ => ("a block before the first step", "begin a step with `## `"),
             };
             return self.problem(line, message, help);
         }
@@ -260,25 +261,25 @@ impl Reader {
             }
         }
         if self.problems.is_empty() && step.checkpoint.is_empty() {
-            let help = "write what has to be seen, like `came 701#00`";
+            let help = "write a condition, such as `came 701#00`";
             self.problem(fence.line, "the checkpoint is empty", help);
         }
     }
 
     fn answer(&mut self, fence: &Fence) {
-        const HELP: &str = "write the frame in one line, like `581#43 00 10 00 ..*`";
+        const HELP: &str = "write the frame in one line, such as `581#43 00 10 00 ..*`";
         let quiz = self
             .lesson
             .steps
             .last_mut()
             .and_then(|step| step.quiz.as_mut());
         let Some(quiz) = quiz else {
-            let help = "put it below a heading `### Predict`";
+            let help = "move it below a heading `### Predict`";
             return self.problem(fence.line, "an answer without a question", help);
         };
         let mut lines = fence.lines.iter().filter(|line| !line.trim().is_empty());
         let (Some(line), None) = (lines.next(), lines.next()) else {
-            return self.problem(fence.line, "an answer is one frame", HELP);
+            return self.problem(fence.line, "an answer has exactly one frame", HELP);
         };
         match Pattern::parse(line) {
             Ok(answer) => {
@@ -303,11 +304,11 @@ impl Reader {
         let line = step.line;
         let quiz_open = step.quiz.as_ref().is_some_and(|quiz| quiz.line == 0);
         let lacks = [
-            (step.title.is_empty(), "a title", "write it behind `## `"),
+            (step.title.is_empty(), "a title", "write it after `## `"),
             (
                 step.text.trim().is_empty(),
                 "a text",
-                "say below the heading what there is to do",
+                "write below the heading what to do",
             ),
             (
                 !self.seen.contains(&"checkpoint"),
@@ -354,8 +355,8 @@ impl Reader {
     fn end(mut self) -> Result<Lesson, Vec<Problem>> {
         match self.fence.take() {
             Some(fence) => {
-                let help = "close it with as many backticks";
-                self.problem(fence.line - 1, "this block has no end", help);
+                let help = "close it with the same number of backticks";
+                self.problem(fence.line - 1, "this block is not closed", help);
             }
             // What the block swallowed is not missing.
             None => self.end_step(),
@@ -364,11 +365,11 @@ impl Reader {
             self.problems.push(problem);
         }
         if self.lesson.steps.is_empty() {
-            self.problem(1, "the lesson has no step", "`## ` begins a step");
+            self.problem(1, "the lesson has no step", "begin a step with `## `");
         }
         if self.lesson.set_up.line == 0 {
             let help = "add a block that begins with three backticks and `set-up`, with a line \
-                        like `device gxmm node 5`";
+                        such as `device gxmm node 5`";
             self.problem(1, "the lesson has no set-up", help);
         }
         if self.problems.is_empty() {

@@ -33,7 +33,7 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
             let progress = Progress::new(lesson.clone(), &mut bench);
             let wrong = progress.impossible(&mut bench.bus).into_iter();
             let mut problems: Vec<_> = wrong
-                .map(|(line, why)| problem(line, why, "mend the condition or the set-up"))
+                .map(|(line, why)| problem(line, why, "correct the condition or the set-up"))
                 .collect();
             problems.extend(lesson.unknown_objects(bench.bus.devices()));
             problems
@@ -99,13 +99,13 @@ fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Pr
             let when = if at_once {
                 "at the start"
             } else {
-                "by waiting alone"
+                "after a pause"
             };
             let message = format!("the checkpoint of `{}` holds {when}", step.title);
             problems.push(problem(
                 step.line,
                 message,
-                "ask for something that has to be done",
+                "add a condition that needs an action",
             ));
         }
     }
@@ -131,25 +131,32 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
             let missing: Vec<_> = missing.iter().filter(|one| !one.holds).collect();
             let words: Vec<_> = missing.iter().map(|one| one.text.as_str()).collect();
             let message = format!(
-                "the solution of `{}` does not reach its checkpoint; missing: {}",
+                "the solution of `{}` does not reach its checkpoint; not met: {}",
                 step.title,
                 words.join("; ")
             );
-            return problems.push(problem(solution.line, message, "mend one of the two"));
+            return problems.push(problem(
+                solution.line,
+                message,
+                "correct the solution or the checkpoint",
+            ));
         }
         if progress.step() > number + 1 {
-            let message = format!("the solution of `{}` also does the next step", step.title);
-            let help = "a step asks for something that was not done before it";
+            let message = format!(
+                "the solution of `{}` also completes the next step",
+                step.title
+            );
+            let help = "let the checkpoint ask for something new";
             return problems.push(problem(solution.line, message, help));
         }
         if let Some(quiz) = &step.quiz
             && !frames.iter().any(|frame| quiz.answer.matches(frame))
         {
-            let message = format!("the answer {} does not come in this step", quiz.answer);
+            let message = format!("the answer {} does not occur in this step", quiz.answer);
             problems.push(problem(
                 quiz.line,
                 message,
-                "mend the answer or the solution",
+                "correct the answer or the solution",
             ));
         }
         if let Err(found) = waits(lesson, host, solutions, number + 1) {
@@ -173,8 +180,8 @@ fn waits(
     pass(&mut bench.bus, &mut progress, IDLE);
     match lesson.steps.get(done) {
         Some(step) if progress.step() > done => {
-            let message = format!("the checkpoint of `{}` is reached by waiting", step.title);
-            let help = "ask for something that has to be done";
+            let message = format!("the checkpoint of `{}` holds after a pause", step.title);
+            let help = "add a condition that needs an action";
             Err(problem(step.line, message, help))
         }
         _ => Ok(()),
@@ -202,8 +209,8 @@ fn every_line_is_needed(
             let mut shorter = solutions.to_vec();
             shorter[number].text = text.join("\n");
             if is_done(lesson, host, &shorter) {
-                let message = format!("the lesson is done without `{shown}`, too");
-                let help = "let the checkpoint ask for what it does, or leave it out";
+                let message = format!("the lesson is also done without `{shown}`");
+                let help = "let the checkpoint ask for its effect, or remove the line";
                 problems.push(problem(line, message, help));
             }
         }

@@ -124,12 +124,12 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "state operational",
         "came 705#05 within 1s",
-        "18:1: `within` needs something",
+        "18:1: `within` needs a start",
     );
     check(
         "state operational",
         "state off\nthen came 705#05",
-        "19:1: `then` needs a frame before",
+        "19:1: `then` needs a frame in this line",
     );
     check(
         "state operational",
@@ -144,9 +144,9 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "state operational",
         "state operational --",
-        "18:21: the words behind `--` are missing",
+        "18:21: the text after `--` is missing",
     );
-    check("### Hint", "### Tip", "27:1: there is no part `Tip`");
+    check("### Hint", "### Tip", "27:1: part `Tip` does not exist");
     check(
         "### What just happened\nIt runs.\n",
         "",
@@ -155,9 +155,13 @@ fn mistakes_of_the_form_say_where_and_what_to_do() {
     check(
         "```answer\n000#01 05\n",
         "```answer\n000#zz\n",
-        "24:5: `zz` is no byte",
+        "24:5: `zz` is not a byte",
     );
-    check("nmt start\n```", "nmt start", "33:1: this block has no end");
+    check(
+        "nmt start\n```",
+        "nmt start",
+        "33:1: this block is not closed",
+    );
     check(
         "```solution",
         "```solution\nnmt explode",
@@ -170,7 +174,7 @@ fn what_does_not_work_is_found() {
     check(
         "device gxmm",
         "device gxxx",
-        "9:1: `device gxxx node 5` does not work",
+        "9:1: `device gxxx node 5` fails",
     );
     check(
         "state operational",
@@ -200,7 +204,7 @@ fn what_does_not_work_is_found() {
     check(
         "1017h",
         "1019h",
-        "6:1: no device of the set-up has 1019h:00",
+        "6:1: no device of the set-up has object 1019h:00",
     );
     check(
         "nmt start\n",
@@ -210,7 +214,7 @@ fn what_does_not_work_is_found() {
     check(
         "nmt start\n",
         "sync\nnmt start\n",
-        "34:1: the lesson is done without `sync`, too",
+        "34:1: the lesson is also done without `sync`",
     );
     check(
         "sent nmt start 5\nstate operational",
@@ -220,12 +224,12 @@ fn what_does_not_work_is_found() {
     check(
         "sent nmt start 5\nstate operational",
         "quiet 705#* for 2s",
-        "12:1: the checkpoint of `Start it` holds by waiting alone",
+        "12:1: the checkpoint of `Start it` holds after a pause",
     );
     check(
         "000#01 05\n```",
         "000#01 06\n```",
-        "24:1: the answer 000#0106 does not come",
+        "24:1: the answer 000#0106 does not occur",
     );
 }
 

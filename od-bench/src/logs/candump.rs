@@ -91,11 +91,11 @@ pub fn parse_line(line: &str) -> Result<Line, Error> {
     })
 }
 
-const FRAME: &str = "write a frame like 601#4004600000000000 or 701#R";
-const TIME: &str = "write seconds in parentheses, like (0.100000)";
+const FRAME: &str = "write a frame such as 601#4004600000000000 or 701#R";
+const TIME: &str = "write seconds in parentheses, such as (0.100000)";
 const ID: &str =
-    "an identifier has 3 hex digits (11 bits, up to 7FF) or 8 (29 bits, up to 1FFFFFFF)";
-const DATA: &str = "data is 0 to 8 bytes of two hex digits each";
+    "write a CAN-ID of 3 hex digits (11 bits, up to 7FF) or 8 (29 bits, up to 1FFFFFFF)";
+const DATA: &str = "write 0 to 8 bytes of two hex digits each";
 
 /// A frame as `cansend` takes it: `601#40046000`, `601#40.04.60.00`, `701#R`, `701#R4`.
 ///
@@ -111,7 +111,7 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
         return Err(Error::new(
             start,
             "`##` begins a CAN FD frame",
-            "CANopen has none; use one `#`",
+            "write one `#`; CANopen does not use CAN FD",
         ));
     }
     if let Some(dlc) = data.strip_prefix(['R', 'r']) {
@@ -124,8 +124,8 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
         return frame.ok_or_else(|| {
             Error::new(
                 start + 1,
-                format!("`{dlc}` is no length"),
-                "a remote frame is R, or R and its length 0 to 8",
+                format!("`{dlc}` is not a valid length"),
+                "write R, or R and a length from 0 to 8",
             )
         });
     }
@@ -137,14 +137,14 @@ pub fn parse_frame(text: &str) -> Result<Frame, Error> {
 pub(crate) fn parse_id(text: &str) -> Result<CanId, Error> {
     let bad = |message: String| Err(Error::new(1, message, ID));
     if let Some(at) = text.chars().position(|c| !c.is_ascii_hexdigit()) {
-        return bad(format!("`{text}` is no identifier")).map_err(|error| error.shifted(at));
+        return bad(format!("`{text}` is not a valid CAN-ID")).map_err(|error| error.shifted(at));
     }
     let raw = u32::from_str_radix(text, 16).unwrap_or(u32::MAX);
     match text.len() {
         3 if raw <= 0x7FF => Ok(CanId::standard(raw as u16)),
         8 if raw <= 0x1FFF_FFFF => Ok(CanId::extended(raw)),
-        3 | 8 => bad(format!("the identifier {text} is too large")),
-        0 => bad("the identifier is missing".into()),
+        3 | 8 => bad(format!("CAN-ID {text} is too large")),
+        0 => bad("the CAN-ID is missing".into()),
         digits => bad(format!("`{text}` has {digits} digits")),
     }
 }
@@ -159,7 +159,11 @@ fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
             if matches!(c, '.' | ' ') && high.is_none() {
                 continue;
             }
-            return Err(Error::new(column, format!("`{c}` is no hex digit"), DATA));
+            return Err(Error::new(
+                column,
+                format!("`{c}` is not a hex digit"),
+                DATA,
+            ));
         };
         let Some(first) = high.take() else {
             high = Some(digit);
@@ -188,8 +192,8 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
     let Some(request) = dlc.and_then(|dlc| Frame::remote(id, dlc)) else {
         return Err(Error::new(
             column,
-            "here stands the length",
-            "write it as [0] to [8]",
+            "the length is not valid",
+            "write the length as [0] to [8]",
         ));
     };
     if rest.peek() == Some("remote") {
@@ -201,10 +205,10 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
     }
     let mut data = [0; 8];
     for byte in data.iter_mut().take(request.dlc().into()) {
-        let (column, word) = rest.word("as many bytes as the length says")?;
+        let (column, word) = rest.word("write as many bytes as the length gives")?;
         *byte = match (word.len(), u8::from_str_radix(word, 16)) {
             (2, Ok(byte)) => byte,
-            _ => return Err(Error::new(column, format!("`{word}` is no byte"), DATA)),
+            _ => return Err(Error::new(column, format!("`{word}` is not a byte"), DATA)),
         };
     }
     Ok(Frame::with_dlc(id, data, request.dlc()))
@@ -219,7 +223,7 @@ fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
         Some(micros) => Ok(Instant::from_micros(micros)),
         None => Err(Error::new(
             column,
-            format!("`{word}` is no time stamp"),
+            format!("`{word}` is not a time stamp"),
             TIME,
         )),
     }
@@ -248,8 +252,8 @@ fn end(mut rest: Cursor<'_>) -> Result<(), Error> {
         Err(_) | Ok((_, "R" | "T")) => Ok(()),
         Ok((column, word)) => Err(Error::new(
             column,
-            format!("`{word}` follows the frame"),
-            "one line holds one frame and nothing else",
+            format!("unexpected `{word}` after the frame"),
+            "write one frame per line",
         )),
     }
 }
@@ -339,19 +343,19 @@ mod tests {
     #[test]
     fn errors_say_where_and_what() {
         check("601", "4: the line ends here");
-        check("(x) can0 601#40", "1: `(x)` is no time stamp");
+        check("(x) can0 601#40", "1: `(x)` is not a time stamp");
         check("601#4", "5: half a byte");
-        check("601#4g", "6: `g` is no hex digit");
+        check("601#4g", "6: `g` is not a hex digit");
         check("601#112233445566778899", "22: more than 8 bytes");
-        check("800#11", "1: the identifier 800 is too large");
+        check("800#11", "1: CAN-ID 800 is too large");
         check("can0 6011#11", "6: `6011` has 4 digits");
-        check("60x#11", "3: `60x` is no identifier");
-        check("601#R9", "6: `9` is no length");
+        check("60x#11", "3: `60x` is not a valid CAN-ID");
+        check("601#R9", "6: `9` is not a valid length");
         check("601##011", "5: `##` begins a CAN FD frame");
-        check("can0 601 [9] 00", "10: here stands the length");
+        check("can0 601 [9] 00", "10: the length is not valid");
         check("can0 601 [2] 00", "16: the line ends here");
-        check("601#11 22", "8: `22` follows the frame");
-        check("ä#11", "1: `ä` is no identifier");
+        check("601#11 22", "8: unexpected `22` after the frame");
+        check("ä#11", "1: `ä` is not a valid CAN-ID");
     }
 
     #[test]

@@ -56,15 +56,15 @@ impl Console {
         let Action::Deed(deed) = statement.action else {
             return Err(Problem::new(
                 statement.line,
-                "only a script can do that",
-                "write it in a file for `odkit run`",
+                "this line works only in a script",
+                "write it into a file and start `odkit run`",
             ));
         };
         if self.lines.len() >= MOST {
             return Err(Problem::new(
                 statement.line,
-                "too many lines wait for their moment",
-                "send fewer at once",
+                "too many lines are waiting",
+                "send fewer lines at once",
             ));
         }
         self.lines.push_back((statement.when, deed));
@@ -189,9 +189,9 @@ mod tests {
     fn what_only_a_script_can_do_is_refused() {
         let mut console = Console::default();
         for (line, why) in [
-            ("expect 701#00", "only a script"),
-            ("device gxmm", "only a script"),
-            ("sdo read 1000h", "only a script"),
+            ("expect 701#00", "only in a script"),
+            ("device gxmm", "only in a script"),
+            ("sdo read 1000h", "only in a script"),
             ("hello", "is not a verb"),
             ("601#4", "half a byte"),
         ] {
@@ -201,7 +201,7 @@ mod tests {
         assert!(console.is_idle());
         assert_eq!(
             run(&["use 3"]),
-            "device `3` does not exist; write its number, 1 to 2, or the name behind `as` in its \
+            "device `3` does not exist; write its number, 1 to 2, or the name after `as` in its \
              `device` line"
         );
     }

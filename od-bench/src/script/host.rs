@@ -67,7 +67,7 @@ impl Host for Bare {
             None => {
                 let names: Vec<_> = self.0.iter().map(|kind| kind.name).collect();
                 Err(format!(
-                    "no device is called `{name}`; there are {}",
+                    "device `{name}` does not exist; write {}",
                     names.join(", ")
                 ))
             }

@@ -102,8 +102,8 @@ fn request(node: NodeId, request: Request) -> Frame {
 
 fn address(words: Tokens<'_>) -> Result<Address, Problem> {
     let text = words.rest();
-    let message = || format!("an object is written as 6004 or 1018:01, not `{text}`");
-    values::address(text).ok_or_else(|| words.problem(message(), "write the address of an object"))
+    let message = || format!("`{text}` is not an object address");
+    values::address(text).ok_or_else(|| words.problem(message(), "write 6004 or 1018:01"))
 }
 
 #[cfg(test)]
@@ -147,7 +147,7 @@ mod tests {
         }
         for (text, why) in [
             ("nmt begin", "begin"),
-            ("read position", "written as 6004"),
+            ("read position", "not an object address"),
             ("write 6004 = 1", "not in the dictionary"),
             ("write 6001 = x", "not a whole number"),
             ("sync 5 times", "unexpected"),

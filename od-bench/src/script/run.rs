@@ -103,7 +103,7 @@ impl Runner<'_> {
         match statement.when {
             When::Next => {}
             When::At(at) if at < now => {
-                return impossible(format!("it is {now:?} s already; time runs forward only"));
+                return impossible(format!("this moment is in the past (now {now:?} s)"));
             }
             When::At(at) => self.advance(at),
             When::After(micros) => self.advance(now.plus_micros(micros)),

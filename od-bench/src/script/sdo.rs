@@ -44,7 +44,7 @@ impl Runner<'_> {
             (Outcome::Aborts(wanted), Err(code)) => {
                 return failed(format!("SDO abort {wanted}"), aborted(code));
             }
-            (_, Err(code)) => return failed(format!("{object} can be read"), aborted(code)),
+            (_, Err(code)) => return failed(format!("a value of {object}"), aborted(code)),
         }
         self.held += 1;
         Ok(())

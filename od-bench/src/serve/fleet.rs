@@ -34,7 +34,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
         if given > count {
             let devices = plural(count, "device");
             return Err(Failure::Usage(format!(
-                "{option} stands there {given} times, and there is {devices}; name every device"
+                "`{option}` is given {given} times for {devices}"
             )));
         }
     }
@@ -84,7 +84,7 @@ fn one(
     match free.find(|id| !is_used(*id)) {
         Some(id) => (maker.make)(Some(id)).map_err(Failure::Failed),
         None => Err(Failure::Usage(
-            "a bus has room for 127 devices; start another odkit for the rest".into(),
+            "a bus has 127 node IDs; start another `odkit sim` for the other devices".into(),
         )),
     }
 }
@@ -110,7 +110,7 @@ fn set_shaft(
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "{name} has no shaft that could stand or turn so; leave --position and --rpm away"
+        "{name} does not support this `--position` or `--rpm`; change the value or remove the option"
     )))
 }
 

@@ -20,7 +20,7 @@ pub(super) fn print(
         let node = device.node_id();
         if *wanted != node {
             note(&format!(
-                "the EEPROM says node {node}; --node-id {wanted} is for an empty one"
+                "the EEPROM contains node ID {node}; `--node-id {wanted}` applies to an empty EEPROM only"
             ));
         }
     }
@@ -56,8 +56,10 @@ fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) 
         .map(|path| path.display().to_string())
         .collect();
     let eeprom = match files.len() {
-        0 => "in memory; --eeprom FILE keeps it".to_owned(),
-        given if given < devices.len() => format!("{}; the others in memory", files.join(", ")),
+        0 => "in memory; `--eeprom FILE` saves it to a file".to_owned(),
+        given if given < devices.len() => {
+            format!("{}; the other nodes in memory", files.join(", "))
+        }
         _ => files.join(", "),
     };
     let _ = writeln!(text, "EEPROM {eeprom}");
@@ -68,7 +70,7 @@ fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) 
     for link in links {
         help(&mut text, link, first, node, args.bitrate);
     }
-    text.push_str("\nCtrl-C ends it.");
+    text.push_str("\nPress Ctrl-C to stop.");
     text
 }
 
@@ -117,8 +119,8 @@ fn help(text: &mut String, link: &Opened, device: &Maker<'_>, node: u8, bitrate:
             ),
             _ => {
                 text.push_str(
-                    "\nstandard input takes frames (601#4000100000000000) and what happens to \
-                     the\ndevices outside the bus (power cycle 2s, shaft rpm 60, use 2)\n",
+                    "\nstandard input takes frames (601#4000100000000000) and script lines \
+                     for the\nworld outside the bus (power cycle 2s, shaft rpm 60, use 2)\n",
                 );
                 return;
             }

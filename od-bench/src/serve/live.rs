@@ -147,7 +147,7 @@ impl Live {
             self.start += late;
             let seconds = late.as_secs();
             note(&format!(
-                "the machine stood still for {seconds} s, and so did the bus"
+                "the computer paused for {seconds} s; the bus paused too"
             ));
         }
     }
@@ -333,8 +333,10 @@ fn words(event: Event) -> Option<String> {
         Event::BusOff { .. } => "bus-off".into(),
         Event::BusOn => "back from bus-off".into(),
         Event::Error(error) => format!("error {:04X}h", error.code),
-        Event::ErrorCleared(code) => format!("error {code:04X}h is over"),
-        Event::BitRate(code) => format!("LSS set bit rate {code}; this bus has none"),
+        Event::ErrorCleared(code) => format!("error {code:04X}h cleared"),
+        Event::BitRate(code) => {
+            format!("LSS set bit rate index {code}; the simulated bus has no bit rate")
+        }
         _ => return None,
     })
 }

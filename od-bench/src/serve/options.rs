@@ -83,8 +83,8 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "node-id",
         value: "N",
-        help: "Node ID that a device starts with, 1 to 127; given again it is for the next device \
-               (a redundant encoder is two). A device without one takes 1, or the next that is free",
+        help: "Node ID of the node at the start, 1 to 127; repeat it for the next node (a redundant \
+               encoder has two). Without it a node gets 1, or the next free node ID",
         repeats: true,
         set: |options, text| {
             options.node_ids.push(node_id(text)?);
@@ -95,7 +95,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "link",
         value: "LINK",
-        help: "How masters reach the bus; may be given again [default: slcan:127.0.0.1:29536]",
+        help: "Link for masters; may be repeated [default: slcan:127.0.0.1:29536]",
         repeats: true,
         set: |options, text| {
             options.links.push(Link::parse(text)?);
@@ -106,7 +106,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "slcan",
         value: "HOST:PORT",
-        help: "The same as --link slcan:HOST:PORT; port 0 takes any free one",
+        help: "Same as --link slcan:HOST:PORT; port 0 selects a free port",
         set: |options, text| {
             options.links.insert(0, Link::slcan(text));
             Ok(())
@@ -116,8 +116,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "eeprom",
         value: "FILE",
-        help: "File that keeps what 1010h saves; in memory where none is given. Given again it is \
-               for the next device",
+        help: "File for the values saved with 1010h; repeat it for the next node [default: in memory]",
         repeats: true,
         set: |options, text| {
             options.eeproms.push(PathBuf::from(text));
@@ -128,7 +127,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "position",
         value: "STEPS",
-        help: "Raw position of the shaft at the start, in steps (497042 or 0x79592)",
+        help: "Raw position of the shaft at the start in steps (497042 or 0x79592)",
         set: |options, text| {
             options.position = Some(position(text)?);
             Ok(())
@@ -138,7 +137,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "rpm",
         value: "RPM",
-        help: "How fast the shaft turns, revolutions a minute; negative: the other way",
+        help: "Speed of the shaft in revolutions per minute; negative: backwards",
         set: |options, text| {
             options.rpm = Some(number(text)?);
             Ok(())
@@ -148,7 +147,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "seed",
         value: "NUMBER",
-        help: "Let the shafts start anywhere; the same number is the same place",
+        help: "Seed for random start positions of the shafts",
         conflicts: Some("position"),
         set: |options, text| {
             options.seed = Some(number(text)?);
@@ -159,7 +158,7 @@ pub const CHOICES: [Choice; 8] = [
     Choice {
         name: "bitrate",
         value: "BIT/S",
-        help: "Bit rate to show in the connection lines; this bus has none",
+        help: "Bit rate in the printed commands; the simulated bus has no bit rate",
         default: Some("500000"),
         set: |options, text| {
             options.bitrate = number(text)?;
@@ -177,12 +176,12 @@ pub fn node_id(text: &str) -> Result<NodeId, String> {
     let number = values::integer(text).and_then(|value| u8::try_from(value).ok());
     number
         .and_then(NodeId::new)
-        .ok_or_else(|| String::from("a node ID is a number from 1 to 127"))
+        .ok_or_else(|| String::from("write a node ID from 1 to 127"))
 }
 
 fn position(text: &str) -> Result<u64, String> {
     let value = values::integer(text).and_then(|value| u64::try_from(value).ok());
-    value.ok_or_else(|| String::from("a position is a number of steps, like 497042 or 0x79592"))
+    value.ok_or_else(|| String::from("write a number of steps, such as 497042 or 0x79592"))
 }
 
 fn number<T: std::str::FromStr<Err: std::fmt::Display>>(text: &str) -> Result<T, String> {

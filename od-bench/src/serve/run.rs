@@ -34,7 +34,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
         // so has the program.
         let _ = wake.try_send(Input::Stop);
     })
-    .map_err(|error| Failure::Failed(format!("Ctrl-C cannot be watched: {error}")))?;
+    .map_err(|error| Failure::Failed(format!("cannot handle Ctrl-C: {error}")))?;
     let ends = opened.iter().filter(|link| matches!(link, Opened::Ends(_)));
     let ends = ends.count();
     let mut live = Live::new(devices, ends, ends < opened.len());

@@ -10,7 +10,7 @@ use super::said::{Service, Words};
 
 pub(super) fn nmt(frame: &Frame) -> Words {
     let Some(Repr { command, node }) = Repr::parse(frame.data()) else {
-        return Words::new(Service::Nmt, None, "no command that CiA 301 knows").error();
+        return Words::new(Service::Nmt, None, "command not defined in CiA 301").error();
     };
     let text = command_text(command);
     match node {
@@ -33,14 +33,14 @@ pub(crate) fn command_text(command: Command) -> &'static str {
 pub(super) fn sync(frame: &Frame) -> Words {
     match frame.data() {
         [counter] => Words::new(Service::Sync, None, format!("counter {counter}")),
-        _ => Words::new(Service::Sync, None, "all act at once"),
+        _ => Words::new(Service::Sync, None, "triggers synchronous PDOs"),
     }
 }
 
 pub(super) fn error_control(node: u8, frame: &Frame) -> Words {
     let words = |text: String| Words::new(Service::ErrorControl, Some(node), text);
     if frame.is_remote() {
-        return words("which state? (guarding)".into());
+        return words("node guarding request".into());
     }
     match frame.data() {
         [0] => words("boot-up".into()),
@@ -49,6 +49,6 @@ pub(super) fn error_control(node: u8, frame: &Frame) -> Words {
             Some(state) => words(state.to_string()),
             None => words(format!("unknown state {byte:02X}h")).error(),
         },
-        _ => words("one byte was due".into()).error(),
+        _ => words("one byte is required".into()).error(),
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
 
 pub(super) fn words(node: u8, frame: &Frame) -> Words {
     let Some(emcy) = od_wire::emcy::Repr::parse(frame.data()) else {
-        return Words::new(Service::Emcy, Some(node), "eight bytes were due").error();
+        return Words::new(Service::Emcy, Some(node), "eight bytes are required").error();
     };
     let info = od_model::values::hex(&emcy.info);
     let text = format!(

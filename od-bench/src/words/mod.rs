@@ -48,7 +48,7 @@ impl Decoder {
             return words;
         }
         let Some(id) = frame.id().as_standard() else {
-            return Words::new(Service::Unknown, None, "no service has this identifier");
+            return Words::new(Service::Unknown, None, "no service uses this CAN-ID");
         };
         let node = (id & 0x7F) as u8;
         match id {
@@ -65,7 +65,7 @@ impl Decoder {
             0x701..=0x77F => control::error_control(node, frame),
             0x7E4 => lss::answer(frame),
             0x7E5 => lss::request(frame),
-            _ => Words::new(Service::Unknown, None, "no service has this identifier"),
+            _ => Words::new(Service::Unknown, None, "no service uses this CAN-ID"),
         }
     }
 }

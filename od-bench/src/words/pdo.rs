@@ -74,7 +74,7 @@ fn words(
     let node = Some(device.node_id().raw());
     let number = number + 1;
     if frame.is_remote() {
-        return Words::new(service, node, format!("{kind}{number} asked for"));
+        return Words::new(service, node, format!("{kind}{number} requested (RTR)"));
     }
     let mut raw = [0; 8];
     raw[..frame.data().len()].copy_from_slice(frame.data());
@@ -122,7 +122,7 @@ pub(super) fn by_identifier(id: u16, frame: &Frame) -> Words {
     };
     let number = number / 2 + 1;
     let text = match frame.is_remote() {
-        true => format!("{kind}{number} asked for"),
+        true => format!("{kind}{number} requested (RTR)"),
         false => format!("{kind}{number} {}", bytes(frame.data().len())),
     };
     Words::new(service, (node != 0).then_some(node), text)

@@ -58,7 +58,7 @@ pub(super) fn explain(
         node,
     };
     if frame.is_remote() || frame.dlc() == 0 {
-        return explainer.words("no SDO frame");
+        return explainer.words("not an SDO message");
     }
     let segments = match explainer.transfer.block {
         Some(Block::Upload) => answer,
@@ -204,20 +204,20 @@ impl Explainer<'_> {
                     (None, Some(size)) => {
                         self.words(format!("{name} has {}", bytes(size as usize)))
                     }
-                    (None, None) => self.words(format!("{name} comes in segments")),
+                    (None, None) => self.words(format!("{name} follows in segments")),
                 }
             }
             Response::InitiateDownload { address } => {
                 if self.transfer.address != Some(address) {
                     self.begin(address);
                 }
-                self.words(format!("{} taken", self.name(address)))
+                self.words(format!("write of {} confirmed", self.name(address)))
             }
             Response::UploadSegment {
                 data, len, last, ..
             } => self.segment(&data[..usize::from(len.min(7))], last),
             Response::DownloadSegment { .. } => {
-                self.words(format!("segment of {} taken", self.current()))
+                self.words(format!("segment of {} confirmed", self.current()))
             }
             Response::Abort { address, code } => self.abort(address, code),
             Response::InitiateBlockDownload {
@@ -229,14 +229,16 @@ impl Explainer<'_> {
                 self.transfer.block = Some(Block::Download);
                 self.transfer.block_size = block_size;
                 let name = self.name(address);
-                self.words(format!("{name} may come in blocks of {block_size}"))
+                self.words(format!(
+                    "write of {name} accepted in blocks of {block_size}"
+                ))
             }
             Response::BlockDownloadResponse { ack, block_size } => {
                 self.block_taken(Block::Download, ack, block_size)
             }
             Response::EndBlockDownload => {
                 self.transfer.block = None;
-                self.words(format!("{} written", self.current()))
+                self.words(format!("write of {} confirmed", self.current()))
             }
             Response::InitiateBlockUpload { address, size, .. } => {
                 let block_size = self.transfer.block_size;
@@ -293,7 +295,7 @@ impl Explainer<'_> {
         self.transfer.block = more.then_some(block);
         self.transfer.block_size = block_size;
         let name = self.current();
-        self.words(format!("block of {name} taken up to segment {ack}"))
+        self.words(format!("block of {name} confirmed up to segment {ack}"))
     }
 
     fn abort(&mut self, address: Address, code: u32) -> Words {

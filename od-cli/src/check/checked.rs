@@ -1,19 +1,19 @@
-//! What a check of files came to; every report is made of it.
+//! The result of a check, from which every report is made.
 
 use od_eds::{Finding, Sentence, Severity, Span};
 use serde::Serialize;
 
 use crate::source::Source;
 
-/// What there is to say about one file.
+/// Result for one file.
 #[derive(Default)]
 pub(super) struct Checked {
     pub(super) file: Source,
     pub(super) findings: Vec<Finding>,
-    /// What a text report shows of it, made where many can be made at once.
+    /// The file's part of a text report, rendered while other files are checked.
     pub(super) shown: String,
-    /// Places that were mended.
-    pub(super) mended: usize,
+    /// Number of edits by fixes.
+    pub(super) fixed: usize,
     /// Why the file could not be read or written.
     pub(super) failed: Option<String>,
 }
@@ -48,12 +48,12 @@ pub(super) fn end_column(text: &str, span: Span) -> usize {
     span.column as usize + part.map_or(0, |part| part.chars().count())
 }
 
-/// What there is to say about all of them.
+/// Counts over all files.
 #[derive(Serialize)]
 pub(super) struct Summary {
     pub(super) files: usize,
     pub(super) failed: usize,
-    pub(super) mended: usize,
+    pub(super) fixed: usize,
     pub(super) errors: usize,
     pub(super) warnings: usize,
     pub(super) remarks: usize,
@@ -69,7 +69,7 @@ impl Summary {
         Self {
             files: checked.len() - failed,
             failed,
-            mended: checked.iter().map(|file| file.mended).sum(),
+            fixed: checked.iter().map(|file| file.fixed).sum(),
             errors: count(Severity::Error),
             warnings: count(Severity::Warning),
             remarks: count(Severity::Info),

@@ -18,7 +18,7 @@ struct Report<'a> {
 struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
-    mended: usize,
+    fixed: usize,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -45,7 +45,7 @@ struct Fix {
 
 pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
     let report = Report {
-        version: 1,
+        version: 2,
         odkit: env!("CARGO_PKG_VERSION"),
         files: checked.iter().map(file).collect(),
         summary,
@@ -60,7 +60,7 @@ fn file(checked: &Checked) -> File<'_> {
     File {
         path: &checked.file.path,
         failed: checked.failed.as_deref(),
-        mended: checked.mended,
+        fixed: checked.fixed,
         diagnostics: checked
             .findings
             .iter()

@@ -1,4 +1,4 @@
-//! `odkit check`: what is wrong with EDS and DCF files, and mending it.
+//! `odkit check`: findings in device descriptions, and their fixes.
 
 use od_eds::Document;
 use od_eds::check::parse_allow;
@@ -14,52 +14,52 @@ use checked::{Checked, Summary};
 
 mod checked;
 mod files;
+mod fixed;
 mod github;
 mod json;
-mod mend;
 mod sarif;
 
-/// Check EDS and DCF files, with source line and caret; mend what can be mended
+/// Check EDS and DCF files; show findings with source line and caret, and apply fixes
 ///
-/// `odkit explain CODE` says what a finding means. A comment `;odkit-allow=CODE reason` allows a
-/// finding: before the first section for the whole file, in a section for what it is about.
+/// `odkit explain CODE` explains a finding. A comment `;odkit-allow=CODE reason` allows a finding:
+/// before the first section in the whole file, inside a section for the object of that section.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Exit codes: 0 no errors (and nothing for --diff to show), 1 errors are left, \
-                        a file cannot be read or written, or --diff shows something, 2 wrong usage"
+    after_help = "Exit codes: 0 no errors (with --diff: and nothing to fix), 1 errors, a file that \
+                        cannot be read or written, or a diff that is shown, 2 wrong usage"
 )]
 pub(crate) struct Args {
-    /// Files, and folders to look for EDS and DCF files in
+    /// Files, or folders that are searched for EDS, DCF, XDD and XDC files
     #[arg(required = true, value_name = "FILE|FOLDER")]
     files: Vec<String>,
-    /// Mend what can be mended without changing what a file says
+    /// Apply safe fixes (the meaning of the file does not change)
     #[arg(long)]
     fix: bool,
-    /// Mend also by likely guesses: look at the result
+    /// Also apply unsafe fixes; review the result
     #[arg(long)]
     unsafe_fixes: bool,
-    /// Show what would be mended, as a diff; write nothing
+    /// Show the fixes as a diff; write nothing
     #[arg(long)]
     diff: bool,
-    /// Do not report this code, or not for this object: `W0311`, `W0311:2000`
+    /// Do not report this rule, or not for this object: `W0311`, `W0311:2000`
     #[arg(long, value_name = "CODE[:INDEX]", value_parser = parse_allow)]
     allow: Vec<(&'static str, Option<u16>)>,
-    /// How to report
+    /// Format of the report
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Show remarks, too (the machine formats always have them)
+    /// Show remarks too (JSON and SARIF always contain them)
     #[arg(long)]
     remarks: bool,
-    /// Warnings count as errors do
+    /// Treat warnings as errors
     #[arg(long)]
     strict: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
-    /// Source line and caret
+    /// Findings with source line and caret
     Text,
-    /// One object for all files
+    /// One JSON object for all files
     Json,
     /// SARIF 2.1.0, for code scanning
     Sarif,
@@ -68,7 +68,7 @@ enum Format {
 }
 
 impl Args {
-    /// How far fixes go, if there are to be any.
+    /// Level of the fixes to apply, if any.
     fn level(&self) -> Option<Applicability> {
         match (self.unsafe_fixes, self.fix || self.diff) {
             (true, _) => Some(Applicability::Unsafe),
@@ -89,8 +89,8 @@ impl Args {
         findings
     }
 
-    /// Reads, checks and mends one file. An overlaid one is not mended: nobody knows in which
-    /// of its files.
+    /// Reads, checks and fixes one file. An overlaid file is not fixed: odkit cannot know which of
+    /// the two files to change.
     fn check(&self, path: &str) -> Checked {
         let mut checked = match Source::file(path) {
             Ok(file) => Checked::new(file),
@@ -101,14 +101,14 @@ impl Args {
         match self.level().filter(|_| !is_overlaid) {
             None => checked.findings = self.find(file.document()),
             Some(level) => {
-                let mended = fix::mend(file.document(), level, |file| self.find(file));
+                let done = fix::mend(file.document(), level, |file| self.find(file));
                 if self.diff {
-                    checked.shown = mend::difference(path, file.text(), mended.document.text());
-                } else if mended.edits > 0 {
-                    checked.failed = mend::write(path, mended.document.bytes()).err();
+                    checked.shown = fixed::difference(path, file.text(), done.document.text());
+                } else if done.edits > 0 {
+                    checked.failed = fixed::write(path, done.document.bytes()).err();
                 }
-                (checked.mended, checked.findings) = (mended.edits, mended.findings);
-                checked.file.replace(mended.document);
+                (checked.fixed, checked.findings) = (done.edits, done.findings);
+                checked.file.replace(done.document);
             }
         }
         if is_overlaid {
@@ -150,7 +150,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     let wrong = summary.errors > 0 || args.strict && summary.warnings > 0;
-    if wrong || summary.failed > 0 || args.diff && summary.mended > 0 {
+    if wrong || summary.failed > 0 || args.diff && summary.fixed > 0 {
         return Err(Failure::Reported(1));
     }
     Ok(())
@@ -168,26 +168,25 @@ fn text(
         }
     }
     let all = checked.iter().flat_map(|file| &file.findings);
-    let found = report::count(all).unwrap_or_else(|| "nothing to report".into());
-    let files = report::plural(summary.files, "file");
-    let mut line = format!("{files} checked: {found}");
-    if summary.mended > 0 {
-        let places = report::plural(summary.mended, "place");
-        line = match args.diff {
-            true => format!("{line}, with {places} mended as shown"),
-            false => format!("{line}, {places} mended"),
-        };
+    let mut line = format!("{} checked", report::plural(summary.files, "file"));
+    let mut sign = ",";
+    if summary.files > 0 {
+        let found = report::count(all).unwrap_or_else(|| "nothing to report".into());
+        line = format!("{line}: {found}");
+        sign = ";";
     }
-    // Only what was read could be mended.
-    let unwritten = |file: &&Checked| file.failed.is_some() && file.mended > 0;
+    if summary.fixed > 0 {
+        let places = report::plural(summary.fixed, "place");
+        let how = if args.diff { " as shown" } else { "" };
+        line = format!("{line}{sign} {places} fixed{how}");
+    }
+    // Only a file that was read has fixes.
+    let unwritten = |file: &&Checked| file.failed.is_some() && file.fixed > 0;
     let unwritten = checked.iter().filter(unwritten).count();
-    for (count, what) in [
-        (summary.failed - unwritten, "readable"),
-        (unwritten, "writable"),
-    ] {
+    for (count, what) in [(summary.failed - unwritten, "read"), (unwritten, "written")] {
         if count > 0 {
             let files = report::plural(count, "file");
-            line = format!("{line}; {files} not {what}");
+            line = format!("{line}{sign} {files} could not be {what}");
         }
     }
     output.line(&line)?;
@@ -197,27 +196,27 @@ fn text(
     Ok(())
 }
 
-/// What else could be done about it.
+/// Lines that name the options for remarks and fixes.
 fn hints(args: &Args, checked: &[Checked], summary: &Summary) -> Vec<String> {
     let mut hints = Vec::new();
     if summary.remarks > 0 && !args.remarks && !args.diff {
-        hints.push("remarks are not shown: `--remarks` shows them".to_owned());
+        hints.push("add `--remarks` to show remarks".to_owned());
     }
-    let fixes = |level| {
+    let fixable = |level| {
         let all = checked.iter().flat_map(|file| &file.findings);
-        all.filter_map(|finding| finding.fix.as_ref())
-            .filter(|fix| fix.applicability == level)
-            .count()
+        let fixes = all.filter_map(|finding| finding.fix.as_ref());
+        let count = fixes.filter(|fix| fix.applicability == level).count();
+        count * usize::from(args.level().is_none_or(|own| own < level))
     };
-    for (level, option) in [
-        (Applicability::Safe, "--fix"),
-        (Applicability::Unsafe, "--unsafe-fixes"),
-    ] {
-        let count = fixes(level);
-        if count > 0 && args.level().is_none_or(|own| own < level) {
-            let count = report::plural(count, "finding");
-            hints.push(format!("`{option}` mends {count}"));
-        }
+    let finding = |count| report::plural(count, "finding");
+    match (fixable(Applicability::Safe), fixable(Applicability::Unsafe)) {
+        (0, 0) => {}
+        (0, more) => hints.push(format!("{} fixable with `--unsafe-fixes`", finding(more))),
+        (safe, 0) => hints.push(format!("{} fixable with `--fix`", finding(safe))),
+        (safe, more) => hints.push(format!(
+            "{} fixable with `--fix`, {more} more with `--unsafe-fixes`",
+            finding(safe)
+        )),
     }
     hints
 }

@@ -12,7 +12,7 @@ use crate::terminal::Terminal;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Lessons, or folders of such
+    /// Lessons, or folders with lessons
     #[arg(required = true, value_name = "FILE")]
     paths: Vec<PathBuf>,
 }
@@ -38,7 +38,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         note!("{count}, {bad} with mistakes");
         return Err(Failure::Reported(1));
     }
-    note!("{count}: all is as it should be");
+    note!("{count}, no mistakes");
     Ok(())
 }
 
@@ -52,8 +52,8 @@ fn dead_links(lesson: &Lesson, path: &Path) -> Vec<Problem> {
         .map(|(line, file)| Problem {
             line,
             column: 1,
-            message: format!("there is no file {file}"),
-            help: "links are relative to the lesson".into(),
+            message: format!("the linked file {file} does not exist"),
+            help: "write the path relative to the lesson".into(),
         })
         .collect()
 }

@@ -27,7 +27,7 @@ impl File {
         }
         let failed = |why: &str| Failure::Usage(format!("{shown}: {why}"));
         let bytes = fs::read(path).map_err(|error| failed(&source::read_error(&error)))?;
-        let text = String::from_utf8(bytes).map_err(|_| failed("a lesson is UTF-8 text"))?;
+        let text = String::from_utf8(bytes).map_err(|_| failed("the file is not UTF-8"))?;
         Ok(Self {
             path: shown,
             lesson: Lesson::parse(&text),
@@ -69,7 +69,9 @@ pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
         found.sort();
         if found.is_empty() {
             let shown = path.display();
-            return Err(Failure::Usage(format!("{shown}: no lesson (*.md) is here")));
+            return Err(Failure::Usage(format!(
+                "{shown}: the folder contains no lesson (*.md)"
+            )));
         }
         for path in found {
             all.push(File::read(&path)?);

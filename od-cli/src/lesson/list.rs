@@ -6,10 +6,11 @@ use super::builtin;
 use super::file::{files, show_problems};
 use crate::failure::Failure;
 use crate::output::Output;
+use crate::report;
 
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Lessons, or folders of such; those that come with odkit if not given
+    /// Lessons, or folders with lessons [default: the lessons that come with odkit]
     paths: Vec<PathBuf>,
 }
 
@@ -23,9 +24,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     for file in files(&paths)? {
         match &file.lesson {
             Ok(lesson) => {
-                let steps = lesson.steps.len();
+                let steps = report::plural(lesson.steps.len(), "step");
                 let line = format!(
-                    "{}  level {}, {:>2} min, {steps} steps  {}",
+                    "{}  level {}, {:>2} min, {steps}  {}",
                     file.path, lesson.level, lesson.minutes, lesson.title
                 );
                 if !output.line(&line)? {

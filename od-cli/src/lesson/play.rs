@@ -16,13 +16,13 @@ use crate::terminal::Terminal;
 pub(super) struct Args {
     /// The lesson
     file: PathBuf,
-    /// Play its own solution instead of standard input
+    /// Play the lesson's solution instead of standard input
     #[arg(long)]
     solution: bool,
-    /// Show so many hints of the step that is open at the end
+    /// Number of hints to show for the step that is open at the end
     #[arg(long, value_name = "N", default_value_t = 1)]
     hints: usize,
-    /// Print the frames that the lines send, too
+    /// Also print the frames that the lines send
     #[arg(long)]
     echo: bool,
 }

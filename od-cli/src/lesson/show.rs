@@ -6,19 +6,19 @@ use od_bench::lesson::{Lesson, Step};
 
 use super::file::File;
 use crate::failure::Failure;
-use crate::output;
+use crate::{output, report};
 
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// The lesson
     file: PathBuf,
-    /// Only this step, counted from 1
+    /// Show only this step, counted from 1
     #[arg(long, value_name = "N")]
     step: Option<usize>,
-    /// With so many hints of each step
+    /// Number of hints to show for each step
     #[arg(long, value_name = "N", default_value_t = 0)]
     hints: usize,
-    /// With the solution, and with what just happened
+    /// Show the solution and the explanation too
     #[arg(long)]
     solution: bool,
 }
@@ -27,7 +27,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let lesson = File::read(&args.file)?.usable()?;
     let steps = lesson.steps.len();
     if args.step.is_some_and(|step| step == 0 || step > steps) {
-        return Err(Failure::Usage(format!("the lesson has steps 1 to {steps}")));
+        let step = args.step.unwrap_or_default();
+        return Err(Failure::Usage(format!(
+            "step {step} does not exist; the lesson has steps 1 to {steps}"
+        )));
     }
     output::print(&text(&lesson, args))
 }
@@ -35,10 +38,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 fn text(lesson: &Lesson, args: &Args) -> String {
     let mut text = String::new();
     if args.step.is_none() {
-        let steps = lesson.steps.len();
+        let steps = report::plural(lesson.steps.len(), "step");
         let (level, minutes) = (lesson.level, lesson.minutes);
         text.push_str(&format!(
-            "# {}\n\nLevel {level}, {minutes} minutes, {steps} steps.\n\n{}\n",
+            "# {}\n\nLevel {level}, {minutes} minutes, {steps}.\n\n{}\n",
             lesson.title, lesson.intro
         ));
         text.push_str(&block("On the bench:", &lesson.set_up.text));

@@ -22,7 +22,7 @@ pub(crate) fn open(name: &str) -> Result<Box<dyn Link>, Failure> {
     match name.split_once(':') {
         Some(("slcan", address)) => Ok(Box::new(slcan::Client::open(address)?)),
         _ => Err(Failure::Usage(format!(
-            "`{name}` is no link; write slcan:HOST:PORT, for example slcan:127.0.0.1:2000"
+            "`{name}` is not a valid link; write `slcan:HOST:PORT`, such as `slcan:127.0.0.1:2000`"
         ))),
     }
 }
@@ -96,16 +96,16 @@ impl<'l> Client<'l> {
             Ok(bytes) => return Ok(Ok(bytes)),
             Err(SdoError::Abort(code)) => return Ok(Err(code)),
             Err(SdoError::Silent) => format!(
-                "node {node} does not answer SDO requests within {} s; is it powered, not \
-                 stopped, and is this its node ID?",
+                "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
+                 state (not Stopped) and its node ID",
                 OPTIONS.timeout.as_secs()
             ),
             Err(SdoError::OutOfTurn { got, .. }) => {
-                format!("node {node} answers {address} out of turn: {got:?}")
+                format!("node {node}: unexpected SDO response for {address}: {got:?}")
             }
             Err(SdoError::TooLong) => {
                 let limit = OPTIONS.limit;
-                format!("node {node}: {address} has no end after {limit} bytes")
+                format!("node {node}: {address} is longer than {limit} bytes")
             }
             Err(other) => format!("node {node}: {address}: {other}"),
         }))

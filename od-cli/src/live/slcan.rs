@@ -26,7 +26,7 @@ impl Client {
         };
         let fail = |error: std::io::Error| {
             Failure::Failed(format!(
-                "slcan:{address}: {error}; is a CAN adapter's server or `odkit sim` running there?"
+                "slcan:{address}: {error}; start a CAN adapter server or `odkit sim` at this address"
             ))
         };
         let stream = TcpStream::connect(&address).map_err(fail)?;
@@ -84,7 +84,7 @@ impl Link for Client {
             set.map_err(|error| self.lost(&error.to_string()))?;
             let mut bytes = [0; 4096];
             match self.stream.read(&mut bytes) {
-                Ok(0) => return Err(self.lost("the other side closed the connection")),
+                Ok(0) => return Err(self.lost("the peer closed the connection")),
                 Ok(count) => self.rest.extend_from_slice(&bytes[..count]),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error)

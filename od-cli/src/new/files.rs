@@ -1,4 +1,4 @@
-//! The files of a new crate, and what stands in the gaps of their templates.
+//! The files of a new crate, from templates with gaps.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use od_eds::{Description, Tables};
 use od_model::{Address, Kind, Literal};
 use od_runtime::encoder::EncoderProfile;
 
-/// What the crate is made of.
+/// The device description that the crate contains.
 pub(super) struct DeviceFile {
     /// `eds` or `dcf`.
     pub(super) ending: &'static str,
@@ -19,13 +19,13 @@ pub(super) struct DeviceFile {
 pub(super) struct Project<'p> {
     pub(super) name: &'p str,
     pub(super) device: &'p DeviceFile,
-    /// What was mended.
+    /// Changes that fixed errors of the file.
     pub(super) notes: &'p [String],
     /// A checkout to depend on.
     pub(super) odkit: Option<PathBuf>,
 }
 
-/// Words that cannot name a crate, or stand for something else where one is used.
+/// Words that cannot name a crate, or have another meaning in code that uses the crate.
 const TAKEN: [&str; 14] = [
     "test",
     "core",
@@ -50,13 +50,11 @@ pub(super) fn check_name(name: &str) -> Result<(), String> {
     let identifier = name.replace('-', "_");
     if !starts || !name.chars().all(fits) || name.len() > 64 {
         return Err(format!(
-            "`{name}` cannot name a crate; write letters, digits, `-` and `_`, a letter first"
+            "`{name}` is not a valid crate name; start with a letter, then letters, digits, `-` or `_`"
         ));
     }
     if TAKEN.contains(&identifier.as_str()) || is_keyword(&identifier) {
-        return Err(format!(
-            "`{name}` means something in Rust already; take another name"
-        ));
+        return Err(format!("`{name}` is reserved in Rust; choose another name"));
     }
     Ok(())
 }
@@ -138,7 +136,7 @@ impl Project<'_> {
             .replace("{{reads}}", &reads(&tables, node_id))
             .replace("{{first}}", &format!("0x{first:04X}"))
             .replace("{{dependencies}}", &self.dependencies())
-            .replace("{{mended}}", &self.mended())
+            .replace("{{fixed}}", &self.fixed())
     }
 
     fn dependencies(&self) -> String {
@@ -149,7 +147,7 @@ impl Project<'_> {
         let version = env!("CARGO_PKG_VERSION");
         let lines = crates.map(|(name, folder, features)| match &self.odkit {
             Some(root) => {
-                // A literal string of TOML takes what stands in a path; an apostrophe ends it.
+                // A literal string of TOML holds any path without an apostrophe.
                 let path = root.join(folder).display().to_string();
                 let path = toml(&path);
                 format!("{name} = {{ path = {path}{features} }}")
@@ -161,7 +159,7 @@ impl Project<'_> {
     }
 
     /// For README: what the file in the crate says otherwise than the one it was made from.
-    fn mended(&self) -> String {
+    fn fixed(&self) -> String {
         if self.notes.is_empty() {
             return String::new();
         }
@@ -171,8 +169,7 @@ impl Project<'_> {
             .map(|note| format!("- {note}\n"))
             .collect();
         format!(
-            "\n## What was mended\n\nThe file had errors. The copy beside this text is without \
-             them:\n\n{}",
+            "\n## Fixed errors\n\nThe EDS file had errors. The copy in this folder was changed:\n\n{}",
             lines.concat()
         )
     }

@@ -14,7 +14,7 @@ pub(super) fn open(name: &str) -> Result<Opened, Failure> {
     let socket = CanSocket::open(name).map_err(failed)?;
     if is_down(name) {
         crate::serve::terminal::note(&format!(
-            "{name} is down; `sudo ip link set {name} up` starts it"
+            "{name} is down; start it with `sudo ip link set {name} up`"
         ));
     }
     let ends = |socket: &CanSocket| socket.as_raw_socket().try_clone();
@@ -51,23 +51,23 @@ fn advice(name: &str, error: &std::io::Error) -> String {
     );
     match error.raw_os_error() {
         Some(EAFNOSUPPORT | EPROTONOSUPPORT) => String::from(
-            "this kernel has no SocketCAN; load it with `sudo modprobe can-raw`, or, in a \
-             container or a machine without the module, use --link slcan:127.0.0.1:29536",
+            "this kernel does not support SocketCAN; load it with `sudo modprobe can-raw`, or use \
+             `--link slcan:127.0.0.1:29536` in a container or without the module",
         ),
         Some(ENODEV | ENXIO) if name.starts_with("vcan") => {
-            format!("there is no CAN interface `{name}`; make one with `{virtual_one}`")
+            format!("CAN interface `{name}` does not exist; create it with `{virtual_one}`")
         }
         Some(ENODEV | ENXIO) => format!(
-            "there is no CAN interface `{name}`; `ip link show type can` lists the real ones, \
+            "CAN interface `{name}` does not exist; `ip link show type can` lists the real ones, \
              which `sudo ip link set {name} up type can bitrate 500000` starts; a virtual one \
              is made with `sudo modprobe vcan && sudo ip link add vcan0 type vcan && sudo ip \
              link set vcan0 up`"
         ),
         _ if error.kind() == std::io::ErrorKind::PermissionDenied => format!(
-            "{name} may not be opened: {error}; run odkit with the right to use raw sockets, \
-             for example `sudo setcap cap_net_raw+ep $(command -v odkit)`"
+            "{name} cannot be opened: {error}; give odkit the right to use raw sockets, such as \
+             with `sudo setcap cap_net_raw+ep $(command -v odkit)`"
         ),
-        _ => format!("{name}: {error}; `ip -details link show {name}` says how it is set up"),
+        _ => format!("{name}: {error}; `ip -details link show {name}` shows its configuration"),
     }
 }
 
@@ -75,6 +75,6 @@ fn advice(name: &str, error: &std::io::Error) -> String {
 #[cfg(not(target_os = "linux"))]
 pub(super) fn open(_: &str) -> Result<Opened, Failure> {
     Err(Failure::Failed(String::from(
-        "SocketCAN is a part of Linux; here, use --link slcan:127.0.0.1:29536",
+        "SocketCAN needs Linux; use `--link slcan:127.0.0.1:29536`",
     )))
 }

@@ -48,7 +48,7 @@ impl Link {
         if text == "-" {
             return Ok(Self::Console);
         }
-        let unknown = || format!("`{text}` is no link; there are {FORMS}");
+        let unknown = || format!("`{text}` is not a valid link; write {FORMS}");
         let (kind, place) = text.split_once(':').ok_or_else(unknown)?;
         if place.is_empty() {
             return Err(unknown());
@@ -60,7 +60,7 @@ impl Link {
                     Some((path, baud)) => (path, baud.parse().ok().filter(|baud| *baud > 0)),
                     None => (place, Some(serial::BAUD)),
                 };
-                let baud = baud.ok_or_else(|| format!("`{place}` has no baud rate behind @"))?;
+                let baud = baud.ok_or_else(|| format!("`{place}` has no bit rate after `@`"))?;
                 Ok(Self::Serial(path.to_owned(), baud))
             }
             "slcan" => Ok(Self::slcan(place)),

@@ -21,7 +21,7 @@ pub(super) fn open() -> Result<Opened, Failure> {
         Ok((pair, path))
     };
     let (pair, path) = make()
-        .map_err(|error| Failure::Failed(format!("no pseudo-terminal can be made: {error}")))?;
+        .map_err(|error| Failure::Failed(format!("cannot create a pseudo-terminal: {error}")))?;
     let reading = File::from(pair.master);
     let writing = reading.try_clone()?;
     Ok(Opened::Ends(super::opened::Ends {
@@ -39,7 +39,7 @@ pub(super) fn open() -> Result<Opened, Failure> {
 #[cfg(not(unix))]
 pub(super) fn open() -> Result<Opened, Failure> {
     Err(Failure::Failed(String::from(
-        "there are no pseudo-terminals here; use --link slcan:127.0.0.1:29536",
+        "this system does not support pseudo-terminals; use `--link slcan:127.0.0.1:29536`",
     )))
 }
 

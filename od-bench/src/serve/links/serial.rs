@@ -13,14 +13,14 @@ pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
     let failed = |error: std::io::Error| {
         Failure::Failed(match error.kind() {
             ErrorKind::NotFound => format!(
-                "there is no serial port {path}; for a port that another program opens, use \
-                 --link slcan:pty"
+                "serial port {path} does not exist; for a port that another program opens, use \
+                 `--link slcan:pty`"
             ),
             ErrorKind::PermissionDenied => format!(
-                "{path} may not be opened; on Debian and Ubuntu its users are in the group \
-                 dialout: `sudo usermod -aG dialout $USER`, then log in again"
+                "{path} cannot be opened (permission denied); on Debian and Ubuntu join the group \
+                 dialout with `sudo usermod -aG dialout $USER`, then log in again"
             ),
-            _ => format!("{path} at {baud} baud: {error}"),
+            _ => format!("{path} at {baud} bit/s: {error}"),
         })
     };
     let port = serial2::SerialPort::open(path, baud).map_err(failed)?;

@@ -20,7 +20,7 @@ pub(super) fn listen(protocol: Protocol, wanted: &str) -> Result<Opened, Failure
         Ok(addresses) => addresses.collect(),
         Err(_) => {
             return Err(Failure::Usage(format!(
-                "`{wanted}` is no address to listen on; write {option}127.0.0.1:29536"
+                "`{wanted}` is not a valid address; write `{option}127.0.0.1:29536`"
             )));
         }
     };

@@ -1,21 +1,21 @@
-//! A description with errors becomes one that a device can be built of, and says what it lost.
+//! Changes a description with errors until a device can be built from it, and lists the changes.
 
 use std::collections::BTreeMap;
 
 use od_eds::{Description, Eds, EntryDescription, Finding, ObjectDescription, Spanned, Value, say};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
-/// What was changed, a sentence each.
+/// One sentence per change.
 pub(super) type Notes = Vec<String>;
 
-/// So many rounds: each takes something away, and a file has some thousand entries.
+/// Limit of rounds; each removes something, and a file has some thousand entries.
 const ROUNDS: usize = 100;
 
 /// Changes as little as it can until nothing is an error any more.
 ///
 /// # Errors
 /// The findings that are left where nothing can be done.
-pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Finding>> {
+pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> {
     let mut notes = Notes::new();
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
@@ -42,7 +42,7 @@ pub(super) fn mend(description: &mut Description) -> Result<Notes, Vec<Finding>>
     Err(left.into_iter().filter(Finding::is_error).collect())
 }
 
-/// Entries without a type, and fields whose text is none of theirs, have no meaning to keep.
+/// Removes sub-objects without a valid type, and fields whose text is not valid.
 fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     const FIELDS: [&str; 9] = [
         "ObjectType",
@@ -63,7 +63,7 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
             entry.extra.retain(|(key, value)| {
                 let keep = !is_field(key);
                 if !keep && !value.trim().is_empty() {
-                    notes.push(format!("{place}: {key} `{value}` has no meaning, left out"));
+                    notes.push(format!("{place}: removed the invalid {key} `{value}`"));
                 }
                 keep
             });
@@ -71,7 +71,9 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
                 .data_type
                 .is_some_and(|data_type| data_type.kind() != Kind::Record);
             if !usable {
-                notes.push(format!("{place}: left out, it has no data type of a value"));
+                notes.push(format!(
+                    "{place}: removed, because it has no valid DataType"
+                ));
             }
             usable
         });
@@ -80,7 +82,7 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
         let keep = !object.entries.is_empty();
         if !keep {
             notes.push(format!(
-                "{index:04X}h: left out, it has no entry with a value"
+                "{index:04X}h: removed, because it has no valid sub-object"
             ));
         }
         keep
@@ -97,7 +99,7 @@ fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<Str
     };
     if let Some(index) = mandatory {
         description.objects.insert(index, standard(index)?);
-        return Some(format!("{index:04X}h: added, every device has it"));
+        return Some(format!("{index:04X}h: added, because it is mandatory"));
     }
     let address = error.object?;
     let Address { index, sub } = address;
@@ -127,18 +129,18 @@ fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<Str
         (_, 2) if sub > 0 => {
             object.entries.remove(&sub)?;
             count(object);
-            return Some(format!("{address}: left out, {}", say(error, &Eds).message));
+            return Some(format!("{address}: removed: {}", say(error, &Eds).message));
         }
         (_, ..=3) if standard(index).is_none() => {
             description.objects.remove(&index)?;
             return Some(format!(
-                "{index:04X}h: left out, {}",
+                "{index:04X}h: removed: {}",
                 say(error, &Eds).message
             ));
         }
         _ => return None,
     }
-    Some(format!("{address}: changed, {}", say(error, &Eds).message))
+    Some(format!("{address}: changed: {}", say(error, &Eds).message))
 }
 
 /// Sub-index 0 says the highest sub-index.

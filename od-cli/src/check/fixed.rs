@@ -1,4 +1,4 @@
-//! A mended file: shown as a diff, or written.
+//! A fixed file: shown as a diff, or written.
 
 use std::fs;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub(super) fn difference(path: &str, before: &str, after: &str) -> String {
     shown.replace('\r', "")
 }
 
-/// Writes a file all at once: whoever looks sees the old one or the new one.
+/// Writes a file all at once: other programs see the old file or the new one.
 pub(super) fn write(path: &str, bytes: &[u8]) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("it cannot be written: {error}");
     // Through a link, to the file that is meant.
