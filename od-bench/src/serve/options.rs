@@ -86,10 +86,7 @@ pub const CHOICES: [Choice; 8] = [
         help: "Node ID of the node at the start, 1 to 127; repeat it for the next node (a redundant \
                encoder has two). Without it a node gets 1, or the next free node ID",
         repeats: true,
-        set: |options, text| {
-            options.node_ids.push(node_id(text)?);
-            Ok(())
-        },
+        set: |options, text| node_id(text).map(|value| options.node_ids.push(value)),
         ..PLAIN
     },
     Choice {
@@ -97,10 +94,7 @@ pub const CHOICES: [Choice; 8] = [
         value: "LINK",
         help: "Link for masters; may be repeated [default: slcan:127.0.0.1:29536]",
         repeats: true,
-        set: |options, text| {
-            options.links.push(Link::parse(text)?);
-            Ok(())
-        },
+        set: |options, text| Link::parse(text).map(|value| options.links.push(value)),
         ..PLAIN
     },
     Choice {
@@ -128,20 +122,14 @@ pub const CHOICES: [Choice; 8] = [
         name: "position",
         value: "STEPS",
         help: "Raw position of the shaft at the start in steps (497042 or 0x79592)",
-        set: |options, text| {
-            options.position = Some(position(text)?);
-            Ok(())
-        },
+        set: |options, text| position(text).map(|value| options.position = Some(value)),
         ..PLAIN
     },
     Choice {
         name: "rpm",
         value: "RPM",
         help: "Speed of the shaft in revolutions per minute; negative: backwards",
-        set: |options, text| {
-            options.rpm = Some(number(text)?);
-            Ok(())
-        },
+        set: |options, text| number(text).map(|value| options.rpm = Some(value)),
         ..PLAIN
     },
     Choice {
@@ -149,10 +137,7 @@ pub const CHOICES: [Choice; 8] = [
         value: "NUMBER",
         help: "Seed for random start positions of the shafts",
         conflicts: Some("position"),
-        set: |options, text| {
-            options.seed = Some(number(text)?);
-            Ok(())
-        },
+        set: |options, text| number(text).map(|value| options.seed = Some(value)),
         ..PLAIN
     },
     Choice {
@@ -160,10 +145,7 @@ pub const CHOICES: [Choice; 8] = [
         value: "BIT/S",
         help: "Bit rate in the printed commands; the simulated bus has no bit rate",
         default: Some("500000"),
-        set: |options, text| {
-            options.bitrate = number(text)?;
-            Ok(())
-        },
+        set: |options, text| number(text).map(|value| options.bitrate = value),
         ..PLAIN
     },
 ];

@@ -3,13 +3,13 @@
 use std::format;
 use std::prelude::v1::*;
 
-use od_model::Address;
+use od_client::pdo::decode;
+use od_model::{Address, values};
 use od_runtime::{CobId, Frame};
 use od_wire::pdo::MapRepr;
 
 use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
-use od_model::values;
 
 /// PDOs of a device that are looked at: those of its dictionary, 512 at most.
 const MOST: u16 = 0x1FF;
@@ -20,18 +20,24 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
     Some(words(device, service, number, mapping, frame))
 }
 
-/// The objects in the data of a PDO by the mapping that stands: each with its first bit and its
-/// number of bits. `None` for a frame that no PDO of these devices has.
+/// The objects in the data of a PDO by its current mapping: each with its first bit and its number
+/// of bits. `None` for a frame that no PDO of these devices has.
 pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, u32, u32)>> {
-    let (device, _, _, mapping) = find(devices, frame)?;
+    let (device, _, _, index) = find(devices, frame)?;
     let mut first = 0;
-    let mut parts = Vec::new();
-    for sub in 1..=device.stored(mapping, 0).unwrap_or(0).min(64) as u8 {
-        let entry = MapRepr::parse(device.stored(mapping, sub).unwrap_or(0) as u32);
-        parts.push((entry.address, first, u32::from(entry.bits)));
-        first += u32::from(entry.bits);
-    }
-    Some(parts)
+    let place = |raw| {
+        let MapRepr { address, bits } = MapRepr::parse(raw);
+        first += u32::from(bits);
+        (address, first - u32::from(bits), bits.into())
+    };
+    Some(mapping(device, index).into_iter().map(place).collect())
+}
+
+/// The current mapping entries of a mapping object.
+fn mapping(device: &VirtualDevice, index: u16) -> Vec<u32> {
+    let count = device.stored(index, 0).unwrap_or(0).min(64) as u8;
+    let entry = |sub| device.stored(index, sub).unwrap_or(0) as u32;
+    (1..=count).map(entry).collect()
 }
 
 /// The device whose PDO it is, its direction, its number from 0, and its mapping object.
@@ -63,7 +69,7 @@ fn words(
     device: &VirtualDevice,
     service: Service,
     number: u16,
-    mapping: u16,
+    mapping_object: u16,
     frame: &Frame,
 ) -> Words {
     let kind = if service == Service::Tpdo {
@@ -76,35 +82,24 @@ fn words(
     if frame.is_remote() {
         return Words::new(service, node, format!("{kind}{number} requested (RTR)"));
     }
-    let mut raw = [0; 8];
-    raw[..frame.data().len()].copy_from_slice(frame.data());
-    let raw = u64::from_le_bytes(raw);
-    let dictionary = device.dictionary();
-    let mut parts = Vec::new();
-    let mut first = 0;
-    for sub in 1..=device.stored(mapping, 0).unwrap_or(0).min(64) as u8 {
-        let entry = MapRepr::parse(device.stored(mapping, sub).unwrap_or(0) as u32);
-        let last = first + u32::from(entry.bits);
-        if last > 8 * u32::from(frame.dlc()) || entry.bits == 0 {
-            break;
-        }
-        let mask = if entry.bits >= 64 {
-            u64::MAX
-        } else {
-            (1 << entry.bits) - 1
-        };
-        let value = (raw >> first & mask).to_le_bytes();
-        let size = usize::from(entry.bits).div_ceil(8).min(8);
-        let (name, shown) = match dictionary.find(entry.address) {
-            Ok(found) => (
-                values::name(dictionary, found),
-                values::show(found.data_type, &value[..size]),
+    let (dictionary, entries) = (device.dictionary(), mapping(device, mapping_object));
+    // Of a PDO that is too short, the values that came.
+    let fields = (0..=entries.len())
+        .rev()
+        .find_map(|len| decode(&dictionary, &entries[..len], frame.data()).ok());
+    let fields = fields.into_iter().flatten();
+    let parts = fields.take_while(|field| !field.is_empty()).map(|field| {
+        let bytes = &field.bytes()[..field.len()];
+        let (name, shown) = match field.entry {
+            Some(entry) => (
+                values::name(dictionary, entry),
+                values::show(entry.data_type, bytes),
             ),
-            Err(_) => (entry.address.to_string(), values::hex(&value[..size])),
+            None => (field.address.to_string(), values::hex(bytes)),
         };
-        parts.push(format!("{name} = {shown}"));
-        first = last;
-    }
+        format!("{name} = {shown}")
+    });
+    let parts: Vec<String> = parts.collect();
     let text = match parts.is_empty() {
         true => format!("{kind}{number} {}", bytes(frame.data().len())),
         false => format!("{kind}{number} {}", parts.join(", ")),
