@@ -210,13 +210,13 @@ pub static PROFILE: Profile = Profile {
             code: 0x8130,
             register: 0x11,
         },
-        // The list of codes has none for the CAN controller's states; 1001h names overrun.
+        // The list of codes has none for the CAN controller's states; 1001h names overrun (U-38).
         bus_warning: None,
         bus_passive: None,
         bus_off: 0x11,
         bus_recovered: None,
         overrun: Some(Notice {
-            code: 0x8110,
+            code: 0x1000,
             register: 0x11,
         }),
         reset: ErrorReset::EachError,

@@ -72,7 +72,8 @@ pub(crate) const fn kind(
 /// What the services do differently: chapters 5 to 11.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
-        min_dlc: 8,
+        // U-37.
+        min_dlc: 4,
         // The list of abort codes has none for lengths; CiA's general one (U-16).
         length: LengthRule {
             too_long: Some(AbortCode::Length),

@@ -46,7 +46,8 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
 /// What the services do differently: chapter 5.1.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
-        min_dlc: 8,
+        // U-37.
+        min_dlc: 4,
         // The list of abort codes has one for both (C-X-17).
         length: LengthRule {
             too_long: Some(AbortCode::Length),
@@ -127,8 +128,9 @@ pub static PROFILE: Profile = Profile {
         bus_passive: None,
         bus_off: 0x11,
         bus_recovered: None,
+        // U-38.
         overrun: Some(Notice {
-            code: 0x8110,
+            code: 0x1000,
             register: 0x11,
         }),
         reset: ErrorReset::EachError,

@@ -103,27 +103,43 @@ impl Bus {
         }
     }
 
+    /// Power comes for the first time. Time on a bench begins when its devices boot up, so at the
+    /// origin of time this is the moment of the boot-up; later, the initialisation takes the time
+    /// that it takes after every power-on.
+    pub fn start(&mut self, device: usize) {
+        self.set_power(device, true);
+        if self.now == Instant::ZERO {
+            for channel in self.behind_connector(device) {
+                self.with(channel, VirtualDevice::boot_at_once);
+            }
+        }
+    }
+
     /// Power comes or goes. The channels of one device have one connector, so all of them get
     /// it or lose it.
     pub fn set_power(&mut self, device: usize, on: bool) {
-        let Some(one) = self.devices.get(device) else {
-            return;
-        };
-        let mut all = if one.channels() > 1 {
-            self.wiring.beside(device)
-        } else {
-            Vec::new()
-        };
-        all.retain(|other| self.devices[*other].channels() > 1);
-        all.push(device);
-        all.sort_unstable();
         let act = match on {
             true => VirtualDevice::power_on,
             false => VirtualDevice::power_off,
         };
-        for channel in all {
+        for channel in self.behind_connector(device) {
             self.with(channel, act);
         }
+    }
+
+    /// Returns the channels that share the connector of a device, itself included.
+    fn behind_connector(&self, device: usize) -> Vec<usize> {
+        let Some(one) = self.devices.get(device) else {
+            return Vec::new();
+        };
+        let mut all = match one.channels() {
+            0 | 1 => Vec::new(),
+            _ => self.wiring.beside(device),
+        };
+        all.retain(|other| self.devices[*other].channels() > 1);
+        all.push(device);
+        all.sort_unstable();
+        all
     }
 
     /// The devices on the shaft of this one follow it.

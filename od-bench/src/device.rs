@@ -255,6 +255,13 @@ impl VirtualDevice {
         self.take_events();
     }
 
+    /// Boots up now, where the initialisation after power-on takes its time.
+    pub(super) fn boot_at_once(&mut self, now: Instant) {
+        let (node, mut device) = self.parts();
+        node.boot_at_once(&mut device, now);
+        self.take_events();
+    }
+
     /// Power goes. Time goes on, and the shaft with it.
     pub fn power_off(&mut self, now: Instant) {
         if let Behaviour::Encoder(encoder) = &mut self.behaviour {

@@ -153,7 +153,7 @@ pub enum CommunicationReset {
 /// Network management (CiA 301, chapter 7.2.8).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct NmtProfile {
-    /// Duration of NMT reset node until boot-up, in microseconds.
+    /// Time from power-on, and from NMT reset node, until the boot-up message, in microseconds.
     pub reset_node_us: u32,
     /// Duration of NMT reset communication until boot-up, in microseconds.
     pub reset_communication_us: u32,

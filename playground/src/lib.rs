@@ -359,7 +359,8 @@ impl Bus {
                 others => self.bus.add(device.with_serial_number(others as u32 + 1)),
             },
         };
-        self.set_power(number, true);
+        self.bus.start(number);
+        self.collect();
         number
     }
 
@@ -381,7 +382,8 @@ impl Bus {
                 .and_then(VirtualDevice::bit_rate);
             device.set_up_for(rate);
             let number = self.bus.add_beside(device, first);
-            self.set_power(number, true);
+            self.bus.start(number);
+            self.collect();
         }
     }
 

@@ -189,7 +189,8 @@ impl Runner<'_> {
         self.bench.current = first.unwrap_or_default();
         if !wanted.off {
             let before = self.pending.len();
-            self.act(&Deed::Power(true))?;
+            self.bench.bus.start(self.bench.current);
+            self.collect();
             self.greetings.extend(self.pending.iter().skip(before));
         }
         Ok(())

@@ -52,7 +52,7 @@ impl Live {
                 Some(other) => bus.add_beside(device, other),
                 None => bus.add(device),
             };
-            bus.with(number, VirtualDevice::power_on);
+            bus.start(number);
         }
         let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         let mut live = Self {

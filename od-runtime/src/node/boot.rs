@@ -48,6 +48,18 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         Ok(())
     }
 
+    /// Ends an initialisation that takes its time ([`NmtProfile::reset_node_us`]), at once: for a
+    /// host whose clock starts when the node boots up, and not when power came.
+    ///
+    /// [`NmtProfile::reset_node_us`]: crate::NmtProfile::reset_node_us
+    pub fn boot_at_once(&mut self, device: &mut Lent<'_>, now: Instant) {
+        if let Some((node, mut objects)) = self.open(device, now)
+            && node.boot_at.is_some()
+        {
+            node.boot_up(&mut objects);
+        }
+    }
+
     /// Power goes: silence until [`power_on`](Self::power_on).
     pub fn power_off(&mut self) {
         self.outbox.saving = None;
@@ -67,9 +79,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     pub(super) fn reset(&mut self, objects: &mut Objects<'_>, reset: Reset) {
         let nmt = &objects.profile.nmt;
         let delay = match reset {
-            Reset::Node => nmt.reset_node_us,
+            Reset::PowerOn | Reset::Node => nmt.reset_node_us,
             Reset::Communication => nmt.reset_communication_us,
-            Reset::PowerOn | Reset::Defaults => 0,
+            Reset::Defaults => 0,
         };
         // NMT reset node may begin the NMT state alone again.
         let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
