@@ -269,12 +269,11 @@ impl Bus {
         true
     }
 
-    /// The next deadline of any device.
+    /// The next deadline of any device, or of a controller that recovers from bus-off.
     pub fn next_deadline(&self) -> Option<Instant> {
-        self.devices
-            .iter()
-            .filter_map(VirtualDevice::poll_timeout)
-            .min()
+        let devices = self.devices.iter().filter_map(VirtualDevice::poll_timeout);
+        let controller = self.line.next_recovery().map(|(at, _)| at);
+        devices.chain(controller).min()
     }
 
     /// The next frame that a device sent, oldest first.
@@ -287,6 +286,14 @@ impl Bus {
         let due = (0..self.devices.len())
             .filter_map(|device| Some((self.devices[device].poll_timeout()?, device)))
             .min();
+        if let Some((at, device)) = self.line.next_recovery()
+            && at <= to
+            && due.is_none_or(|(first, _)| at < first)
+        {
+            self.now = self.now.max(at);
+            self.recover(device);
+            return true;
+        }
         let Some((at, device)) = due.filter(|(at, _)| *at <= to) else {
             self.now = self.now.max(to);
             return false;
@@ -303,6 +310,20 @@ impl Bus {
         }
         self.now = self.now.plus_micros(1);
         self.now <= to
+    }
+
+    /// The bus has been recessive for long enough: a device that restarts its controller after
+    /// bus-off is back; one that does not stays off.
+    fn recover(&mut self, device: usize) {
+        let begins = self.devices.get_mut(device).is_some_and(|one| {
+            one.handle_bus(BusEvent::Active, self.now);
+            !one.is_bus_off()
+        });
+        self.line.recover(device, begins);
+        if begins {
+            self.settle(device);
+            self.tell_controllers();
+        }
     }
 
     /// Takes what a device sends and hands it to the others, whose answers in turn …

@@ -270,6 +270,11 @@ impl VirtualDevice {
         self.node.power_off();
     }
 
+    /// Has its CAN controller left the bus, with the node still off?
+    pub(super) fn is_bus_off(&self) -> bool {
+        self.node.is_bus_off()
+    }
+
     /// Is there power?
     pub fn is_powered(&self) -> bool {
         self.node.is_powered()

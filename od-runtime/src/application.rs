@@ -156,6 +156,12 @@ pub trait Application {
         let _ = (cx, address);
     }
 
+    /// A save takes the values of the store: `begins` before it, else after it. A value that
+    /// the store shows in place of the one to keep steps aside between the two calls.
+    fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
+        let _ = (cx, begins);
+    }
+
     /// What storage holds was looked at, before a [`reset`](Self::reset): it is sound or damaged;
     /// or it is sound again, as a save or restore made it. [`tick`](Self::tick) follows.
     fn storage_is(&mut self, sound: bool) {

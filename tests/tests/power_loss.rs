@@ -50,7 +50,7 @@ impl Bench {
         let device = VirtualDevice::new(kind, NodeId::ONE).with_storage(Box::new(eeprom.clone()));
         let mut bus = Bus::new();
         bus.add(device);
-        bus.with(0, VirtualDevice::power_on);
+        bus.start(0);
         let mut bench = Self { kind, bus };
         bench.wait(300);
         (bench, eeprom)

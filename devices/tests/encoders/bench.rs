@@ -6,7 +6,7 @@ use odkit::DeviceKind;
 use odkit::encoder::{Angle, Encoder, Motion};
 use odkit::nmt::State;
 use odkit::storage::{Memory, image};
-use odkit::{CanId, Frame, Instant, Lent, Node, NodeId};
+use odkit::{CanId, Event, Frame, Instant, Lent, Node, NodeId};
 
 pub(crate) const SAVE: u32 = u32::from_le_bytes(*b"save");
 /// U-05.
@@ -94,7 +94,10 @@ impl<M: Motion> Bench<M> {
 
     pub(crate) fn power_on(&mut self) {
         self.storage.restore_power();
-        self.with(|node, device, now| node.power_on(device, now).unwrap());
+        self.with(|node, device, now| {
+            node.power_on(device, now).unwrap();
+            node.boot_at_once(device, now);
+        });
         self.listen();
     }
 
@@ -120,6 +123,11 @@ impl<M: Motion> Bench<M> {
     pub(crate) fn nmt(&mut self, command: u8) {
         self.send(0, &[command, 0]);
         self.wait(1000);
+    }
+
+    /// What the node told its host since the last call.
+    pub(crate) fn events(&mut self) -> Vec<Event> {
+        std::iter::from_fn(|| self.node.poll_event()).collect()
     }
 
     pub(crate) fn state(&self) -> State {

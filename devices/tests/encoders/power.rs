@@ -1,8 +1,9 @@
 //! Time and starts: manual 001 objects 2120h and 6508h, manual 003 chapter 5.1.12.
 
+use odkit::Event;
 use odkit::encoder::Switches;
 
-use crate::bench::Bench;
+use crate::bench::{Bench, SAVE};
 
 #[test]
 fn eam_stamps_time_and_counts_no_hours() {
@@ -81,4 +82,28 @@ fn eam_has_no_switches() {
     bench.power_cycle(1, 0);
     assert_eq!(bench.read(0x2101, 0), 1);
     assert_eq!(bench.encoder.bit_rate(), Some(50));
+}
+
+/// U-40: the node tells its host that an NMT reset interrupted a save, and what it loaded.
+#[test]
+fn a_save_that_a_reset_interrupts_is_told() {
+    for command in [0x81, 0x82] {
+        let mut bench = Bench::new("en580c");
+        bench.write(0x2300, 1, 11).unwrap();
+        bench.write(0x1010, 1, SAVE).unwrap();
+        bench.wait(1_000);
+        bench.write(0x1010, 1, SAVE).unwrap();
+        bench.events();
+        bench.nmt(command);
+        let cuts = |events: Vec<Event>| {
+            let is_cut = |event: &Event| matches!(event, Event::SaveCut { .. });
+            events.into_iter().filter(is_cut).collect::<Vec<_>>()
+        };
+        assert_eq!(cuts(bench.events()), [Event::SaveCut { factory: true }]);
+        // A save that is complete is none.
+        bench.write(0x1010, 1, SAVE).unwrap();
+        bench.wait(1_000);
+        bench.nmt(command);
+        assert_eq!(cuts(bench.events()), []);
+    }
 }

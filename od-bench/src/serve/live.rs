@@ -67,7 +67,7 @@ impl Live {
         };
         // Nobody listens yet; a master that comes later asks for the state.
         while live.bench.bus.poll().is_some() {}
-        live.events(|event| *event == Event::StorageDamaged);
+        live.events(|event| matches!(event, Event::StorageDamaged | Event::SaveCut { .. }));
         live
     }
 
@@ -327,8 +327,14 @@ fn words(event: Event) -> Option<String> {
         Event::Saved(_) => "parameters saved".into(),
         Event::Restored(_) => "defaults restored".into(),
         Event::StorageDamaged => {
-            "the EEPROM is damaged, of another version, or a save was cut; defaults were taken"
+            "the EEPROM is damaged or of another version; the device loaded defaults or an older set"
                 .into()
+        }
+        Event::SaveCut { factory: true } => {
+            "a save was interrupted; the device loaded its factory values".into()
+        }
+        Event::SaveCut { factory: false } => {
+            "a save was interrupted; the values saved before it remain".into()
         }
         Event::BusOff { .. } => "bus-off".into(),
         Event::BusOn => "back from bus-off".into(),

@@ -20,6 +20,8 @@ const BUS_OFF: u16 = 256;
 /// Attempts after which a frame that nobody acknowledges is given up: the transmit counter
 /// stands at [`PASSIVE`] then, and would stand there for ever.
 const ATTEMPTS: u16 = 16;
+/// Bits that a controller waits after bus-off: 128 times 11 recessive ones (ISO 11898-1).
+const RECOVERY: u64 = 128 * 11;
 /// So many disturbances are kept for whoever asks.
 const KEPT: usize = 1000;
 
@@ -52,6 +54,8 @@ pub struct Controller {
     pub transmit: u16,
     /// Receive error counter.
     pub receive: u16,
+    /// Bus-off: when the bus allows it to begin anew.
+    recovers: Option<Instant>,
 }
 
 impl Controller {
@@ -176,6 +180,25 @@ impl Line {
         self.controllers.get(station).copied().unwrap_or_default()
     }
 
+    /// Returns the device, counted from 0, whose controller may begin anew next after bus-off,
+    /// and when.
+    pub(super) fn next_recovery(&self) -> Option<(Instant, usize)> {
+        let devices = self.controllers.iter().skip(1).enumerate();
+        devices
+            .filter_map(|(device, controller)| Some((controller.recovers?, device)))
+            .min()
+    }
+
+    /// The device has decided whether it begins anew.
+    pub(super) fn recover(&mut self, device: usize, begins: bool) {
+        if let Some(controller) = self.controllers.get_mut(device + 1) {
+            controller.recovers = None;
+            if begins {
+                *controller = Controller::default();
+            }
+        }
+    }
+
     /// Starts a controller afresh, as a power-on does.
     pub fn restart(&mut self, station: usize) {
         if let Some(controller) = self.controllers.get_mut(station) {
@@ -289,6 +312,11 @@ impl Line {
             let is = self.controllers[station].event();
             if is != was {
                 self.events.push_back((station, is));
+                if is == BusEvent::Off {
+                    let rate = stations[station].rate.unwrap_or(500).max(1);
+                    let micros = (RECOVERY * 1000).div_ceil(rate.into());
+                    self.controllers[station].recovers = Some(at.plus_micros(micros));
+                }
             }
         }
         delivered

@@ -4,6 +4,7 @@ use od_model::typed::{Ro, Scalar, Var};
 use od_model::{Address, Entry, Kind};
 
 use super::angle::Angle;
+use super::configure::STEPS;
 use super::faults::{self, Faults};
 use super::motion::Motion;
 use super::object::Role;
@@ -30,6 +31,8 @@ impl<M: Motion> Application for Encoder<M> {
         self.position = position_handle(cx.store);
         self.live = live_bits(self.profile);
         self.agree_on_links(cx.store);
+        // What 6001h is without the gear was loaded.
+        self.output = None;
         self.configure(cx.store);
         if starts {
             self.shaft.start(cx.now, self.profile.counter, self.sensor);
@@ -132,6 +135,15 @@ impl<M: Motion> Application for Encoder<M> {
             }
             _ if first == EVENT_TIMER => self.event_timer_to_timer(cx),
             _ => self.take_injection(cx, address),
+        }
+    }
+
+    fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
+        if self.output.is_some() {
+            cx.store.set_unsigned(STEPS, self.own_steps);
+            if !begins {
+                self.configure(cx.store);
+            }
         }
     }
 

@@ -11,6 +11,7 @@ use super::state::Encoder;
 use crate::store::Store;
 use od_wire::AbortCode;
 
+pub(super) const STEPS: Address = Address::new(0x6001, 0);
 pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 
 /// Bits of 6000h.
@@ -101,12 +102,19 @@ impl<M: Motion> Encoder<M> {
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
         let output = self.output_gear(store);
+        match (self.output, output) {
+            (None, Some(_)) => self.own_steps = store.unsigned(STEPS.index, STEPS.sub),
+            (Some(_), None) => {
+                store.set_unsigned(STEPS, self.own_steps);
+            }
+            _ => {}
+        }
         self.output = output;
         if let Some((numerator, denominator)) = output {
             let steps = range.saturating_mul(denominator) / numerator.max(1);
             // The object takes nothing less than 1.
             let steps = steps.clamp(1, u32::MAX.into());
-            store.set_unsigned(Address::new(0x6001, 0), steps);
+            store.set_unsigned(STEPS, steps);
         }
         let steps = self.resolution(store);
         if self.profile.total == Total::Shown {

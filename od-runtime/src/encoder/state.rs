@@ -42,6 +42,8 @@ pub struct Encoder<M> {
     pub(super) gear: Option<(u64, u64)>,
     /// The same of the gear that acts at once, as it acts.
     pub(super) output: Option<(u64, u64)>,
+    /// 6001h as it was when `output` was engaged; the object shows what the gear makes of it.
+    pub(super) own_steps: u64,
     /// Which objects are live, see `application`.
     pub(super) live: u64,
     /// The last angle that the sensor told.
@@ -84,6 +86,7 @@ impl<M: Motion> Encoder<M> {
             gain: Gain::steps(0),
             gear: None,
             output: None,
+            own_steps: 0,
             position: None,
             live: 0,
             angle: Angle::ZERO,

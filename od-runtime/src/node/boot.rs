@@ -8,7 +8,7 @@ use crate::application::Reset;
 use crate::device::Device;
 use crate::lent::Lent;
 use crate::objects::Objects;
-use crate::profile::{CommunicationReset, LssProfile};
+use crate::profile::{CommunicationReset, CutSave, LssProfile};
 use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
@@ -104,8 +104,12 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             // Nothing of the device is reset, and a save goes on.
             self.forget_bus_errors(objects);
         } else {
-            // A save that was not complete will not be.
-            objects.outbox.saving = None;
+            // A save that was not complete will not be; where that leaves the factory values,
+            // `load` finds out.
+            let saving = objects.outbox.saving.take();
+            if saving.is_some() && objects.profile.store.cut == CutSave::LastSet {
+                self.events.push(Event::SaveCut { factory: false });
+            }
             self.save_at = None;
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
@@ -145,13 +149,13 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             objects.store.reset(which);
             let profile = &objects.profile.store;
             let loaded = image::load(objects.storage, &mut objects.store, profile, &which);
-            if pass == 0
-                && !matches!(
-                    loaded,
-                    Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. })
-                )
-            {
-                self.events.push(Event::StorageDamaged);
+            let news = match loaded {
+                Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. }) => None,
+                Ok(Loaded::Cut) => Some(Event::SaveCut { factory: true }),
+                Ok(Loaded::Older | Loaded::Damaged) | Err(_) => Some(Event::StorageDamaged),
+            };
+            if let Some(event) = news.filter(|_| pass == 0) {
+                self.events.push(event);
             }
             // A cut save is what power does to a memory that is sound.
             let sound = !matches!(loaded, Ok(Loaded::Damaged) | Err(_));

@@ -23,9 +23,14 @@ pub enum Event {
     Restored(u8),
     /// LSS activated this bit rate; the number is the device's own (2100h).
     BitRate(u8),
-    /// What storage held was damaged, cut by power loss or written by another version, and
-    /// defaults were taken; or a save in the background failed.
+    /// The stored values are damaged or of another version, and the node loaded defaults or an
+    /// older set; or a save in the background failed.
     StorageDamaged,
+    /// Power loss or an NMT reset interrupted a save.
+    SaveCut {
+        /// The node loaded the factory values; else the values that were saved before it.
+        factory: bool,
+    },
     /// The CAN controller is bus-off; the node comes back by itself or not.
     BusOff {
         /// It begins anew as soon as the bus allows it.

@@ -184,8 +184,10 @@ impl<'c> Objects<'c> {
     fn save(&mut self, sub: u8) -> Result<(), AbortCode> {
         let profile = &self.profile.store;
         self.refresh_life_record();
-        let pending =
-            image::begin(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
+        self.application(|application, context| application.saving(context, true));
+        let pending = image::begin(self.storage, &self.store, profile, sub);
+        self.application(|application, context| application.saving(context, false));
+        let pending = pending.map_err(|_| profile.failed)?;
         self.outbox.saving = Some(Saving {
             pending,
             sub,

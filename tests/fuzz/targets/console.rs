@@ -29,7 +29,7 @@ fn run(input: &[u8]) {
     let mut bus = Bus::new();
     for number in [0, bench::number_of("eam_mt")] {
         let device = bus.add(bench::device(number));
-        bus.with(device, VirtualDevice::power_on);
+        bus.start(device);
     }
     let mut bench = Bench::new(bus);
     let mut console = Console::default();

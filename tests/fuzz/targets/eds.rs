@@ -101,7 +101,7 @@ fn run(input: &[u8]) {
     };
     let mut bus = Bus::new();
     let number = bus.add(device);
-    bus.with(number, VirtualDevice::power_on);
+    bus.start(number);
     let node = bus.devices()[0].node_id().raw();
     bus.receive(&Frame::standard(0, &[1, node]));
     let entries: Vec<_> = bus.devices()[0]

@@ -47,7 +47,7 @@ impl Storage for Shared {
 fn start(number: usize, memory: &Shared) -> Bus {
     let mut bus = Bus::new();
     bus.add(bench::device(number).with_storage(Box::new(memory.clone())));
-    bus.with(0, VirtualDevice::power_on);
+    bus.start(0);
     bus.advance(bus.now().plus_millis(2000));
     bus
 }

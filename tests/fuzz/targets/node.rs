@@ -39,7 +39,7 @@ fn run(input: &[u8]) {
     let faults: Vec<&str> = device.faults();
     let mut bus = Bus::new();
     bus.add(device);
-    bus.with(0, VirtualDevice::power_on);
+    bus.start(0);
     for step in steps {
         let step = step.try_into().expect("chunks are that long");
         let node = bus.devices()[0].node_id().raw();
@@ -55,7 +55,7 @@ fn run(input: &[u8]) {
             Act::Power(micros) => {
                 bus.with(0, VirtualDevice::power_off);
                 pass(&mut bus, micros);
-                bus.with(0, VirtualDevice::power_on);
+                bus.set_power(0, true);
             }
             Act::Position(raw) => drop(bus.with(0, |device, now| device.set_position(raw, now))),
             Act::Rpm(rpm) => drop(bus.with(0, |device, now| device.set_rpm(rpm, now))),
@@ -131,7 +131,7 @@ fn recovers(bus: &mut Bus, faults: &[&str]) {
         device.set_bitrate_switch(0, now);
     });
     pass(bus, 60_000_000);
-    bus.with(0, VirtualDevice::power_on);
+    bus.start(0);
     let from = bus.now();
     bus.advance(from.plus_millis(5000));
     let node = u16::from(bus.devices()[0].node_id().raw());

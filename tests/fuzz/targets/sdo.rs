@@ -100,7 +100,7 @@ impl Model {
         let entries = device.dictionary().entries().to_vec();
         let mut bus = Bus::new();
         bus.add(device);
-        bus.with(0, VirtualDevice::power_on);
+        bus.start(0);
         let min_dlc = od_devices::DEVICES
             .get(number)
             .map_or(8, |kind| kind.profile.sdo.min_dlc);

@@ -77,7 +77,10 @@ fn nmt(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         0 => "at once".to_owned(),
         micros => format!("boot-up after {} ms", micros / 1000),
     };
-    facts.push(fact("Power-on and NMT reset node", millis(nmt.reset_node_us)));
+    facts.push(fact(
+        "Power-on and NMT reset node",
+        millis(nmt.reset_node_us),
+    ));
     let lost = match nmt.reset_communication {
         CommunicationReset::Communication => "takes back 1000h–1FFFh, node ID and bit rate",
         CommunicationReset::Everything => "takes back all that was not saved",
