@@ -6,98 +6,21 @@
 //! repeated, and a controller that errs too often goes bus-off. What happens by chance is
 //! drawn from a seed, so it happens again on the next run.
 
+mod controller;
+
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame, Instant};
 
-/// A controller warns from this count on.
-const WARNING: u16 = 97;
-/// A controller is error passive from this count on.
-const PASSIVE: u16 = 128;
-/// A controller is bus-off from this count of transmit errors on.
-const BUS_OFF: u16 = 256;
+use self::controller::PASSIVE;
+pub use self::controller::{Condition, Controller};
+
 /// Attempts after which a frame that nobody acknowledges is given up: the transmit counter
 /// stands at [`PASSIVE`] then, and would stand there for ever.
 const ATTEMPTS: u16 = 16;
-/// Bits that a controller waits after bus-off: 128 times 11 recessive ones (ISO 11898-1).
-const RECOVERY: u64 = 128 * 11;
 /// So many disturbances are kept for whoever asks.
 const KEPT: usize = 1000;
-
-/// What a controller may still do.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Condition {
-    /// Everything.
-    ErrorActive,
-    /// It no longer destroys the frames of others.
-    ErrorPassive,
-    /// Nothing, until it is started again.
-    BusOff,
-}
-
-impl Condition {
-    /// `error active`, `error passive`, `bus-off`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::ErrorActive => "error active",
-            Self::ErrorPassive => "error passive",
-            Self::BusOff => "bus-off",
-        }
-    }
-}
-
-/// The error counters of one CAN controller (ISO 11898-1).
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Controller {
-    /// Transmit error counter.
-    pub transmit: u16,
-    /// Receive error counter.
-    pub receive: u16,
-    /// Bus-off: when the bus allows it to begin anew.
-    recovers: Option<Instant>,
-}
-
-impl Controller {
-    /// What it may still do.
-    pub const fn condition(self) -> Condition {
-        if self.transmit >= BUS_OFF {
-            Condition::BusOff
-        } else if self.transmit >= PASSIVE || self.receive >= PASSIVE {
-            Condition::ErrorPassive
-        } else {
-            Condition::ErrorActive
-        }
-    }
-
-    /// What it tells its device of its state.
-    const fn event(self) -> BusEvent {
-        match self.condition() {
-            Condition::BusOff => BusEvent::Off,
-            Condition::ErrorPassive => BusEvent::Passive,
-            Condition::ErrorActive if self.transmit >= WARNING || self.receive >= WARNING => {
-                BusEvent::Warning
-            }
-            Condition::ErrorActive => BusEvent::Active,
-        }
-    }
-
-    fn erred_sending(&mut self) {
-        self.transmit = (self.transmit + 8).min(BUS_OFF);
-    }
-
-    fn erred_receiving(&mut self, by: u16) {
-        self.receive = (self.receive + by).min(PASSIVE);
-    }
-
-    fn sent(&mut self) {
-        self.transmit = self.transmit.saturating_sub(1);
-    }
-
-    fn received(&mut self) {
-        self.receive = self.receive.min(PASSIVE).saturating_sub(1);
-    }
-}
 
 /// One participant of the bus at one moment.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -313,9 +236,7 @@ impl Line {
             if is != was {
                 self.events.push_back((station, is));
                 if is == BusEvent::Off {
-                    let rate = stations[station].rate.unwrap_or(500).max(1);
-                    let micros = (RECOVERY * 1000).div_ceil(rate.into());
-                    self.controllers[station].recovers = Some(at.plus_micros(micros));
+                    self.controllers[station].waits(at, stations[station].rate);
                 }
             }
         }

@@ -95,5 +95,5 @@ fn an_error_of_the_transmitter_counts_8_and_a_frame_that_came_through_1() {
     assert_eq!(controller.condition(), Condition::ErrorPassive, "255");
     controller.erred_sending();
     assert_eq!(controller.condition(), Condition::BusOff, "256 at the most");
-    assert_eq!(controller.transmit, BUS_OFF);
+    assert_eq!(controller.transmit, 256);
 }

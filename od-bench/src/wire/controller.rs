@@ -1,0 +1,93 @@
+//! The error counters of one CAN controller, and what it may do with them (ISO 11898-1).
+
+use od_runtime::{BusEvent, Instant};
+
+/// A controller warns from this count on.
+const WARNING: u16 = 97;
+/// A controller is error passive from this count on.
+pub(super) const PASSIVE: u16 = 128;
+/// A controller is bus-off from this count of transmit errors on.
+const BUS_OFF: u16 = 256;
+/// Bits that a controller waits after bus-off: 128 times 11 recessive ones (ISO 11898-1).
+const RECOVERY: u64 = 128 * 11;
+
+/// What a controller may still do.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Condition {
+    /// Everything.
+    ErrorActive,
+    /// It no longer destroys the frames of others.
+    ErrorPassive,
+    /// Nothing, until it is started again.
+    BusOff,
+}
+
+impl Condition {
+    /// `error active`, `error passive`, `bus-off`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ErrorActive => "error active",
+            Self::ErrorPassive => "error passive",
+            Self::BusOff => "bus-off",
+        }
+    }
+}
+
+/// The error counters of one CAN controller (ISO 11898-1).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Controller {
+    /// Transmit error counter.
+    pub transmit: u16,
+    /// Receive error counter.
+    pub receive: u16,
+    /// Bus-off: when the bus allows it to begin anew.
+    pub(super) recovers: Option<Instant>,
+}
+
+impl Controller {
+    /// What it may still do.
+    pub const fn condition(self) -> Condition {
+        if self.transmit >= BUS_OFF {
+            Condition::BusOff
+        } else if self.transmit >= PASSIVE || self.receive >= PASSIVE {
+            Condition::ErrorPassive
+        } else {
+            Condition::ErrorActive
+        }
+    }
+
+    /// What it tells its device of its state.
+    pub(super) const fn event(self) -> BusEvent {
+        match self.condition() {
+            Condition::BusOff => BusEvent::Off,
+            Condition::ErrorPassive => BusEvent::Passive,
+            Condition::ErrorActive if self.transmit >= WARNING || self.receive >= WARNING => {
+                BusEvent::Warning
+            }
+            Condition::ErrorActive => BusEvent::Active,
+        }
+    }
+
+    pub(super) fn erred_sending(&mut self) {
+        self.transmit = (self.transmit + 8).min(BUS_OFF);
+    }
+
+    pub(super) fn erred_receiving(&mut self, by: u16) {
+        self.receive = (self.receive + by).min(PASSIVE);
+    }
+
+    pub(super) fn sent(&mut self) {
+        self.transmit = self.transmit.saturating_sub(1);
+    }
+
+    pub(super) fn received(&mut self) {
+        self.receive = self.receive.min(PASSIVE).saturating_sub(1);
+    }
+
+    /// Bus-off at a bit rate in kbit/s: the bus has to be recessive for a while.
+    pub(super) fn waits(&mut self, since: Instant, rate: Option<u16>) {
+        let rate = rate.unwrap_or(500).max(1);
+        let micros = (RECOVERY * 1000).div_ceil(rate.into());
+        self.recovers = Some(since.plus_micros(micros));
+    }
+}
