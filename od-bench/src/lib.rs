@@ -20,6 +20,8 @@ mod leds;
 pub mod lesson;
 pub mod links;
 pub mod logs;
+pub mod pdos;
+pub mod rig;
 mod saved;
 pub mod script;
 #[cfg(feature = "serve")]
@@ -38,6 +40,6 @@ pub use bus::Bus;
 pub use device::EdsOptions;
 pub use device::VirtualDevice;
 pub use leds::Led;
-pub use saved::Saved;
+pub use saved::{Saved, is_saved};
 pub use wire::Line;
 pub use world::ShaftView;

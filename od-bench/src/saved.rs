@@ -110,11 +110,13 @@ impl VirtualDevice {
     /// Where the value of an object that is saved stands.
     fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
-        let entry = dictionary.find(address).ok()?;
-        if entry.group == od_model::Group::None || !entry.access.writable() || entry.slot.len == 0 {
-            return None;
-        }
+        let entry = dictionary.find(address).ok().filter(|one| is_saved(one))?;
         let start = entry.slot.offset as usize;
         Some(start..start + usize::from(entry.slot.len))
     }
+}
+
+/// Is the value among those that 1010h saves?
+pub fn is_saved(entry: &Entry) -> bool {
+    entry.group != od_model::Group::None && entry.access.writable() && entry.slot.len > 0
 }

@@ -73,7 +73,7 @@ test('the dictionary comes as plain records', () => {
   assert.equal(Object.getPrototypeOf(rows[0]), Object.prototype);
   assert.deepEqual(row(0x6004, 0), {
     index: 0x6004, sub: 0, name: 'Position value', parent: null, type: 'UNSIGNED32', bits: 32,
-    access: 'ro', mappable: true, default: row(0x6004, 0).default, low: row(0x6004, 0).low, high: row(0x6004, 0).high,
+    access: 'ro', mappable: true, fitsTpdo: true, fitsRpdo: false, isMapping: false, isSaved: false, default: row(0x6004, 0).default, low: row(0x6004, 0).low, high: row(0x6004, 0).high,
   });
   assert.equal(row(0x1018, 1).parent !== null && row(0x1018, 1).default, 0xec);
   assert.equal(row(0x1800, 1).default, 0x187, 'the node ID is in the defaults');

@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
-use crate::Bus;
+use crate::bus::Bus;
 
 #[wasm_bindgen]
 impl Bus {
@@ -29,7 +29,7 @@ impl Bus {
             (None, None) => return Err(JsError::new("say which device it is, or its text")),
         };
         let mut description = od_eds::load(&text).description;
-        self.bus
+        self.rig
             .with(device, |device, _| device.configure(&mut description))
             .ok_or_else(|| JsError::new("there is no device with this number"))?;
         Ok(od_eds::write(&description))

@@ -1,19 +1,12 @@
 //! Lessons on a bus: what there is to do, and how far somebody is.
 
-use od_bench::lesson::{Lesson, Problem, Progress, Quiz, Watched};
-use od_bench::script::{Bare, Bench, Host, Origin, Pattern, Script, run_on};
-use od_runtime::{Frame, Instant, NodeId};
+use od_bench::lesson::{Lesson, Problem, Quiz};
+use od_bench::script::{Bare, Pattern};
+use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
+use crate::bus::Bus;
 use crate::record::{Record, list};
-use crate::{Bus, motion, packed};
-
-/// A lesson that is taken, and the names that its set-up gave the devices.
-pub(crate) struct Taken {
-    progress: Progress,
-    /// Without its bus, which is the page's.
-    names: Bench,
-}
 
 #[wasm_bindgen]
 impl Bus {
@@ -24,32 +17,17 @@ impl Bus {
     /// What is wrong with the text, or with its set-up.
     #[wasm_bindgen(js_name = startLesson)]
     pub fn start_lesson(&mut self, text: &str) -> Result<(), JsError> {
-        let lesson = Lesson::parse(text).map_err(|all| error(all.first()))?;
-        let mut bus = od_bench::Bus::new();
-        bus.advance(self.bus.now());
-        let mut bench = lesson
-            .set_up_on(Bench::new(bus), &mut Bare(od_devices::DEVICES))
-            .map_err(|problem| error(Some(&problem)))?;
-        let progress = Progress::new(lesson, &mut bench);
-        self.bus = std::mem::take(&mut bench.bus);
-        self.clockwork = motion::Clockwork::default();
-        self.batch.clear();
-        self.taken = Some(Taken {
-            progress,
-            names: bench,
-        });
-        Ok(())
+        let started = self.rig.start_lesson(text, &mut Bare(od_devices::DEVICES));
+        started.map(|_| ()).map_err(|all| error(all.first()))
     }
 
     /// How far the lesson is; `null` where none is taken.
     #[wasm_bindgen(unchecked_return_type = "LessonState | null")]
     pub fn lesson(&mut self) -> JsValue {
-        self.look();
-        let Some(taken) = &mut self.taken else {
+        let Some((progress, bus)) = self.rig.lesson() else {
             return JsValue::NULL;
         };
-        let progress = &mut taken.progress;
-        let requirements = progress.requirements(&mut self.bus);
+        let requirements = progress.requirements(bus);
         let requirement = |one: &od_bench::lesson::Requirement| {
             Record::new()
                 .with("holds", one.holds)
@@ -69,25 +47,24 @@ impl Bus {
     /// The steps whose checkpoints were reached since the last call, counted from 0.
     #[wasm_bindgen(js_name = lessonEvents)]
     pub fn lesson_events(&mut self) -> Vec<u32> {
-        let progress = self.taken.as_mut().map(|taken| &mut taken.progress);
-        let news = |progress: &mut Progress| progress.poll().map(|step| step as u32);
-        progress.map_or(Vec::new(), |progress| {
-            std::iter::from_fn(|| news(progress)).collect()
-        })
+        let Some((progress, _)) = self.rig.lesson() else {
+            return Vec::new();
+        };
+        std::iter::from_fn(|| progress.poll().map(|step| step as u32)).collect()
     }
 
     /// Goes to a step, as if those before it had just been done; also to begin it again.
     #[wasm_bindgen(js_name = beginStep)]
     pub fn begin_step(&mut self, step: usize) {
-        if let Some(taken) = &mut self.taken {
-            taken.progress.begin(step, &self.bus);
+        if let Some((progress, bus)) = self.rig.lesson() {
+            progress.begin(step, bus);
         }
     }
 
     /// Ends the lesson; what is on the bus stays.
     #[wasm_bindgen(js_name = endLesson)]
     pub fn end_lesson(&mut self) {
-        self.taken = None;
+        self.rig.end_lesson();
     }
 
     /// Plays lines of a script, such as the solution of a step; time passes where it says so.
@@ -97,86 +74,8 @@ impl Bus {
     /// Which line cannot be read, or does not work; what the lines before it did stays done.
     #[wasm_bindgen(js_name = runScript)]
     pub fn run_script(&mut self, text: &str) -> Result<(), JsError> {
-        let script = Script::parse(text).map_err(|all| error(all.first()))?;
-        let bus = std::mem::take(&mut self.bus);
-        let mut recorder = Recorder {
-            batch: &mut self.batch,
-        };
-        let (result, bus) = match &mut self.taken {
-            Some(taken) => {
-                taken.names.bus = bus;
-                let mut watched = Watched {
-                    host: &mut recorder,
-                    progress: &mut taken.progress,
-                };
-                let result = run_on(&script, &mut taken.names, &mut watched);
-                (result, std::mem::take(&mut taken.names.bus))
-            }
-            None => {
-                let mut bench = Bench::new(bus);
-                let result = run_on(&script, &mut bench, &mut recorder);
-                (result, bench.bus)
-            }
-        };
-        self.bus = bus;
-        self.collect();
-        result
-            .map(|_| ())
-            .map_err(|stop| JsError::new(&stop.to_string()))
-    }
-}
-
-impl Bus {
-    /// A frame came through, from outside or from a device.
-    pub(crate) fn saw(&mut self, at: Instant, device: Option<usize>, frame: &Frame) {
-        if let Some(taken) = &mut self.taken {
-            let origin = device.map_or(Origin::Script, Origin::Device);
-            taken.progress.frame(at, origin, frame);
-            taken.progress.look(&mut self.bus);
-        }
-    }
-
-    /// A frame was disturbed on the wire.
-    pub(crate) fn lost(&mut self, at: Instant) {
-        if let Some(taken) = &mut self.taken {
-            taken.progress.disturbed(at);
-        }
-    }
-
-    /// Something may have changed.
-    pub(crate) fn look(&mut self) {
-        if let Some(taken) = &mut self.taken {
-            taken.progress.look(&mut self.bus);
-        }
-    }
-
-    /// Checkpoints that were reached.
-    pub(crate) fn reached(&self) -> usize {
-        let progress = self.taken.as_ref().map(|taken| &taken.progress);
-        progress.map_or(0, |progress| progress.reached().len())
-    }
-}
-
-/// Puts the frames of a script into the batch.
-struct Recorder<'a> {
-    batch: &'a mut Vec<u8>,
-}
-
-impl Host for Recorder<'_> {
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<od_bench::VirtualDevice, String> {
-        Bare(od_devices::DEVICES).device(name, node_id)
-    }
-
-    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
-        let device = match origin {
-            Origin::Script => None,
-            Origin::Device(device) => Some(device),
-        };
-        packed::push(self.batch, at, device, frame);
+        let result = self.rig.run_script(text, &mut Bare(od_devices::DEVICES));
+        result.map_err(|why| JsError::new(&why))
     }
 }
 

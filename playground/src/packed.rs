@@ -14,6 +14,8 @@
 //! bit rate, 3 reflections), failed attempts, 1 if it came through in the end, 1 if its
 //! sender went bus-off, and the sender's transmit error counter in two bytes.
 
+use od_bench::rig::Seen;
+use od_bench::wire::Trouble;
 use od_runtime::{CanId, Frame, Instant};
 
 /// Bytes of a packed frame.
@@ -45,16 +47,23 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
     batch.extend_from_slice(&data);
 }
 
-/// Adds what became of a frame that was disturbed.
-pub(crate) fn push_trouble(
-    batch: &mut Vec<u8>,
-    at: Instant,
-    device: Option<usize>,
-    id: CanId,
-    what: &[u8; 6],
-) {
+/// Adds what happened on the bus line.
+pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
+    let (one, counter) = match seen {
+        Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
+        Seen::Disturbed(one, counter) => (one, counter),
+    };
+    let why = match one.trouble {
+        Trouble::NoAcknowledge => 1,
+        Trouble::OtherBitRate => 2,
+        Trouble::Reflections => 3,
+    };
+    let attempts = u8::try_from(one.attempts).unwrap_or(u8::MAX);
+    let [low, high] = counter.to_le_bytes();
+    let (delivered, bus_off) = (one.delivered.into(), one.bus_off.into());
+    let data = [why, attempts, delivered, bus_off, low, high];
     let start = batch.len();
-    push(batch, at, device, &Frame::of(id, what));
+    push(batch, one.at, one.device, &Frame::of(one.frame.id(), &data));
     if let Some(flags) = batch.get_mut(start + 12) {
         *flags |= DISTURBED;
     }

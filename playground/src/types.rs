@@ -98,8 +98,16 @@ export interface ObjectRecord {
   /** Length in bits; 0 where it varies. */
   bits: number;
   access: 'ro' | 'wo' | 'rw' | 'rwr' | 'rww' | 'const';
-  /** May stand in a PDO. */
+  /** May be mapped into a PDO. */
   mappable: boolean;
+  /** May be mapped into a TPDO, as far as access and length go. */
+  fitsTpdo: boolean;
+  /** May be mapped into an RPDO, as far as access and length go. */
+  fitsRpdo: boolean;
+  /** Belongs to a PDO mapping parameter. */
+  isMapping: boolean;
+  /** Is among what 1010h saves. */
+  isSaved: boolean;
   default: Value;
   low: Value;
   high: Value;
@@ -205,6 +213,67 @@ export interface Field {
   value: string;
   /** The object that it is about, as `index * 256 + sub`. */
   object: number | null;
+}
+
+/** A transfer of `Bus.transfer` that is over. */
+export interface Outcome {
+  job: number;
+  kind: 'done' | 'aborted' | 'silent' | 'failed';
+  /** The value that was read; empty after a write, null where there is none. */
+  bytes: Uint8Array | null;
+  /** Why it failed; empty if nobody answered. */
+  words: string;
+  /** The abort may come from a mapping that changes while its PDO is valid. */
+  wantsPdoOff: boolean;
+}
+
+export interface Mapped {
+  index: number;
+  sub: number;
+  bits: number;
+}
+
+/** A PDO as it is now. */
+export interface Pdo {
+  /** Index of its mapping parameter. */
+  mapping: number;
+  /** Index of its communication parameter. */
+  parameter: number;
+  transmits: boolean;
+  /** Counted from 1. */
+  number: number;
+  /** Value of its COB-ID object, and what it says; null without power. */
+  cobId: { raw: number; id: number; valid: boolean } | null;
+  /** Mapping entries that fit. */
+  room: number;
+  /** The mapping cannot be written. */
+  isFixed: boolean;
+  entries: Mapped[];
+}
+
+/** An SDO download, and its frame. */
+export interface MappingStep {
+  part: 'disable PDO' | 'disable mapping' | 'entry' | 'enable mapping' | 'enable PDO';
+  index: number;
+  sub: number;
+  bytes: Uint8Array;
+  id: number;
+  data: Uint8Array;
+  words: string;
+}
+
+/** From the raw position to the position value; null where it cannot be read. */
+export interface Chain {
+  reversed: boolean | null;
+  /** Measuring units per revolution; null without scaling. */
+  perTurn: number | null;
+  position: number | null;
+}
+
+export interface FrameTemplate {
+  name: string;
+  /** Packed. */
+  frame: Uint8Array;
 }
 
 /** A frame that was typed, or what is wrong with it and where. Data of a remote frame: its length. */

@@ -1,5 +1,6 @@
 //! Values and dictionary rows as plain records.
 
+use od_bench::pdos;
 use od_model::typed::Scalar;
 use od_model::{DataType, Dictionary, Entry, Kind, Literal};
 use wasm_bindgen::JsValue;
@@ -47,7 +48,9 @@ pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue
         } else {
             JsValue::NULL
         };
+        let mapping = pdos::of_mapping(object.index).is_some();
         for entry in dictionary.members(object) {
+            let (tpdo, rpdo) = pdos::fits(entry);
             let number = |value| literal(dictionary, entry, value, node_id);
             let row = Record::new()
                 .with("index", entry.address.index)
@@ -58,6 +61,10 @@ pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue
                 .with("bits", entry.data_type.bits().unwrap_or(0))
                 .with("access", entry.access.name())
                 .with("mappable", entry.mappable)
+                .with("fitsTpdo", tpdo)
+                .with("fitsRpdo", rpdo)
+                .with("isMapping", mapping)
+                .with("isSaved", od_bench::is_saved(entry))
                 .with("default", number(entry.default))
                 .with("low", number(entry.low))
                 .with("high", number(entry.high));

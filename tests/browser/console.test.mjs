@@ -182,7 +182,7 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
 });
 
 check('frames that are hard to remember are offered', {}, async (page) => {
-  await page.getByRole('combobox', { name: 'Frames to begin with' }).selectOption({ label: 'Node guarding: ask for the state' });
+  await page.getByRole('combobox', { name: 'Frames to begin with' }).selectOption({ label: 'Node guarding: request the state' });
   const line = page.getByRole('textbox', { name: 'Frame', exact: true });
   await becomes('the send line', () => line.inputValue(), '701#R1');
   await line.press('Enter');

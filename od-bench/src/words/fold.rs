@@ -1,11 +1,12 @@
 //! SDO transfers of several frames as one (CiA 301, chapter 7.2.4).
 
-use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_model::Address;
 use od_wire::Frame;
 use od_wire::sdo::{Request, Response};
+
+use super::sorted::Sorted;
 
 /// A segmented or block transfer, as far as its frames have been seen.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -64,9 +65,9 @@ const MOST: usize = 1 << 20;
 /// Puts the frames of each transfer together.
 #[derive(Debug, Default)]
 pub struct Folder {
-    open: BTreeMap<u8, Open>,
+    open: Sorted<u8, Open>,
     /// By the number of the first frame.
-    folds: BTreeMap<u32, Fold>,
+    folds: Sorted<u32, Fold>,
 }
 
 impl Folder {
@@ -77,13 +78,13 @@ impl Folder {
 
     /// Forgets transfers whose first frame has a lower number.
     pub fn forget_before(&mut self, number: u32) {
-        self.folds = self.folds.split_off(&number);
-        self.open.retain(|_, open| open.first >= number);
+        self.folds.forget_before(number);
+        self.open.retain(|open| open.first >= number);
     }
 
     /// The transfer that starts with this frame, if it has several frames.
     pub fn fold(&self, first: u32) -> Option<&Fold> {
-        self.folds.get(&first).filter(|fold| fold.frames.len() > 1)
+        self.folds.get(first).filter(|fold| fold.frames.len() > 1)
     }
 
     /// Takes the next frame. Returns the number of the first frame of the transfer that it
@@ -99,17 +100,17 @@ impl Folder {
         if !is_answer && self.begin(frame, number, node) {
             return None;
         }
-        let open = self.open.get_mut(&node)?;
+        let open = self.open.get_mut(node)?;
         let first = open.first;
         let is_request = matches!(open.phase, Phase::Request { .. });
         if is_request && !is_answer {
             return None;
         }
-        let fold = self.folds.get_mut(&first)?;
+        let fold = self.folds.get_mut(first)?;
         if frame.bytes()[0] == 0x80 {
-            self.open.remove(&node);
+            self.open.remove(node);
             if is_request {
-                self.folds.remove(&first);
+                self.folds.remove(first);
                 return None;
             }
             fold.state = State::Aborted;
@@ -121,12 +122,12 @@ impl Folder {
             false => request(open, fold, frame),
         };
         if !belongs {
-            self.open.remove(&node);
-            self.folds.remove(&first);
+            self.open.remove(node);
+            self.folds.remove(first);
             return None;
         }
         if fold.state != State::UnderWay {
-            self.open.remove(&node);
+            self.open.remove(node);
         }
         fold.frames.push(number);
         Some(first)
@@ -134,7 +135,7 @@ impl Folder {
 
     /// Does a request start a transfer? Segments and confirmations do not.
     fn begin(&mut self, frame: &Frame, number: u32, node: u8) -> bool {
-        let phase = self.open.get(&node).map(|open| open.phase);
+        let phase = self.open.get(node).map(|open| open.phase);
         if matches!(phase, Some(Phase::BlockDownload { .. })) {
             return false;
         }
@@ -163,7 +164,7 @@ impl Folder {
         if let Some(before) = self.open.insert(node, open)
             && matches!(before.phase, Phase::Request { .. })
         {
-            self.folds.remove(&before.first);
+            self.folds.remove(before.first);
         }
         self.folds.insert(number, fold);
         true

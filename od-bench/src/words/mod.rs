@@ -11,9 +11,9 @@ mod lss;
 mod pdo;
 mod said;
 mod sdo;
+mod sorted;
 mod tag;
 
-use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_runtime::Frame;
@@ -26,6 +26,7 @@ pub(crate) use said::plural;
 pub use said::{Service, Words};
 pub use tag::{TAGS, Tag, tag};
 
+use self::sorted::Sorted;
 use crate::device::VirtualDevice;
 
 /// A frame in words, taken by itself.
@@ -36,7 +37,7 @@ pub fn explain(devices: &[VirtualDevice], frame: &Frame) -> Words {
 /// Frames in words, one after the other.
 #[derive(Clone, Debug, Default)]
 pub struct Decoder {
-    transfers: BTreeMap<u8, sdo::Transfer>,
+    transfers: Sorted<u8, sdo::Transfer>,
 }
 
 impl Decoder {
@@ -59,7 +60,7 @@ impl Decoder {
             0x181..=0x57F => pdo::by_identifier(id, frame),
             0x581..=0x5FF | 0x601..=0x67F => {
                 let device = devices.iter().find(|device| device.node_id().raw() == node);
-                let transfer = self.transfers.entry(node).or_default();
+                let transfer = self.transfers.get_or_default(node);
                 sdo::explain(transfer, device, id < 0x600, node, frame)
             }
             0x701..=0x77F => control::error_control(node, frame),

@@ -14,9 +14,10 @@ use od_wire::AbortCode;
 pub(super) const STEPS: Address = Address::new(0x6001, 0);
 pub(super) const OFFSET: Address = Address::new(0x6509, 0);
 
-/// Bits of 6000h.
-const REVERSED: u64 = 1 << 0;
-const SCALING: u64 = 1 << 2;
+/// Bit 0 of 6000h: the position value increases counter-clockwise.
+pub const REVERSED: u64 = 1 << 0;
+/// Bit 2 of 6000h: 6001h and 6002h scale the position value.
+pub const SCALING: u64 = 1 << 2;
 
 /// Objects of a gear, as they are or with a new value in one of them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

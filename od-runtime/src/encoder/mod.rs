@@ -20,6 +20,7 @@ mod state;
 mod timer;
 
 pub use angle::Angle;
+pub use configure::{REVERSED, SCALING};
 pub use fault::{Appears, Fault, Report, Until};
 pub use motion::{Gain, Motion};
 pub use object::{Mirror, Movement, Quantity, Role, Source};

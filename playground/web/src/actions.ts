@@ -1,8 +1,8 @@
 // Everything a person can do, in one place.
 
 import type { Input, Source } from './sim/api';
-import type { Typed } from './codec';
-import { act, add, dropFrames, readLog, restore, select, send, writeLog } from './sim/link';
+import { readLine, type Typed } from './codec';
+import { act, add, dropFrames, restore, select, send, use } from './sim/link';
 import * as state from './state';
 import { T } from './texts';
 
@@ -11,10 +11,13 @@ export function sendFrame(frame: Typed): void {
   act({ op: 'send', id, data, extended, remote });
 }
 
-export const NMT_COMMANDS = T.nmt;
+/** What a line says, for the selected node. */
+export const readTyped = (text: string) => readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
 
-export function nmt(code: number): void {
-  act({ op: 'send', id: 0, data: new Uint8Array([code, state.nodeId.value]), extended: false, remote: false });
+/** Sends the frame that a line says, for the selected node: `nmt start`, `601#40 04 60 00`. */
+export function sendLine(line: string): void {
+  const parsed = readTyped(line);
+  if ('frame' in parsed) sendFrame(parsed.frame);
 }
 
 export function setPower(on: boolean): void {
@@ -73,8 +76,8 @@ export async function saveLog(format: string): Promise<void> {
     state.toast.value = { text: T.frames.noFrames, tone: 'info' };
     return;
   }
-  const file = await writeLog(format, ring.slice(ring.first, ring.end));
-  if (file) download(file, `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
+  const file = await use('writeLog', format, ring.slice(ring.first, ring.end));
+  if ('value' in file) download(file.value as Uint8Array<ArrayBuffer>, `odkit-${state.device.value?.name ?? 'capture'}.${format}`);
 }
 
 /** Hands a file to the person. */
@@ -92,11 +95,12 @@ let opened: Uint8Array | null = null;
 
 /** Shows a log of another tool in the console; time stands still, so that nothing mixes with it. */
 export async function openLog(name: string, bytes: Uint8Array): Promise<void> {
-  const log = await readLog(bytes);
-  if (typeof log === 'string') {
-    state.toast.value = { text: T.frames.unreadable(name, log), tone: 'error' };
+  const read = await use('readLog', bytes);
+  if ('error' in read) {
+    state.toast.value = { text: T.frames.unreadable(name, read.error), tone: 'error' };
     return;
   }
+  const log = read.value;
   setRunning(false);
   clearConsole();
   state.ring.append(log.frames);

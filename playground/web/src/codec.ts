@@ -1,8 +1,8 @@
 // The page's own instance of the WebAssembly module: what views ask at once, without the bench.
 
 import { signal } from '@preact/signals-core';
-import { decodeValue, encodeValue, initSync, readLine as read, tagNames, tags as tagsOf, typeRange, type LineResult } from './wasm/core/od_playground';
-import type { ObjectRecord, Value } from './sim/api';
+import { decodeValue, encodeValue, frameTemplates, initSync, readLine as read, tagNames, tags as tagsOf, typeRange, type LineResult } from './wasm/core/od_playground';
+import type { FrameTemplate, ObjectRecord, Value } from './sim/api';
 import { T } from './texts';
 import { grouped } from './format';
 
@@ -53,6 +53,9 @@ export function readLine(text: string, nodeId: number, find: (index: number, sub
   const result: LineResult = read(text, nodeId, { typeOf: (index, sub) => find(index, sub)?.type });
   return result.error === undefined ? { frame: result } : { error: result.error, at: result.at };
 }
+
+/** Frames to begin with, for a node. */
+export const templates = (nodeId: number): FrameTemplate[] => (isReady.value ? frameTemplates(nodeId) : []);
 
 export type Encoded = { bytes: Uint8Array; note: string } | { error: string };
 

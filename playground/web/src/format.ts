@@ -70,7 +70,7 @@ export const hexId = (id: number, extended: boolean): string =>
   id.toString(16).toUpperCase().padStart(extended ? 8 : 3, '0');
 
 /** A frame as one would type it: `601#40 04 60 00`. */
-export function typedForm(frame: Packed): string {
-  const body = frame.remote ? `R${frame.dlc || ''}` : hexBytes(frame.data);
+export function typedForm(frame: Pick<Packed, 'id' | 'extended' | 'remote' | 'data'> & { dlc?: number }): string {
+  const body = frame.remote ? `R${(frame.dlc ?? frame.data.length) || ''}` : hexBytes(frame.data);
   return `${hexId(frame.id, frame.extended)}#${body}`;
 }

@@ -2,7 +2,7 @@
 // read them, actions go back to the worker: one way round.
 
 import { computed, signal } from '@preact/signals-core';
-import type { Builtin, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
+import type { Builtin, Chain, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
 import { Ring } from './trace/ring';
 
 export type Health = 'starting' | 'running' | 'restarting' | 'failed';
@@ -42,7 +42,7 @@ export const shaft = computed(() => status.value?.shaft ?? null);
 export const journal: { entries: Entry[] } = { entries: [] };
 export const journaled = signal(0);
 
-export const chain = signal<Value[] | null>(null);
+export const chain = signal<Chain | null>(null);
 /** Data of the latest PDO1, with its moment. */
 export const lastPdo = signal<{ time: number; data: Uint8Array } | null>(null);
 

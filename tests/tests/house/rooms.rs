@@ -89,7 +89,7 @@ pub(crate) fn lines(files: &BTreeMap<String, String>) -> BTreeMap<&'static str, 
 
 /// Is it a file whose lines count?
 pub(crate) fn is_code(path: &str) -> bool {
-    path.ends_with(".rs") || path.ends_with(".ts")
+    path.ends_with(".rs") || (path.ends_with(".ts") && !path.ends_with(".d.ts"))
 }
 
 /// The room of a file: its first folder.

@@ -1,9 +1,9 @@
 // The seam between the page and the simulation: what a bus can do, and the messages
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
-import type { Builtin, Diagnostic, Lesson, LessonState, LineStatus, ObjectRecord, Status, Value } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, Diagnostic, judgeAnswer, Lesson, LessonState, LineStatus, ObjectRecord, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
-export type { Builtin, Diagnostic, Field, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, ObjectRecord, Status, Transfer, Value } from '../wasm/od_playground';
+export type { Builtin, Chain, Diagnostic, Field, FrameTemplate, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface DeviceInfo {
   /** Short name: `gxmm`, or the file's product name. */
@@ -58,6 +58,17 @@ export interface Entry {
   input: Input;
 }
 
+/** What the page asks of the bus: it changes nothing. */
+export type Questions = Pick<Bus, 'describeAll' | 'fields' | 'mappingSteps' | 'pdos' | 'read'>;
+
+/** What the whole module does without a bus. */
+export interface Tools {
+  decodeEds: typeof decodeEds;
+  judgeAnswer: typeof judgeAnswer;
+  readLog: typeof readLog;
+  writeLog: typeof writeLog;
+}
+
 /** What the page asks of the worker. */
 export type Command =
   | { op: 'do'; input: Input; ticket?: number }
@@ -72,15 +83,13 @@ export type Command =
   | { op: 'select'; node: number }
   /** `chosen`: the one whose saved value is wanted, too. */
   | { op: 'watch'; addresses: Address[]; chosen: Address | null }
-  | { op: 'read'; ticket: number; addresses: Address[] }
   | { op: 'plot'; addresses: Address[] }
   | { op: 'look'; eeprom: boolean }
-  | { op: 'describe'; ticket: number; frames: Uint8Array }
-  | { op: 'fields'; ticket: number; frame: Uint8Array }
-  | { op: 'decode'; ticket: number; bytes: Uint8Array }
-  | { op: 'readLog'; ticket: number; bytes: Uint8Array }
-  | { op: 'writeLog'; ticket: number; ending: string; frames: Uint8Array }
-  | { op: 'judge'; ticket: number; answer: string; given: string }
+  /** Reads an object over the bus, or writes it where there are bytes. */
+  | { op: 'transfer'; ticket: number; node: number; index: number; sub: number; bytes: Uint8Array | null }
+  /** Each call has its own arguments. */
+  | { op: 'ask'; ticket: number; name: keyof Questions; calls: unknown[][] }
+  | { op: 'tool'; ticket: number; name: keyof Tools; args: unknown[] }
   | { op: 'replay'; frames: Uint8Array; speed: number }
   | { op: 'drawn' };
 
@@ -121,8 +130,8 @@ export interface Snapshot {
   words: string[];
   /** The journal from here on has changed. */
   journal: { from: number; entries: Entry[] } | null;
-  /** Of the selected node: values of the position chain, [6000h, 6001h, 6002h, 6004h, 6509h]. */
-  chain: Value[] | null;
+  /** Of the selected node: from the raw position to the position value; null without a shaft. */
+  chain: Chain | null;
   /** Of the selected node: values of the watched objects, when they were read again. */
   values: Value[] | null;
   /** Of the selected node: what the EEPROM holds for the chosen object; with the values. */
@@ -134,6 +143,3 @@ export interface Snapshot {
   /** Values of the plotted objects, and whose they are: others may be wanted by now. */
   plot: { node: number; addresses: Address[]; values: Value[] } | null;
 }
-
-/** The objects between the shaft and the telegram. */
-export const CHAIN: readonly Address[] = [0x6000, 0x6001, 0x6002, 0x6004, 0x6509].map((index) => ({ index, sub: 0 }));

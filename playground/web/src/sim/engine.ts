@@ -1,7 +1,7 @@
 // The clock of the simulation. It advances the bench in slices that never take longer
 // than a budget, and hands the page one snapshot per drawn picture.
 
-import { CHAIN, type Address, type Command, type Input, type Report, type Snapshot, type Value } from './api';
+import type { Address, Command, Input, Report, Snapshot, Value } from './api';
 import { FRAME_BYTES } from './packed';
 import { Replay } from './replay';
 import type { World } from './world';
@@ -111,30 +111,20 @@ export class Engine {
         this.looksAtEeprom = command.eeprom;
         this.watchedAgain = true;
         break;
-      case 'describe':
-        this.answer(command.ticket, this.describe(command.frames));
+      case 'transfer':
+        world.transfer(command);
+        break;
+      case 'ask': {
+        const ask = world.bus[command.name] as (...args: unknown[]) => unknown;
+        this.answer(command.ticket, command.calls.map((args) => ask.apply(world.bus, args)));
         return;
-      case 'fields':
-        this.answer(command.ticket, world.bus.fields(command.frame));
-        return;
-      case 'decode':
-        this.answer(command.ticket, (await world.tools()).decodeEds!(command.bytes));
-        return;
-      case 'readLog':
-        this.answer(command.ticket, await world.readLog(command.bytes));
-        return;
-      case 'writeLog':
-        this.answer(command.ticket, (await world.tools()).writeLog!(command.ending, command.frames));
-        return;
-      case 'judge':
-        this.answer(command.ticket, world.judge(command.answer, command.given));
+      }
+      case 'tool':
+        this.answer(command.ticket, await world.use(command.name, command.args));
         return;
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
         break;
-      case 'read':
-        this.answer(command.ticket, command.addresses.map(({ index, sub }) => world.bus.read(this.selected, index, sub)));
-        return;
       case 'still': {
         const { still } = await import('./still');
         this.answer(command.ticket, still(world));
@@ -235,14 +225,6 @@ export class Engine {
     this.rateFrom = { wall, virtual: now };
   }
 
-  private describe(frames: Uint8Array): string[] {
-    const words: string[] = [];
-    for (let at = 0; at + FRAME_BYTES <= frames.length; at += FRAME_BYTES) {
-      words.push(this.world.bus.describe(frames.subarray(at, at + FRAME_BYTES)));
-    }
-    return words;
-  }
-
   /** Journal entries that the page does not know yet. */
   private journal(): Snapshot['journal'] {
     const { world } = this;
@@ -256,7 +238,7 @@ export class Engine {
     const { world, selected } = this;
     const { bus } = world;
     const frames = world.drain();
-    const words = this.describe(frames.subarray(Math.max(0, frames.length - WITH_WORDS * FRAME_BYTES)));
+    const words = bus.describeAll(frames.subarray(Math.max(0, frames.length - WITH_WORDS * FRAME_BYTES)));
     const read = ({ index, sub }: Address): Value => bus.read(selected, index, sub);
     let values: Value[] | null = null;
     let saved: Value = null;
@@ -271,6 +253,7 @@ export class Engine {
       this.watchedAgain = false;
     }
     const nodes = world.devices.map((_, number) => bus.status(number));
+    for (const { ticket, outcome } of world.outcomes()) this.answer(ticket, outcome);
     this.changed = false;
     this.undrawn += 1;
     this.report(
@@ -288,7 +271,7 @@ export class Engine {
           frames,
           words,
           journal: this.journal(),
-          chain: nodes[selected]?.shaft ? CHAIN.map(read) : null,
+          chain: bus.chain(selected),
           values,
           saved,
           unsaved,

@@ -5,7 +5,7 @@ import { batch } from '@preact/signals-core';
 import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
-import type { Added, Address, Command, DeviceInfo, Entry, Field, Input, Judgement, Lesson, Log, Report, Snapshot, Value } from './api';
+import type { Added, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
 import { FRAME_BYTES } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
@@ -42,7 +42,7 @@ export function act(input: Input): void {
 }
 
 /** Asks the worker for something; `otherwise` is the answer when it ends before. */
-function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise<T> {
+export function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise<T> {
   return new Promise((resolve) => {
     ticket += 1;
     waiting.set(ticket, { resolve: resolve as (value: unknown) => void, otherwise });
@@ -54,10 +54,6 @@ function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise<T> {
 export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added> =>
   ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
 
-/** What is right about an answer to the question of a lesson; null where it is no frame. */
-export const judge = (answer: string, given: string): Promise<Judgement | null> =>
-  ask((ticket) => ({ op: 'judge', ticket, answer, given }), null);
-
 /** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false): void {
   state.journal.entries = [];
@@ -65,30 +61,23 @@ export function restore(entries: Entry[], until: number, quiet = false): void {
   send({ op: 'restore', entries, until, quiet });
 }
 
-/** Values of the selected device, as they are now. */
-export const readNow = (addresses: Address[]): Promise<Value[]> => ask((ticket) => ({ op: 'read', ticket, addresses }), []);
-
 /** What makes an empty bench stand as this one does, without its past; null where nothing does. */
 export const still = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'still', ticket }), null);
 
 /** A DCF of a device as it is set up. */
 export const exportDcf = (node: number): Promise<string | null> => ask((ticket) => ({ op: 'dcf', ticket, node }), null);
 
-/** The words of packed frames. */
-export const describe = (frames: Uint8Array): Promise<string[]> => ask((ticket) => ({ op: 'describe', ticket, frames }), []);
+/** Asks the bus the same of several things. */
+export const askEach = <K extends keyof Questions>(name: K, calls: Parameters<Questions[K]>[]): Promise<ReturnType<Questions[K]>[]> =>
+  ask((ticket) => ({ op: 'ask', ticket, name, calls }), []);
 
-/** The fields of a packed frame. */
-export const fieldsOf = (frame: Uint8Array): Promise<Field[]> => ask((ticket) => ({ op: 'fields', ticket, frame }), []);
+/** Asks the bus; null where it ends before it answers. */
+export const askBus = async <K extends keyof Questions>(name: K, ...args: Parameters<Questions[K]>): Promise<ReturnType<Questions[K]> | null> =>
+  (await askEach(name, [args]))[0] ?? null;
 
-/** The text of an EDS file. */
-export const decodeEds = (bytes: Uint8Array): Promise<string> => ask((ticket) => ({ op: 'decode', ticket, bytes }), '');
-
-/** A log of another tool, or why it cannot be read. */
-export const readLog = (bytes: Uint8Array): Promise<Log | string> => ask((ticket) => ({ op: 'readLog', ticket, bytes }), T.app.unloaded);
-
-/** Packed frames as other tools read them. */
-export const writeLog = (ending: string, frames: Uint8Array): Promise<Uint8Array<ArrayBuffer> | null> =>
-  ask((ticket) => ({ op: 'writeLog', ticket, ending, frames }), null);
+/** Uses the whole module: what it says, or why it cannot. */
+export const use = <K extends keyof Tools>(name: K, ...args: Parameters<Tools[K]>): Promise<{ value: ReturnType<Tools[K]> } | { error: string }> =>
+  ask((ticket) => ({ op: 'tool', ticket, name, args }), { error: T.app.unloaded });
 
 /** Calls `listener` with every snapshot, and the number of its first frame. */
 export function listen(listener: (snapshot: Snapshot, first: number) => void): () => void {
@@ -104,8 +93,7 @@ function receive(report: Report): void {
       state.builtins.value = report.builtins;
       break;
     case 'answer':
-      waiting.get(report.ticket)?.resolve(report.value);
-      waiting.delete(report.ticket);
+      resolve(report.ticket, report.value);
       break;
     case 'devices':
       devices(report.devices, report.lesson);
@@ -121,6 +109,13 @@ function receive(report: Report): void {
       crashed(report.message);
       break;
   }
+}
+
+/** Null: nobody will answer any more. */
+function resolve(ticket: number, value: unknown): void {
+  const asked = waiting.get(ticket);
+  asked?.resolve(value ?? asked.otherwise);
+  waiting.delete(ticket);
 }
 
 function devices(list: DeviceInfo[], lesson: Lesson | null): void {

@@ -3,7 +3,7 @@
 
 import { effect, signal } from '@preact/signals-core';
 import { cleared, devices, ring } from '../state';
-import { describe, listen } from './link';
+import { askBus, listen } from './link';
 import { T } from '../texts';
 import { FRAME_BYTES, type Packed } from './packed';
 
@@ -62,7 +62,7 @@ async function ask(numbers: number[]): Promise<void> {
     asked.add(number);
     frames.set(ring.raw(number), i * FRAME_BYTES);
   });
-  const words = await describe(frames);
+  const words = (await askBus('describeAll', frames)) ?? [];
   numbers.forEach((number, i) => {
     asked.delete(number);
     known.set(number, words[i] ?? '');

@@ -1,20 +1,17 @@
 // The simulated bench and its journal. What happened is told by the journal alone, so the
 // bench can be made again up to any moment: for a step back, from a link, after a reload.
 
-import type { Added, Builtin, DeviceInfo, Diagnostic, Entry, Input, Judgement, Lesson, LessonState, Source } from './api';
-import type { Bus as Simulation, LessonResult, Log } from '../wasm/od_playground';
+import type { Added, Builtin, Command, DeviceInfo, Diagnostic, Entry, Input, Lesson, LessonState, Outcome, Source, Tools } from './api';
+import type { Bus as Simulation, LessonResult } from '../wasm/od_playground';
+import { unpack } from './packed';
 
 /** One of the two WebAssembly modules; the small one knows no EDS texts and no lessons. */
-export interface Module {
+export interface Module extends Partial<Tools> {
   Bus: new (micros?: number) => Simulation;
   builtinDevices(): Builtin[];
   /** Can it run an EDS text, and a lesson? */
   whole: boolean;
   parseLesson?(text: string): LessonResult;
-  judgeAnswer?(answer: string, given: string): Judgement;
-  decodeEds?(bytes: Uint8Array): string;
-  readLog?(bytes: Uint8Array): Log;
-  writeLog?(ending: string, frames: Uint8Array): Uint8Array;
 }
 
 export interface Modules {
@@ -90,11 +87,47 @@ export class World {
       const next = this.journal[this.done];
       const until = next && next.at <= end ? next.at : end;
       if (until > this.bus.now()) this.bus.advance(until - this.bus.now(), full - this.bus.pending());
+      if (this.request()) continue;
       if (!next || this.bus.now() < next.at || this.bus.pending() >= full) break;
       this.apply(next.input);
       this.done += 1;
     }
     return this.bus.now() - start;
+  }
+
+  /** Reads or writes an object over the bus, for the one with this ticket. */
+  transfer({ ticket, node, index, sub, bytes }: Extract<Command, { op: 'transfer' }>): void {
+    this.tickets.set(this.bus.transfer(node, index, sub, bytes), ticket);
+    this.request();
+  }
+
+  /** Sends what the SDO client wants to send, as an input like any other. */
+  private request(): boolean {
+    let any = false;
+    for (let packed = this.bus.request(); packed; packed = this.bus.request()) {
+      const { id, data, extended, remote } = unpack(packed, 0);
+      void this.act({ op: 'send', id, data, extended, remote });
+      any = true;
+    }
+    return any;
+  }
+
+  /** The transfers that are over. */
+  outcomes(): { ticket: number; outcome: Outcome | null }[] {
+    const all = this.given;
+    this.given = [];
+    for (const outcome of this.bus.outcomes()) all.push({ ticket: this.tickets.get(outcome.job)!, outcome });
+    for (const { outcome } of all) if (outcome) this.tickets.delete(outcome.job);
+    return all;
+  }
+
+  private readonly tickets = new Map<number, number>();
+  private given: { ticket: number; outcome: Outcome | null }[] = [];
+
+  /** Another bus: nobody answers any more what was asked on this one. */
+  private giveUp(): void {
+    for (const ticket of this.tickets.values()) this.given.push({ ticket, outcome: null });
+    this.tickets.clear();
   }
 
   /** The bench as it was at `to`; what came after stays in the journal and comes again. */
@@ -105,6 +138,7 @@ export class World {
 
   private begin(): void {
     const fresh = this.fresh();
+    this.giveUp();
     this.bus.free();
     this.bus = fresh;
     this.devices = [];
@@ -136,13 +170,13 @@ export class World {
     return this.module.whole ? this.module : this.modules.whole();
   }
 
-  /** A log, or why it cannot be read. */
-  async readLog(bytes: Uint8Array): Promise<Log | string> {
-    const { readLog } = await this.tools();
+  /** What a tool says, or why it cannot. */
+  async use(name: keyof Tools, args: unknown[]): Promise<{ value: unknown } | { error: string }> {
+    const tool = (await this.tools())[name] as (...args: unknown[]) => unknown;
     try {
-      return readLog!(bytes);
+      return { value: tool(...args) };
     } catch (error) {
-      return fault(error).message;
+      return { error: fault(error).message };
     }
   }
 
@@ -272,6 +306,7 @@ export class World {
       Object.assign(this, before);
       return added;
     }
+    this.giveUp();
     before.bus.free();
     this.unseen = new Uint8Array(0);
     this.journal = [{ at: 0, input }];
@@ -308,15 +343,6 @@ export class World {
   reachedGoal(): boolean {
     // Looking comes first: a switch that was moved counts, too.
     return this.lessonState() !== null && this.bus.lessonEvents().length > 0;
-  }
-
-  /** What is right about an answer; null where it is no frame. */
-  judge(answer: string, given: string): Judgement | null {
-    try {
-      return this.module.judgeAnswer?.(answer, given) ?? null;
-    } catch {
-      return null;
-    }
   }
 
   private setSwitches({ node, id, dip }: Extract<Input, { op: 'switches' }>): void {

@@ -2,7 +2,7 @@
 
 import { html, nothing, type TemplateResult } from 'lit';
 import * as state from '../state';
-import { nmt, setPower, setRpm, turnTo } from '../actions';
+import { sendLine, setPower, setRpm, turnTo } from '../actions';
 import type { Lamp } from '../sim/api';
 import { grouped } from '../format';
 import { T } from '../texts';
@@ -39,7 +39,7 @@ class Encoder extends View {
         <h2>${T.encoder.title}</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>
-        <button class="small" aria-label=${T.encoder.resetLabel} title=${T.encoder.resetTitle} ?disabled=${!isOn} @click=${() => nmt(0x81)}>${icons.reset} ${T.encoder.reset}</button>
+        <button class="small" aria-label=${T.encoder.resetLabel} title=${T.encoder.resetTitle} ?disabled=${!isOn} @click=${() => sendLine('nmt reset')}>${icons.reset} ${T.encoder.reset}</button>
         <button class="switch" role="switch" aria-checked=${isOn} aria-label=${T.encoder.power} title=${isOn ? T.encoder.powerOff : T.encoder.powerOn} @click=${() => setPower(!isOn)}>
           ${icons.power}<span class="switch-track"><span class="switch-thumb"></span></span>
         </button>

@@ -1,7 +1,7 @@
 // An EDS file from the user's disk to the bus.
 
 import { openDevice, openLog } from '../actions';
-import { decodeEds } from '../sim/link';
+import { use } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
 
@@ -29,7 +29,8 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     const share = await import('../share/make');
     return share.openText(await file.text(), file.name);
   }
-  return openText(file.name, await decodeEds(new Uint8Array(await file.arrayBuffer())), nodeId, false, place);
+  const text = await use('decodeEds', new Uint8Array(await file.arrayBuffer()));
+  return 'value' in text && openText(file.name, text.value, nodeId, false, place);
 }
 
 /** Runs an EDS text; a lenient try leaves out what is wrong with it. */

@@ -6,7 +6,7 @@ import * as state from '../state';
 import { sendFrame } from '../actions';
 import { toggleBookmark, trace } from '../capture';
 import { hexByte, hexId, typedForm } from '../format';
-import { fieldsOf } from '../sim/link';
+import { askBus } from '../sim/link';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { T } from '../texts';
 import type { Field } from '../sim/api';
@@ -35,8 +35,8 @@ class FrameDetail extends View {
       this.fields = [];
       this.lit = null;
       if (number === null || !state.ring.get(number)) return;
-      void fieldsOf(state.ring.raw(number).slice()).then((fields) => {
-        if (state.chosenFrame.value === number) this.fields = fields;
+      void askBus('fields', state.ring.raw(number).slice()).then((fields) => {
+        if (state.chosenFrame.value === number) this.fields = fields ?? [];
       });
     });
   }

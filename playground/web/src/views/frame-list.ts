@@ -4,11 +4,11 @@ import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { gap, refiltered, reveal, revealed, toggleBookmark, trace } from '../capture';
-import { nmt } from '../actions';
+import { sendLine } from '../actions';
 import { hexByte, hexId } from '../format';
 import { decode } from '../codec';
 import { address, showValue } from '../format';
-import { transfer } from '../sim/client';
+import { transfer } from '../sim/sdo';
 import type { Frame } from '../trace/ring';
 import type { Transfer } from '../sim/api';
 import { wordsArrived, wordsOf } from '../sim/words';
@@ -210,12 +210,12 @@ class FrameList extends View {
   private hints() {
     const node = state.nodeId.value;
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
-    const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0, bytes });
+    const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0 }, bytes);
     return html`<div class="hints">
       <p>${T.send.node(node)}</p>
       <div>
         ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>${T.send.position}</button>` : nothing}
-        <button class="small" @click=${() => nmt(0x01)}>${T.send.start}</button>
+        <button class="small" @click=${() => sendLine('nmt start')}>${T.send.start}</button>
         ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>${T.send.heartbeat}</button>` : nothing}
       </div>
     </div>`;

@@ -3,15 +3,11 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
-import type { ObjectRecord } from '../sim/api';
+import type { Mapped, MappingStep, ObjectRecord, Pdo } from '../sim/api';
 import { setFilter } from '../capture';
-import { communication, frameOf, isMapping, isTransmit, MOST_BITS, stepsTo, unpackMapped, type Mapped, type Step } from '../can/mapping';
-import { hexBytes } from '../format';
-import { address, hexIndex } from '../format';
-import { silence, transfer } from '../sim/client';
-import { describe, readNow } from '../sim/link';
-import { FRAME_BYTES, pack } from '../sim/packed';
-import { abortWords } from '../sim/words-of-sdo';
+import { address, hexBytes, hexId, hexIndex } from '../format';
+import { askBus } from '../sim/link';
+import { failure, transfer } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -19,32 +15,32 @@ import { View } from './view';
 
 type Said = { tone: 'good' | 'error' | 'busy'; text: string };
 
-/** An abort that a PDO causes which is on (CiA 301, table 22): it cannot be changed now. */
-const WHILE_VALID = new Set([0x0601_0000, 0x0601_0002, 0x0609_0030, 0x0800_0020, 0x0800_0022]);
+/** Bits of a PDO at most. */
+const MOST_BITS = 64;
 
 class Mapping extends View {
   static override properties = {
-    pdo: { state: true }, entries: { state: true }, cobId: { state: true }, isOff: { state: true }, words: { state: true }, said: { state: true }, isBusy: { state: true }, hint: { state: true },
+    pdos: { state: true }, pdo: { state: true }, entries: { state: true }, isOff: { state: true }, steps: { state: true }, said: { state: true }, isBusy: { state: true }, hint: { state: true },
   };
-  declare pdo: number;
+  /** The PDOs of the device as they were when they were read. */
+  declare pdos: Pdo[];
+  declare pdo: Pdo | null;
   declare entries: Mapped[];
-  declare cobId: number | null;
   /** The PDO is switched off meanwhile. */
   declare isOff: boolean;
-  declare words: string[];
+  declare steps: MappingStep[];
   declare said: Said[];
   declare isBusy: boolean;
   declare hint: string;
   private unopen: (() => void) | undefined;
-  private asked = '';
 
   constructor() {
     super();
-    this.pdo = 0;
+    this.pdos = [];
+    this.pdo = null;
     this.entries = [];
-    this.cobId = null;
     this.isOff = false;
-    this.words = [];
+    this.steps = [];
     this.said = [];
     this.isBusy = false;
     this.hint = '';
@@ -57,8 +53,7 @@ class Mapping extends View {
       const wanted = state.mappingDialog.value;
       if (wanted !== null && !dialog.open) {
         dialog.showModal();
-        const mappings = this.mappings();
-        void this.load(mappings.some((one) => one.index === wanted) ? wanted : (mappings[0]?.index ?? 0));
+        void this.load(wanted);
       } else if (wanted === null && dialog.open) {
         dialog.close();
       }
@@ -70,39 +65,31 @@ class Mapping extends View {
     this.unopen?.();
   }
 
-  /** The mappings of the device, transmit PDOs first. */
-  private mappings(): ObjectRecord[] {
-    const all = (state.device.value?.objects ?? []).filter(({ index, sub }) => sub === 0 && isMapping(index));
-    return [...all.filter(({ index }) => isTransmit(index)), ...all.filter(({ index }) => !isTransmit(index))];
-  }
-
-  /** How many entries there is room for. */
-  private room(): number {
-    return (state.device.value?.objects ?? []).filter(({ index, sub }) => index === this.pdo && sub > 0 && sub <= MOST_BITS).length;
-  }
-
   /** What this PDO may carry. */
-  private candidates(): ObjectRecord[] {
-    const fits = isTransmit(this.pdo) ? /^(ro|const|rw|rwr)$/ : /^(wo|rw|rww)$/;
-    return (state.device.value?.objects ?? []).filter(({ mappable, access, bits }) => mappable && fits.test(access) && bits > 0 && bits <= MOST_BITS);
+  private candidates({ transmits }: Pdo): ObjectRecord[] {
+    return (state.device.value?.objects ?? []).filter(({ fitsTpdo, fitsRpdo }) => (transmits ? fitsTpdo : fitsRpdo));
   }
 
-  private async load(pdo: number): Promise<void> {
-    this.pdo = pdo;
-    this.said = [];
-    this.hint = '';
-    const room = this.room();
-    const addresses = Array.from({ length: room + 1 }, (_, sub) => ({ index: pdo, sub }));
-    const [cobId, count, ...entries] = await readNow([{ index: communication(pdo), sub: 1 }, ...addresses]);
-    const number = (value: unknown): number => (typeof value === 'number' ? value : 0);
-    this.cobId = typeof cobId === 'number' ? cobId : null;
-    this.entries = entries.slice(0, number(count)).map((value) => unpackMapped(number(value)));
+  /** Reads the PDOs again, and shows the one with this mapping parameter, else the first. */
+  private async load(mapping: number): Promise<void> {
+    this.pdos = (await askBus('pdos', state.selectedNode.peek())) ?? [];
+    this.pdo = this.pdos.find((one) => one.mapping === mapping) ?? this.pdos[0] ?? null;
+    this.change(this.pdo?.entries ?? []);
   }
 
   private change(entries: Mapped[]): void {
     this.entries = entries;
     this.said = [];
     this.hint = '';
+    void this.plan();
+  }
+
+  /** The frames that lead to these entries, with their words. */
+  private async plan(): Promise<void> {
+    const { pdo, entries, isOff } = this;
+    const packed = Uint32Array.from(entries, ({ index, sub, bits }) => index * 0x1_0000 + sub * 256 + bits);
+    const steps = pdo ? await askBus('mappingSteps', state.selectedNode.peek(), pdo.mapping, packed, isOff ? pdo.cobId?.raw : null) : [];
+    if (entries === this.entries && isOff === this.isOff) this.steps = steps ?? [];
   }
 
   private move(at: number, by: number): void {
@@ -119,39 +106,20 @@ class Mapping extends View {
     if (object) this.change([...this.entries, { index: object.index, sub: object.sub, bits: object.bits }]);
   }
 
-  private get steps(): Step[] {
-    return stepsTo(this.pdo, this.entries, this.isOff ? this.cobId : null);
-  }
-
-  /** The frames in words, asked for when they change. */
-  private ask(steps: Step[]): void {
-    const node = state.nodeId.value;
-    const frames = steps.map((step) => pack({ time: 0, id: 0x600 + node, extended: false, remote: false, fromPage: true, data: frameOf(step) }));
-    const all = new Uint8Array(frames.length * FRAME_BYTES);
-    frames.forEach((frame, i) => all.set(frame, i * FRAME_BYTES));
-    const key = all.join();
-    if (key === this.asked) return;
-    this.asked = key;
-    void describe(all).then((words) => {
-      if (key === this.asked) this.words = words.map((text) => text.replace(/^SDO node \d+: /i, ''));
-    });
-  }
-
   private async send(): Promise<void> {
     this.isBusy = true;
     this.hint = '';
     this.said = [];
-    for (const { index, sub, bytes } of this.steps) {
+    for (const step of this.steps) {
       const sofar = this.said;
       this.said = [...sofar, { tone: 'busy', text: state.running.value ? T.mapping.waiting : T.sdo.standing }];
-      const outcome = await transfer({ index, sub, bytes });
-      if (outcome.kind === 'written') {
+      const outcome = await transfer(step, step.bytes);
+      if (outcome.kind === 'done') {
         this.said = [...sofar, { tone: 'good', text: T.mapping.taken }];
         continue;
       }
-      const text = outcome.kind === 'aborted' ? await abortWords(index, sub, outcome.code) : silence();
-      this.said = [...sofar, { tone: 'error', text }];
-      if (outcome.kind === 'aborted' && !this.isOff && this.cobId !== null && WHILE_VALID.has(outcome.code)) this.hint = T.mapping.tryOff;
+      this.said = [...sofar, { tone: 'error', text: failure(outcome) }];
+      if (outcome.wantsPdoOff && !this.isOff && this.pdo?.cobId) this.hint = T.mapping.tryOff;
       break;
     }
     this.isBusy = false;
@@ -161,15 +129,14 @@ class Mapping extends View {
     state.mappingDialog.value = null;
   }
 
-  private showFrames(): void {
-    setFilter(`node:${state.nodeId.value} (object:${hexIndex(this.pdo).slice(0, 4)} or object:${hexIndex(communication(this.pdo)).slice(0, 4)})`);
+  private showFrames({ mapping, parameter }: Pdo): void {
+    setFilter(`node:${state.nodeId.value} (object:${hexIndex(mapping).slice(0, 4)} or object:${hexIndex(parameter).slice(0, 4)})`);
     state.tab.value = 'console';
     this.close();
   }
 
   protected override render() {
     const t = T.mapping;
-    const mappings = this.mappings();
     return html`<dialog class="dialog mapping" aria-labelledby="mapping-title" @close=${() => this.close()}
       @click=${(event: Event) => { if (event.target === event.currentTarget) this.close(); }}>
       <div class="dialog-body">
@@ -177,27 +144,26 @@ class Mapping extends View {
           <h2 id="mapping-title">${t.title}</h2>
           <button class="icon-button" aria-label=${T.close} @click=${() => this.close()}>${icons.close}</button>
         </header>
-        ${mappings.length === 0 ? html`<p class="empty">${t.none}</p>` : this.editor(mappings)}
+        ${this.pdo ? this.editor(this.pdo) : html`<p class="empty">${t.none}</p>`}
       </div>
     </dialog>`;
   }
 
-  private editor(mappings: ObjectRecord[]) {
+  private editor(pdo: Pdo) {
     const t = T.mapping;
     const bits = this.entries.reduce((sum, one) => sum + one.bits, 0);
-    const candidates = this.candidates();
-    const isFull = this.entries.length >= this.room();
-    const steps = this.steps;
-    this.ask(steps);
+    const candidates = this.candidates(pdo);
+    const isFull = this.entries.length >= pdo.room;
+    const { steps } = this;
     return html`
       <div class="mapping-pdo">
         <label for="mapping-pdo">${t.pdo}</label>
         <select id="mapping-pdo" ?disabled=${this.isBusy} @change=${(event: Event) => this.load(Number((event.target as HTMLSelectElement).value))}>
-          ${mappings.map((one) => html`<option value=${one.index} ?selected=${one.index === this.pdo}>${t.name(isTransmit(one.index), (one.index & 0x1ff) + 1)} · ${hexIndex(one.index)}</option>`)}
+          ${this.pdos.map((one) => html`<option value=${one.mapping} ?selected=${one === pdo}>${t.name(one.transmits, one.number)} · ${hexIndex(one.mapping)}</option>`)}
         </select>
-        <span class="muted num">${this.cobId === null ? '' : t.cobId((this.cobId & 0x1fff_ffff).toString(16).toUpperCase(), this.cobId < 0x8000_0000)}</span>
+        <span class="muted num">${pdo.cobId ? t.cobId(pdo.cobId.id.toString(16).toUpperCase(), pdo.cobId.valid) : ''}</span>
       </div>
-      ${mappings.find((one) => one.index === this.pdo)?.access.startsWith('rw') === false ? html`<p class="note mapping-fixed">${t.fixed}</p>` : nothing}
+      ${pdo.isFixed ? html`<p class="note mapping-fixed">${t.fixed}</p>` : nothing}
       <ol class="mapping-entries" aria-label=${t.entries}>
         ${this.entries.map((entry, i) => {
           const name = state.objectsByKey.value.get(state.keyOf(entry.index, entry.sub))?.name ?? t.unknown;
@@ -218,9 +184,9 @@ class Mapping extends View {
         <meter min="0" max=${MOST_BITS} .value=${Math.min(bits, MOST_BITS)} aria-label=${t.size}></meter>
         <span class="num note" data-tone=${bits > MOST_BITS ? 'error' : ''}>${t.sum(bits, MOST_BITS)}</span>
       </div>
-      ${this.cobId === null
+      ${!pdo.cobId
         ? nothing
-        : html`<label class="choice"><input type="checkbox" .checked=${this.isOff} ?disabled=${this.isBusy} @change=${(event: Event) => { this.isOff = (event.target as HTMLInputElement).checked; this.said = []; }}>
+        : html`<label class="choice"><input type="checkbox" .checked=${this.isOff} ?disabled=${this.isBusy} @change=${(event: Event) => { this.isOff = (event.target as HTMLInputElement).checked; this.said = []; void this.plan(); }}>
             <span>${t.off}<span class="muted">${t.offHint}</span></span></label>`}
       <section aria-label=${t.frames}>
         <h3 class="mapping-head">${t.frames}</h3>
@@ -228,20 +194,20 @@ class Mapping extends View {
       </section>
       ${this.hint ? html`<p class="note" data-tone="error" role="status">${this.hint}</p>` : nothing}
       <div class="dialog-foot">
-        <button ?disabled=${this.isBusy} @click=${() => this.load(this.pdo)}>${t.reload}</button>
-        <button @click=${() => this.showFrames()}>${icons.console} ${T.objects.frames}</button>
+        <button ?disabled=${this.isBusy} @click=${() => this.load(pdo.mapping)}>${t.reload}</button>
+        <button @click=${() => this.showFrames(pdo)}>${icons.console} ${T.objects.frames}</button>
         <div class="spacer"></div>
-        <button class="primary" ?disabled=${this.isBusy || this.pdo === 0} @click=${() => this.send()}>${icons.send} ${t.send(steps.length)}</button>
+        <button class="primary" ?disabled=${this.isBusy} @click=${() => this.send()}>${icons.send} ${t.send(steps.length)}</button>
       </div>`;
   }
 
-  private step(step: Step, i: number, steps: Step[]) {
+  private step(step: MappingStep, i: number, steps: MappingStep[]) {
     const said = this.said[i];
-    const isFirst = steps[i - 1]?.kind !== step.kind;
+    const isFirst = steps[i - 1]?.part !== step.part;
     return html`<li data-tone=${said?.tone ?? ''}>
-      ${isFirst ? html`<strong>${T.mapping.step[step.kind]}</strong>` : nothing}
-      <code class="num">${(0x600 + state.nodeId.value).toString(16).toUpperCase()} <span>${hexBytes(frameOf(step))}</span></code>
-      <span class="said">${said && said.tone !== 'busy' ? html`<b>${said.tone === 'good' ? '✓' : '✗'}</b> ${said.text}` : said ? said.text : html`<span class="muted">${this.words[i] ?? ''}</span>`}</span>
+      ${isFirst ? html`<strong>${T.mapping.step[step.part]}</strong>` : nothing}
+      <code class="num">${hexId(step.id, false)} <span>${hexBytes(step.data)}</span></code>
+      <span class="said">${said && said.tone !== 'busy' ? html`<b>${said.tone === 'good' ? '✓' : '✗'}</b> ${said.text}` : said ? said.text : html`<span class="muted">${step.words}</span>`}</span>
     </li>`;
   }
 }

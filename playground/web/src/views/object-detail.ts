@@ -4,12 +4,10 @@ import { html, nothing } from 'lit';
 import { effect } from '@preact/signals-core';
 import type { ObjectRecord } from '../sim/api';
 import { setFilter } from '../capture';
-import { communication, isMapping, isTransmit, unpackMapped } from '../can/mapping';
 import { encode, range } from '../codec';
 import { address, otherSpelling, showValue } from '../format';
-import { transfer } from '../sim/client';
-import { readNow } from '../sim/link';
-import { inWords, type Said } from '../sim/words-of-sdo';
+import { askBus } from '../sim/link';
+import { inWords, transfer, type Said } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -49,10 +47,9 @@ class ObjectDetail extends View {
   private async run(object: ObjectRecord, bytes: Uint8Array | null): Promise<void> {
     this.isBusy = true;
     this.said = state.running.value ? null : { tone: '', text: T.sdo.standing };
-    const outcome = await transfer({ index: object.index, sub: object.sub, bytes });
-    const said = await inWords(object, outcome);
+    const outcome = await transfer(object, bytes);
     this.isBusy = false;
-    if (state.selected.peek() === object) this.said = said;
+    if (state.selected.peek() === object) this.said = inWords(object, bytes !== null, outcome);
   }
 
   private write(object: ObjectRecord): void {
@@ -73,7 +70,7 @@ class ObjectDetail extends View {
       <div class="detail-head">
         <strong><span class="num">${address(object.index, object.sub, object.parent !== null)}</span> ${object.name}</strong>
         <div class="spacer"></div>
-        ${isMapping(object.index) ? html`<button class="small" aria-haspopup="dialog" @click=${() => openMapping(object.index)}>${t.editMapping}</button>` : nothing}
+        ${object.isMapping ? html`<button class="small" aria-haspopup="dialog" @click=${() => openMapping(object.index)}>${t.editMapping}</button>` : nothing}
         <button class="small tabs-only" @click=${() => (state.tab.value = 'console')}>${t.sdo}</button>
         <button class="small" title=${t.framesTitle} @click=${() => showFrames(object)}>${t.frames}</button>
         <button class="icon-button" aria-label=${t.close} @click=${() => (state.selected.value = null)}>${icons.close}</button>
@@ -110,25 +107,13 @@ async function showFrames({ index, sub, parent, mappable }: ObjectRecord): Promi
   const hex = (value: number, width: number): string => value.toString(16).toUpperCase().padStart(width, '0');
   const terms = [`node:${state.nodeId.peek()} object:${hex(index, 4)}${parent === null ? '' : `:${hex(sub, 2)}`}`];
   if (mappable) {
-    const pdos = await carriers(index, sub);
-    terms.push(...pdos.map((id) => `id:${hex(id, 3)}`));
+    const pdos = (await askBus('pdos', state.selectedNode.peek())) ?? [];
+    const carry = pdos.filter(({ entries }) => entries.some((one) => one.index === index && one.sub === sub));
+    for (const { cobId } of carry) if (cobId?.valid) terms.push(`id:${hex(cobId.id, 3)}`);
   }
   if (index === 0x1001 || index === 0x1003) terms.push(`node:${state.nodeId.peek()} emcy`);
   setFilter(terms.join(' or '));
   state.tab.value = 'console';
-}
-
-/** COB-IDs of the PDOs whose mapping names an object. */
-async function carriers(index: number, sub: number): Promise<number[]> {
-  const entries = (state.device.peek()?.objects ?? []).filter((one) => isMapping(one.index) && one.sub > 0);
-  const values = await readNow(entries.map((one) => ({ index: one.index, sub: one.sub })));
-  const names = (value: unknown): boolean => {
-    const mapped = typeof value === 'number' ? unpackMapped(value) : null;
-    return mapped?.index === index && mapped.sub === sub;
-  };
-  const mappings = [...new Set(entries.filter((_, i) => names(values[i])).map((one) => one.index))].sort((a, b) => Number(isTransmit(b)) - Number(isTransmit(a)) || a - b);
-  const ids = await readNow(mappings.map((mapping) => ({ index: communication(mapping), sub: 1 })));
-  return ids.filter((id): id is number => typeof id === 'number' && id < 0x8000_0000).map((id) => id & 0x1fff_ffff);
 }
 
 customElements.define('od-object-detail', ObjectDetail);

@@ -26,3 +26,8 @@ export function findObjects(objects: readonly ObjectRecord[], text: string): Obj
     });
   });
 }
+
+/** An object that is not in the dictionary, as far as something is known of it. */
+export const standIn = (known: Pick<ObjectRecord, 'index' | 'sub' | 'name' | 'type' | 'bits'> & Partial<ObjectRecord>): ObjectRecord => ({
+  parent: null, access: 'rw', mappable: false, fitsTpdo: false, fitsRpdo: false, isMapping: false, isSaved: false, default: null, low: null, high: null, ...known,
+});

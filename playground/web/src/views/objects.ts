@@ -3,10 +3,9 @@
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
 import { download } from '../actions';
-import { isMapping } from '../can/mapping';
 import type { ObjectRecord, Value } from '../sim/api';
 import { address, hexIndex, sameValue, showValue } from '../format';
-import { exportDcf, readNow, watch } from '../sim/link';
+import { askEach, exportDcf, watch } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -171,7 +170,8 @@ class Objects extends View {
   /** Which objects are not the factory's: all are read, once a second while that is asked for. */
   private async lookAtAll(): Promise<void> {
     const objects = (state.device.peek()?.objects ?? []).filter((object) => object.access.startsWith('rw') && object.default !== null);
-    const values = await readNow(objects.map(({ index, sub }) => ({ index, sub })));
+    const node = state.selectedNode.peek();
+    const values = await askEach('read', objects.map(({ index, sub }) => [node, index, sub]));
     const changed = objects.filter((object, i) => isChanged(object, values[i] ?? null)).map(({ index, sub }) => state.keyOf(index, sub));
     if (changed.length === this.changed.size && changed.every((key) => this.changed.has(key))) return;
     this.changed = new Set(changed);
@@ -186,7 +186,7 @@ class Objects extends View {
 
   protected override render() {
     const total = state.device.value?.objects.length ?? 0;
-    const hasMapping = (state.device.value?.objects ?? []).some(({ index }) => isMapping(index));
+    const hasMapping = (state.device.value?.objects ?? []).some(({ isMapping }) => isMapping);
     const t = T.objects;
     const choice = (show: Show, text: string) => html`<label class="segment"><input type="radio" name="objects-show" .checked=${this.show === show} @change=${() => this.choose(show)}><span>${text}</span></label>`;
     return html`
@@ -227,10 +227,7 @@ function isChanged(object: ObjectRecord, live: Value): boolean {
 function markOf(object: ObjectRecord, live: Value): '' | 'ram' | 'eeprom' | 'set' {
   if (state.unsaved.peek().has(state.keyOf(object.index, object.sub))) return 'ram';
   if (!isChanged(object, live)) return '';
-  return isSaved(object) ? 'eeprom' : 'set';
+  return object.isSaved ? 'eeprom' : 'set';
 }
-
-/** Is it among what 1010h saves? Commands and logs are not. */
-const isSaved = ({ index }: ObjectRecord): boolean => index >= 0x1000 && ![0x1003, 0x1010, 0x1011].includes(index);
 
 customElements.define('od-objects', Objects);

@@ -11,6 +11,7 @@ import { address, showValue } from '../format';
 import { listen, send } from '../sim/link';
 import { T } from '../texts';
 import { icons } from './icons';
+import { standIn } from './object-search';
 import { View } from './view';
 
 /** More would be too flat to read. */
@@ -18,7 +19,7 @@ const MOST = 4;
 /** Milliseconds between two drawings. */
 const PERIOD = 50;
 /** What the shaft really does; not every encoder has an object for it. Index 0 is none of a dictionary's values. */
-const SHAFT: ObjectRecord = { index: 0, sub: 0, name: T.plot.shaft, parent: null, type: 'REAL64', bits: 64, access: 'ro', mappable: false, default: null, low: null, high: null };
+const SHAFT = standIn({ index: 0, sub: 0, name: T.plot.shaft, type: 'REAL64', bits: 64 });
 /** Position, the shaft, and speed of CiA 406. */
 const FIRST = [state.keyOf(0x6004, 0), state.keyOf(SHAFT.index, SHAFT.sub), state.keyOf(0x6030, 1)];
 

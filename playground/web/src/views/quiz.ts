@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import type { Judgement, Lesson } from '../sim/api';
-import { judge } from '../sim/link';
+import { use } from '../sim/link';
 import { T } from '../texts';
 import { markdown } from './markdown';
 import { View } from './view';
@@ -32,7 +32,8 @@ class Quiz extends View {
     event.preventDefault();
     const given = this.querySelector('input')!.value.trim();
     if (!given) return;
-    const found = await judge(this.quiz.answer, given);
+    const judged = await use('judgeAnswer', this.quiz.answer, given);
+    const found = 'value' in judged ? judged.value : null;
     this.isTold ||= found?.right ?? false;
     this.said = !found ? T.lessons.noFrame : found.right ? T.lessons.right : T.lessons.wrong(wrongParts(found));
   }

@@ -5,11 +5,10 @@ import { effect } from '@preact/signals-core';
 import type { ObjectRecord } from '../sim/api';
 import { encode } from '../codec';
 import { address, showValue } from '../format';
-import { transfer } from '../sim/client';
-import { inWords, type Said } from '../sim/words-of-sdo';
+import { inWords, transfer, type Said } from '../sim/sdo';
 import * as state from '../state';
 import { T } from '../texts';
-import { findObjects, parseAddress } from './object-search';
+import { findObjects, parseAddress, standIn } from './object-search';
 import { View } from './view';
 
 const MOST_OFFERED = 30;
@@ -60,7 +59,7 @@ class SdoForm extends View {
     const where = parseAddress(this.text);
     if (where) {
       const known = state.objectsByKey.value.get(state.keyOf(where.index, where.sub));
-      return known ?? unknownObject(where.index, where.sub);
+      return known ?? standIn({ ...where, name: '', type: '?', bits: 32 });
     }
     const wanted = this.text.trim().toLowerCase();
     const all = state.device.value?.objects ?? [];
@@ -119,9 +118,9 @@ class SdoForm extends View {
   private async run(object: ObjectRecord, bytes: Uint8Array | null): Promise<void> {
     this.isBusy = true;
     this.result = state.running.value ? null : { tone: '', text: T.sdo.standing };
-    const outcome = await transfer({ index: object.index, sub: object.sub, bytes });
+    const outcome = await transfer(object, bytes);
     this.isBusy = false;
-    this.result = await inWords(object, outcome);
+    this.result = inWords(object, bytes !== null, outcome);
   }
 
   protected override render() {
@@ -167,9 +166,5 @@ function hint(object: ObjectRecord): string {
   const limits = object.low !== null || object.high !== null ? `, ${showValue(object.low, object)} … ${showValue(object.high, object)}` : '';
   return `${object.type}, ${object.access}${limits}`;
 }
-
-const unknownObject = (index: number, sub: number): ObjectRecord => ({
-  index, sub, name: '', parent: null, type: '?', bits: 32, access: 'rw', mappable: false, default: null, low: null, high: null,
-});
 
 customElements.define('od-sdo-form', SdoForm);

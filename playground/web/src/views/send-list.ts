@@ -2,8 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { signal } from '@preact/signals-core';
-import * as state from '../state';
-import { readLine } from '../codec';
+import { readTyped } from '../actions';
 import { act } from '../sim/link';
 import { T } from '../texts';
 import { icons } from './icons';
@@ -49,11 +48,8 @@ export function addToList(text: string): void {
   isShown.value = true;
 }
 
-const parse = (text: string) =>
-  readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
-
 function send(item: Item): void {
-  const parsed = parse(item.text);
+  const parsed = readTyped(item.text);
   if (!('frame' in parsed)) return;
   const { id, extended, remote, data } = parsed.frame;
   act({ op: 'send', id, data, extended, remote });
@@ -61,7 +57,7 @@ function send(item: Item): void {
 
 /** Starts or ends the rhythm of a row. */
 function repeat(item: Item, isOn: boolean): void {
-  const parsed = parse(item.text);
+  const parsed = readTyped(item.text);
   const frame = 'frame' in parsed ? parsed.frame : null;
   if (!frame && isOn) return;
   act({
@@ -87,7 +83,7 @@ class SendList extends View {
 
   private row(item: Item) {
     const t = T.sendList;
-    const parsed = item.text.trim() ? parse(item.text) : null;
+    const parsed = item.text.trim() ? readTyped(item.text) : null;
     const error = parsed && 'error' in parsed ? parsed.error : '';
     const isUnready = !parsed || 'error' in parsed;
     return html`<li>

@@ -3,10 +3,11 @@
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
-import { NMT_COMMANDS, nmt, sendFrame } from '../actions';
-import { readLine } from '../codec';
-import { describe } from '../sim/link';
-import { pack } from '../sim/packed';
+import { readTyped, sendFrame, sendLine } from '../actions';
+import { templates } from '../codec';
+import { typedForm } from '../format';
+import { askBus } from '../sim/link';
+import { pack, unpack } from '../sim/packed';
 import { icons } from './icons';
 import { View } from './view';
 import './sdo-form';
@@ -14,14 +15,6 @@ import { addToList } from './send-list';
 import { T } from '../texts';
 
 const MOST_REMEMBERED = 50;
-
-/** What a line says, for the chosen node. */
-const read = (text: string) => readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
-
-function sendText(text: string): void {
-  const parsed = read(text);
-  if ('frame' in parsed) sendFrame(parsed.frame);
-}
 
 class Send extends View {
   protected override render() {
@@ -31,48 +24,21 @@ class Send extends View {
       <div class="dock-row">
         <span class="dock-label" id="nmt-label">NMT</span>
         <div class="button-row" role="group" aria-labelledby="nmt-label">
-          ${NMT_COMMANDS.map(
-            ({ code, text, title }) => html`<button class="small" title=${title} aria-label=${`NMT ${text}`} data-active=${isState(code)} @click=${() => nmt(code)}>${text}</button>`,
+          ${T.nmt.map(
+            ({ line, to, text, title }) => html`<button class="small" title=${title} aria-label=${`NMT ${text}`} data-active=${to === state.nmt.value} @click=${() => sendLine(line)}>${text}</button>`,
           )}
           <span class="spacer"></span>
           <label class="select bordered templates" title=${T.sendList.templates}><select aria-label=${T.sendList.templates} @change=${(event: Event) => {
             const select = event.target as HTMLSelectElement;
             if (select.value) state.draft.value = { text: select.value };
             select.value = '';
-          }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(([text, frame]) => html`<option value=${frame}>${text}</option>`)}</select></label>
-          <button class="small sync" title=${T.send.sync} @click=${() => sendText('sync')}>SYNC</button>
+          }}><option value="">LSS, RTR …</option>${templates(state.nodeId.value).map(({ name, frame }) => html`<option value=${typedForm(unpack(frame, 0))}>${name}</option>`)}</select></label>
+          <button class="small sync" title=${T.send.sync} @click=${() => sendLine('sync')}>SYNC</button>
         </div>
       </div>
       <od-send-list></od-send-list>
     `;
   }
-}
-
-/** Frames that are hard to keep in mind. */
-function templates(node: number): [string, string][] {
-  const id = (base: number): string => (base + node).toString(16).toUpperCase().padStart(3, '0');
-  return [
-    ['Node guarding: ask for the state', `${id(0x700)}#R1`],
-    ['Ask for PDO1', `${id(0x180)}#R`],
-    ['NMT: stop all nodes', '000#02 00'],
-    ['LSS: all to configuration', '7E5#04 01 00 00 00 00 00 00'],
-    ['LSS: all to waiting', '7E5#04 00 00 00 00 00 00 00'],
-    ['LSS: node ID 5', '7E5#11 05 00 00 00 00 00 00'],
-    ['LSS: bit rate 500 kbit/s', '7E5#13 00 02 00 00 00 00 00'],
-    ['LSS: store', '7E5#17 00 00 00 00 00 00 00'],
-    ['LSS: ask for the node ID', '7E5#5E 00 00 00 00 00 00 00'],
-    ['LSS: ask for the vendor', '7E5#5A 00 00 00 00 00 00 00'],
-    ['LSS: ask for the product', '7E5#5B 00 00 00 00 00 00 00'],
-    ['LSS: ask for the revision', '7E5#5C 00 00 00 00 00 00 00'],
-    ['LSS: ask for the serial number', '7E5#5D 00 00 00 00 00 00 00'],
-    ['LSS: fastscan, is anybody there?', '7E5#51 00 00 00 00 80 00 00'],
-  ];
-}
-
-/** Is the node where this command would bring it? */
-function isState(code: number): boolean {
-  const target = { 1: 'operational', 2: 'stopped', 128: 'pre-operational' }[code];
-  return target === state.nmt.value;
 }
 
 /** The line for a frame in hexadecimal, with its meaning as it is typed. */
@@ -110,19 +76,20 @@ class RawFrame extends View {
   private async onInput(text: string): Promise<void> {
     this.text = text;
     this.isTouched = false;
-    const parsed = read(text);
+    const parsed = readTyped(text);
     if ('error' in parsed) {
       this.meaning = '';
       return;
     }
     const { frame } = parsed;
-    const [words] = await describe(pack({ ...frame, data: frame.remote ? new Uint8Array(0) : frame.data, dlc: frame.data.length, time: 0, fromPage: true }));
-    if (this.text === text) this.meaning = words ?? '';
+    const typed = pack({ ...frame, data: frame.remote ? new Uint8Array(0) : frame.data, dlc: frame.data.length, time: 0, fromPage: true });
+    const words = await askBus('describeAll', typed);
+    if (this.text === text) this.meaning = words?.[0] ?? '';
   }
 
   private submit(event: Event): void {
     event.preventDefault();
-    const parsed = read(this.text);
+    const parsed = readTyped(this.text);
     this.isTouched = true;
     if ('error' in parsed) return;
     sendFrame(parsed.frame);
@@ -140,16 +107,16 @@ class RawFrame extends View {
   }
 
   protected override render() {
-    const parsed = read(this.text);
+    const parsed = readTyped(this.text);
     const isEmpty = this.text.trim() === '';
     const error = 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
     const bytes = 'frame' in parsed ? T.send.bytes(parsed.frame.data.length) : '';
-    const node = (0x600 + state.nodeId.value).toString(16).toUpperCase();
+    const example = readTyped('read 6004');
     return html`<form class="dock-row" @submit=${this.submit} novalidate>
       <label class="dock-label" for="raw-frame">${T.send.frame}</label>
       <div class="field-group">
         <input id="raw-frame" class="num grow" autocomplete="off" autocapitalize="off" spellcheck="false" enterkeyhint="send"
-          placeholder=${`${node}#40 04 60 00 00 00 00 00`} aria-describedby="raw-note" aria-invalid=${error !== ''}
+          placeholder=${'frame' in example ? typedForm(example.frame) : ''} aria-describedby="raw-note" aria-invalid=${error !== ''}
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
         <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
         <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} ${T.send.send}</button>

@@ -1,9 +1,9 @@
 //! What happens by itself while time passes: shafts that follow a profile, and frames that
 //! are sent again and again.
 
-use od_runtime::{Frame, Instant};
+use std::prelude::v1::*;
 
-use crate::packed;
+use od_wire::{Frame, Instant};
 
 /// A shaft's profile: speeds, each for so long.
 #[derive(Clone)]
@@ -27,13 +27,13 @@ struct Cyclic {
 
 /// Everything that is due at some moment.
 #[derive(Clone, Default)]
-pub(crate) struct Clockwork {
+pub(super) struct Clockwork {
     motions: Vec<Motion>,
     cyclic: Vec<Cyclic>,
 }
 
 /// What a moment brings.
-pub(crate) enum Tick {
+pub(super) enum Tick {
     Rpm(usize, f64),
     Send(Frame),
 }
@@ -43,7 +43,7 @@ const SHORTEST: u64 = 100;
 
 impl Clockwork {
     /// Lets a shaft follow `steps` from now on, pairs of rpm and milliseconds; none stop it.
-    pub(crate) fn follow(&mut self, device: usize, steps: &[f64], repeats: bool, now: Instant) {
+    pub(super) fn follow(&mut self, device: usize, steps: &[f64], repeats: bool, now: Instant) {
         self.motions.retain(|motion| motion.device != device);
         let step = |pair: &[f64]| (pair[0], ((pair[1] * 1000.0) as u64).max(SHORTEST));
         let steps: Vec<_> = steps.chunks_exact(2).map(step).collect();
@@ -59,12 +59,12 @@ impl Clockwork {
     }
 
     /// Does the shaft follow a profile?
-    pub(crate) fn moves(&self, device: usize) -> bool {
+    pub(super) fn moves(&self, device: usize) -> bool {
         self.motions.iter().any(|motion| motion.device == device)
     }
 
     /// A device went away; those behind it move up.
-    pub(crate) fn remove(&mut self, device: usize) {
+    pub(super) fn remove(&mut self, device: usize) {
         self.motions.retain(|motion| motion.device != device);
         for motion in &mut self.motions {
             motion.device -= usize::from(motion.device > device);
@@ -72,7 +72,7 @@ impl Clockwork {
     }
 
     /// Sends a frame every so many microseconds from now on; 0 ends it. One rhythm a key.
-    pub(crate) fn repeat(&mut self, key: u32, frame: Frame, every: u64, now: Instant) {
+    pub(super) fn repeat(&mut self, key: u32, frame: Frame, every: u64, now: Instant) {
         self.cyclic.retain(|one| one.key != key);
         if every > 0 {
             let every = every.max(SHORTEST);
@@ -86,13 +86,13 @@ impl Clockwork {
     }
 
     /// When something is due next.
-    pub(crate) fn due(&self) -> Option<Instant> {
+    pub(super) fn due(&self) -> Option<Instant> {
         let motions = self.motions.iter().map(|motion| motion.due);
         motions.chain(self.cyclic.iter().map(|one| one.due)).min()
     }
 
     /// What is due now, one thing after the other.
-    pub(crate) fn take(&mut self, now: Instant) -> Option<Tick> {
+    pub(super) fn take(&mut self, now: Instant) -> Option<Tick> {
         if let Some(place) = self.motions.iter().position(|motion| motion.due <= now) {
             let motion = &mut self.motions[place];
             let device = motion.device;
@@ -111,25 +111,6 @@ impl Clockwork {
         let one = self.cyclic.iter_mut().find(|one| one.due <= now)?;
         one.due = one.due.plus_micros(one.every);
         Some(Tick::Send(one.frame))
-    }
-}
-
-impl Tick {
-    /// Does it on a bus; answers with the frame that came through.
-    pub(crate) fn happen(self, bus: &mut od_bench::Bus, batch: &mut Vec<u8>) -> Option<Frame> {
-        match self {
-            Self::Rpm(device, rpm) => {
-                bus.with(device, |device, now| device.set_rpm(rpm, now));
-                None
-            }
-            Self::Send(frame) => {
-                let came_through = bus.receive(&frame);
-                if came_through {
-                    packed::push(batch, bus.now(), None, &frame);
-                }
-                came_through.then_some(frame)
-            }
-        }
     }
 }
 

@@ -1,0 +1,142 @@
+//! The SDO client of a rig: a station on the bus like any other master.
+
+use std::collections::VecDeque;
+use std::prelude::v1::*;
+
+use od_client::sdo::{Options, SdoError};
+use od_client::{Client, Event, Job, lss};
+use od_model::Address;
+use od_wire::sdo::Request;
+use od_wire::{AbortCode, Duration, Frame, Instant, NodeId};
+
+/// A transfer that is over.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Outcome {
+    /// The number that [`Rig::read`](super::Rig::read) or [`write`](super::Rig::write) returned.
+    pub job: u32,
+    /// The node that was asked.
+    pub node: NodeId,
+    /// The object.
+    pub address: Address,
+    /// The value that was read, empty after a write; or why there is none.
+    pub result: Result<Vec<u8>, SdoError>,
+}
+
+impl Outcome {
+    fn of(
+        (_, job, node, address): (Job, u32, NodeId, Address),
+        result: Result<Vec<u8>, SdoError>,
+    ) -> Self {
+        Self {
+            job,
+            node,
+            address,
+            result,
+        }
+    }
+}
+
+/// The client, what it wants to send, and what it was asked.
+#[derive(Debug)]
+pub(super) struct Asker {
+    client: Client,
+    requests: VecDeque<Frame>,
+    /// What is under way, with its number.
+    asked: Vec<(Job, u32, NodeId, Address)>,
+    count: u32,
+}
+
+impl Default for Asker {
+    fn default() -> Self {
+        let mut options = Options::SEGMENTED;
+        options.timeout = Duration::from_millis(500);
+        Self {
+            client: Client::with(options, lss::Options::DEFAULT),
+            requests: VecDeque::new(),
+            asked: Vec::new(),
+            count: 0,
+        }
+    }
+}
+
+impl Asker {
+    /// Asks for a transfer; with bytes it is a write.
+    pub(super) fn ask(
+        &mut self,
+        now: Instant,
+        node: NodeId,
+        address: Address,
+        bytes: Option<&[u8]>,
+    ) -> u32 {
+        let job = match bytes {
+            Some(bytes) => self.client.write(node, address, bytes),
+            None => self.client.read(node, address),
+        };
+        self.count += 1;
+        self.asked.push((job, self.count, node, address));
+        self.take(now);
+        self.count
+    }
+
+    /// A device sent a frame.
+    pub(super) fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        if !self.asked.is_empty() {
+            self.client.handle_frame(now, frame);
+            self.take(now);
+        }
+    }
+
+    pub(super) fn handle_timeout(&mut self, now: Instant) {
+        self.client.handle_timeout(now);
+        self.take(now);
+    }
+
+    pub(super) fn poll_timeout(&self) -> Option<Instant> {
+        self.client.poll_timeout()
+    }
+
+    /// Does a frame wait to be sent?
+    pub(super) fn has_request(&self) -> bool {
+        !self.requests.is_empty()
+    }
+
+    /// The next frame to send.
+    pub(super) fn request(&mut self) -> Option<Frame> {
+        self.requests.pop_front()
+    }
+
+    /// The next transfer that is over.
+    pub(super) fn poll(&mut self) -> Option<Outcome> {
+        loop {
+            let (job, result) = match self.client.poll_event()? {
+                Event::Read(job, result) => (job, result),
+                Event::Written(job, result) => (job, result.map(|()| Vec::new())),
+                _ => continue,
+            };
+            if let Some(at) = self.asked.iter().position(|(asked, ..)| *asked == job) {
+                return Some(Outcome::of(self.asked.remove(at), result));
+            }
+        }
+    }
+
+    /// Ends all that is under way: the bus was exchanged, and nobody answers any more.
+    pub(super) fn give_up(&mut self) -> Vec<Outcome> {
+        let count = self.count;
+        let Self { asked, .. } = std::mem::take(self);
+        self.count = count;
+        let silent = |asked| Outcome::of(asked, Err(SdoError::Silent));
+        asked.into_iter().map(silent).collect()
+    }
+
+    /// Takes what the client sends. A silent node gets no abort: it would be one more frame that
+    /// nobody acknowledges.
+    fn take(&mut self, now: Instant) {
+        while let Some(frame) = self.client.poll_transmit(now) {
+            let abort = frame.data().try_into().map(Request::parse);
+            let is_timeout = |code| code == AbortCode::Timeout.code();
+            if !matches!(abort, Ok(Request::Abort { code, .. }) if is_timeout(code)) {
+                self.requests.push_back(frame);
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Devices come to a rig and leave it.
+
+use std::prelude::v1::*;
+
+use od_runtime::DeviceKind;
+use od_wire::NodeId;
+
+use super::Rig;
+use crate::device::VirtualDevice;
+
+impl Rig {
+    /// Puts a device on the bus, set up for the bit rate of the line, and gives it power. Returns
+    /// its number. With a `place` it takes the place of the device with that number.
+    pub fn put(&mut self, mut device: VirtualDevice, place: Option<usize>) -> usize {
+        let devices = self.bus.devices();
+        let others = (0..).zip(devices).filter(|(at, _)| Some(*at) != place);
+        let rate = others.map(|(_, one)| one).find_map(VirtualDevice::bit_rate);
+        device.set_up_for(self.bus.line.bit_rate.or(rate));
+        let number = match place.filter(|place| *place < self.bus.devices().len()) {
+            Some(place) => {
+                self.follow(place, &[], false);
+                self.bus.replace(place, device);
+                place
+            }
+            // Identical devices have different serial numbers, or LSS could not tell them apart.
+            None => match self.bus.devices().len() {
+                0 => self.bus.add(device),
+                others => self.bus.add(device.with_serial_number(others as u32 + 1)),
+            },
+        };
+        self.start(number);
+        number
+    }
+
+    /// Puts a built-in device on the bus, as [`put`](Self::put) does. The further channels of a
+    /// redundant encoder are nodes with the next node IDs on its shaft, behind all devices.
+    pub fn put_kind(&mut self, kind: &DeviceKind, node_id: NodeId, place: Option<usize>) -> usize {
+        let first = self.put(VirtualDevice::new(kind, node_id), place);
+        for channel in 1..kind.channels {
+            let next = node_id.raw().checked_add(channel).and_then(NodeId::new);
+            let mut device = VirtualDevice::new(kind, next.unwrap_or(NodeId::ONE))
+                .with_serial_number(u32::from(channel) + 1);
+            let devices = self.bus.devices();
+            device.set_up_for(devices.get(first).and_then(VirtualDevice::bit_rate));
+            let number = self.bus.add_beside(device, first);
+            self.start(number);
+        }
+        first
+    }
+
+    fn start(&mut self, device: usize) {
+        self.bus.start(device);
+        self.settle();
+    }
+
+    /// Takes a device off the bus; the numbers of those behind it go down by one.
+    pub fn remove(&mut self, device: usize) {
+        if self.bus.remove(device).is_some() {
+            self.clockwork.remove(device);
+        }
+    }
+
+    /// Switches the power of a device.
+    pub fn set_power(&mut self, device: usize, on: bool) {
+        let act = match on {
+            true => VirtualDevice::power_on,
+            false => VirtualDevice::power_off,
+        };
+        self.with(device, act);
+    }
+}

@@ -1,0 +1,146 @@
+//! Lessons and scripts on a rig.
+
+use std::prelude::v1::*;
+
+use od_wire::{Frame, Instant, NodeId};
+
+use super::{Rig, Seen};
+use crate::bench::Bench;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::grammar::problem::Problem;
+use crate::lesson::{Lesson, Progress, Watched};
+use crate::rig::clockwork::Clockwork;
+use crate::script::{Host, Origin, Script, run_on};
+
+/// A lesson that is taken, and the names that its set-up gave the devices.
+pub(super) struct Taken {
+    progress: Progress,
+    /// Without its bus, which is the rig's.
+    names: Bench,
+}
+
+impl Rig {
+    /// Starts a lesson: its set-up takes the place of all that is on the bus, and time goes on.
+    ///
+    /// # Errors
+    /// What is wrong with the text, or with its set-up.
+    pub fn start_lesson(
+        &mut self,
+        text: &str,
+        host: &mut dyn Host,
+    ) -> Result<Lesson, Vec<Problem>> {
+        let lesson = Lesson::parse(text)?;
+        let mut bus = Bus::new();
+        bus.advance(self.bus.now());
+        let set_up = lesson.set_up_on(Bench::new(bus), host);
+        let mut names = set_up.map_err(|problem| vec![problem])?;
+        let progress = Progress::new(lesson.clone(), &mut names);
+        self.bus = std::mem::take(&mut names.bus);
+        self.clockwork = Clockwork::default();
+        self.seen.clear();
+        self.outcomes.extend(self.asker.give_up());
+        self.taken = Some(Taken { progress, names });
+        Ok(lesson)
+    }
+
+    /// Ends the lesson; what is on the bus stays.
+    pub fn end_lesson(&mut self) {
+        self.taken = None;
+    }
+
+    /// The lesson that is taken as it is now, and its bus.
+    pub fn lesson(&mut self) -> Option<(&mut Progress, &mut Bus)> {
+        self.look();
+        let taken = self.taken.as_mut()?;
+        Some((&mut taken.progress, &mut self.bus))
+    }
+
+    /// Runs lines of a script, such as the solution of a step; time passes where they say so.
+    /// They are about the first device until `use` names another one.
+    ///
+    /// # Errors
+    /// Which line cannot be read or fails; what the lines before it did stays.
+    pub fn run_script(&mut self, text: &str, host: &mut dyn Host) -> Result<(), String> {
+        let script = Script::parse(text).map_err(|all| match all.first() {
+            Some(problem) => problem.to_string(),
+            None => String::new(),
+        })?;
+        let bus = std::mem::take(&mut self.bus);
+        let seen = &mut self.seen;
+        let mut recorder = Recorder { host, seen };
+        let (result, bus) = match &mut self.taken {
+            Some(taken) => {
+                taken.names.bus = bus;
+                let mut watched = Watched {
+                    host: &mut recorder,
+                    progress: &mut taken.progress,
+                };
+                let result = run_on(&script, &mut taken.names, &mut watched);
+                (result, std::mem::take(&mut taken.names.bus))
+            }
+            None => {
+                let mut bench = Bench::new(bus);
+                let result = run_on(&script, &mut bench, &mut recorder);
+                (result, bench.bus)
+            }
+        };
+        self.bus = bus;
+        self.settle();
+        result.map(|_| ()).map_err(|stop| stop.to_string())
+    }
+
+    /// A frame came through, from outside or from a device.
+    pub(super) fn watched(&mut self, at: Instant, device: Option<usize>, frame: &Frame) {
+        if let Some(taken) = &mut self.taken {
+            let origin = device.map_or(Origin::Script, Origin::Device);
+            taken.progress.frame(at, origin, frame);
+            taken.progress.look(&mut self.bus);
+        }
+    }
+
+    /// A frame was disturbed on the bus line.
+    pub(super) fn lost(&mut self, at: Instant) {
+        if let Some(taken) = &mut self.taken {
+            taken.progress.disturbed(at);
+        }
+    }
+
+    /// Something may have changed.
+    pub(super) fn look(&mut self) {
+        if let Some(taken) = &mut self.taken {
+            taken.progress.look(&mut self.bus);
+        }
+    }
+
+    /// Number of checkpoints that were reached.
+    pub(super) fn reached(&self) -> usize {
+        let taken = self.taken.as_ref();
+        taken.map_or(0, |taken| taken.progress.reached().len())
+    }
+}
+
+/// Records the frames of a script.
+struct Recorder<'a> {
+    host: &'a mut dyn Host,
+    seen: &'a mut Vec<Seen>,
+}
+
+impl Host for Recorder<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        self.host.device(name, node_id)
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        let device = match origin {
+            Origin::Script => None,
+            Origin::Device(device) => Some(device),
+        };
+        let frame = *frame;
+        self.seen.push(Seen::Frame { at, device, frame });
+    }
+}

@@ -1,0 +1,220 @@
+//! A bench as its user has it: everything on the bus line is seen, shafts follow profiles, frames
+//! are sent in a rhythm, an SDO client asks, and a lesson watches.
+
+mod client;
+mod clockwork;
+mod devices;
+#[cfg(feature = "lessons")]
+mod lesson;
+
+use std::collections::VecDeque;
+use std::prelude::v1::*;
+
+use od_model::Address;
+use od_wire::{Frame, Instant, NodeId};
+
+use self::client::Asker;
+use self::clockwork::{Clockwork, Tick};
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::wire::Disturbance;
+
+pub use self::client::Outcome;
+
+/// What happened on the bus line.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Seen {
+    /// A frame.
+    Frame {
+        /// When.
+        at: Instant,
+        /// The device that sent it; `None` for one from outside.
+        device: Option<usize>,
+        /// What.
+        frame: Frame,
+    },
+    /// A frame that was disturbed, and the transmit error counter of its sender.
+    Disturbed(Disturbance, u16),
+}
+
+/// A bus with all that goes on around it.
+#[derive(Default)]
+pub struct Rig {
+    /// The bus. What its devices send because of a change is seen with [`settle`](Self::settle).
+    pub bus: Bus,
+    clockwork: Clockwork,
+    seen: Vec<Seen>,
+    asker: Asker,
+    outcomes: VecDeque<Outcome>,
+    /// The lesson that is taken.
+    #[cfg(feature = "lessons")]
+    taken: Option<lesson::Taken>,
+}
+
+impl Rig {
+    /// A bus without devices at this time.
+    pub fn at(now: Instant) -> Self {
+        let mut rig = Self::default();
+        rig.bus.advance(now);
+        rig
+    }
+
+    /// Takes everything off the bus and starts at the origin of time again. Transfers that are
+    /// under way end: nobody answers any more.
+    pub fn clear(&mut self) {
+        self.outcomes.extend(self.asker.give_up());
+        let Self {
+            asker, outcomes, ..
+        } = std::mem::take(self);
+        (self.asker, self.outcomes) = (asker, outcomes);
+    }
+
+    /// Sends a frame from outside.
+    pub fn send(&mut self, frame: &Frame) {
+        let now = self.bus.now();
+        let came_through = self.bus.receive(frame);
+        self.settle_line();
+        if came_through {
+            self.saw(now, None, *frame);
+        }
+        self.settle();
+    }
+
+    /// Does something with a device, and takes what it sends. `None` if it does not exist.
+    pub fn with<R>(
+        &mut self,
+        device: usize,
+        act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
+    ) -> Option<R> {
+        let result = self.bus.with(device, act);
+        self.settle();
+        result
+    }
+
+    /// Lets a shaft follow `steps` from now on, pairs of rpm and milliseconds; with none it goes
+    /// on as it is.
+    pub fn follow(&mut self, device: usize, steps: &[f64], repeats: bool) {
+        let now = self.bus.now();
+        self.clockwork.follow(device, steps, repeats, now);
+    }
+
+    /// Returns whether the shaft follows a profile.
+    pub fn moves(&self, device: usize) -> bool {
+        self.clockwork.moves(device)
+    }
+
+    /// Sends a frame every so many microseconds from now on; 0 ends it. `key` tells rhythms apart.
+    pub fn repeat(&mut self, key: u32, frame: Frame, micros: u64) {
+        let now = self.bus.now();
+        self.clockwork.repeat(key, frame, micros, now);
+    }
+
+    /// Starts to read an object over the bus; the number comes back in an [`Outcome`]. The
+    /// client waits 500 ms for an answer. What it sends waits in [`request`](Self::request).
+    pub fn read(&mut self, node: NodeId, address: Address) -> u32 {
+        self.asker.ask(self.bus.now(), node, address, None)
+    }
+
+    /// Starts to write an object, as [`read`](Self::read).
+    pub fn write(&mut self, node: NodeId, address: Address, bytes: &[u8]) -> u32 {
+        self.asker.ask(self.bus.now(), node, address, Some(bytes))
+    }
+
+    /// Returns the next frame of the SDO client, which is to be [sent](Self::send) now.
+    pub fn request(&mut self) -> Option<Frame> {
+        self.asker.request()
+    }
+
+    /// Returns the next transfer that is over.
+    pub fn outcome(&mut self) -> Option<Outcome> {
+        self.outcomes.pop_front().or_else(|| self.asker.poll())
+    }
+
+    /// Lets time pass to `to`, with all that is due. Returns earlier when `full` things were seen
+    /// that nobody drained, a checkpoint of the lesson is reached, or the SDO client wants to send.
+    pub fn pass(&mut self, to: Instant, full: usize) {
+        let reached = self.reached();
+        while self.seen.len() < full && self.reached() == reached {
+            let now = self.bus.now();
+            // A request waits until all else of its moment happened, so that a run which is made
+            // again from its requests goes the same way.
+            let overdue = self.asker.poll_timeout().filter(|due| *due <= to);
+            let to = match self.asker.has_request() {
+                true => now,
+                false => overdue.unwrap_or(to),
+            };
+            let due = self.clockwork.due().filter(|due| *due <= to);
+            let sent = self.bus.advance_until_sent(due.unwrap_or(to).max(now));
+            self.settle();
+            if sent {
+                continue;
+            }
+            match self.clockwork.take(self.bus.now()) {
+                Some(tick) => self.happen(tick),
+                None if due.is_some() => {}
+                None if self.asker.has_request() => return,
+                None if overdue.is_some() => self.asker.handle_timeout(self.bus.now()),
+                None => return,
+            }
+        }
+    }
+
+    fn happen(&mut self, tick: Tick) {
+        match tick {
+            Tick::Send(frame) => self.send(&frame),
+            Tick::Rpm(device, rpm) => {
+                self.with(device, |device, now| device.set_rpm(rpm, now));
+            }
+        }
+    }
+
+    /// Number of things that were seen and not drained.
+    pub fn pending(&self) -> usize {
+        self.seen.len()
+    }
+
+    /// Takes what was seen since the last call.
+    pub fn drain(&mut self) -> Vec<Seen> {
+        std::mem::take(&mut self.seen)
+    }
+
+    /// Takes what the devices sent, and shows it to all who look.
+    pub fn settle(&mut self) {
+        self.settle_line();
+        while let Some(sent) = self.bus.poll() {
+            self.asker.handle_frame(sent.at, &sent.frame);
+            self.saw(sent.at, Some(sent.device), sent.frame);
+        }
+        self.look();
+    }
+
+    fn settle_line(&mut self) {
+        while let Some(one) = self.bus.line.poll() {
+            self.lost(one.at);
+            let station = one.device.map_or(0, |device| device + 1);
+            let counter = self.bus.line.controller(station).transmit;
+            self.seen.push(Seen::Disturbed(one, counter));
+        }
+    }
+
+    fn saw(&mut self, at: Instant, device: Option<usize>, frame: Frame) {
+        self.seen.push(Seen::Frame { at, device, frame });
+        self.watched(at, device, &frame);
+    }
+}
+
+#[cfg(not(feature = "lessons"))]
+impl Rig {
+    fn watched(&mut self, _: Instant, _: Option<usize>, _: &Frame) {}
+
+    fn lost(&mut self, _: Instant) {}
+
+    fn look(&mut self) {}
+
+    fn reached(&self) -> usize {
+        0
+    }
+}
+
+#[cfg(test)]
+mod tests;

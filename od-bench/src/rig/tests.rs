@@ -1,0 +1,94 @@
+use od_client::sdo::SdoError;
+use od_devices::DEVICES;
+
+use super::*;
+
+/// A rig with one device of each of these names, in Pre-operational.
+fn rig(names: &[&str]) -> Rig {
+    let mut rig = Rig::default();
+    for (name, node) in names.iter().zip(1..) {
+        let kind = DEVICES.iter().find(|kind| kind.name == *name).unwrap();
+        rig.put_kind(kind, NodeId::new(node).unwrap(), None);
+    }
+    run(&mut rig, 10_000);
+    rig
+}
+
+/// Lets time pass; requests are sent as they come.
+fn run(rig: &mut Rig, micros: u64) {
+    let end = rig.bus.now().plus_micros(micros);
+    loop {
+        while let Some(frame) = rig.request() {
+            rig.send(&frame);
+        }
+        rig.pass(end, usize::MAX);
+        if rig.bus.now() == end && !rig.asker.has_request() {
+            return;
+        }
+    }
+}
+
+fn frames(rig: &mut Rig) -> Vec<String> {
+    let text = |seen: Seen| match seen {
+        Seen::Frame { frame, .. } => frame.to_string(),
+        Seen::Disturbed(one, _) => format!("lost {}", one.frame),
+    };
+    rig.drain().into_iter().map(text).collect()
+}
+
+#[test]
+fn the_client_reads_and_writes_over_the_bus() {
+    let mut rig = rig(&["gxmm"]);
+    rig.drain();
+    let name = rig.read(NodeId::ONE, Address::new(0x1008, 0));
+    let time = rig.write(NodeId::ONE, Address::new(0x1017, 0), &[0xF4, 1]);
+    let wrong = rig.write(NodeId::ONE, Address::new(0x1000, 0), &[0; 4]);
+    run(&mut rig, 1000);
+    let first = rig.outcome().unwrap();
+    assert_eq!(
+        (first.job, first.result.as_deref()),
+        (name, Ok(&b"GXMM"[..]))
+    );
+    assert_eq!(
+        rig.outcome().map(|one| (one.job, one.result)),
+        Some((time, Ok(Vec::new())))
+    );
+    let last = rig.outcome().unwrap();
+    assert_eq!(
+        (last.job, last.result),
+        (wrong, Err(SdoError::Abort(0x0601_0002)))
+    );
+    assert_eq!(rig.outcome(), None);
+    assert_eq!(
+        frames(&mut rig)[..2],
+        ["601#4008100000000000", "581#4308100047584D4D"]
+    );
+}
+
+#[test]
+fn a_silent_node_is_asked_once_and_gets_no_abort() {
+    let mut rig = rig(&["gxmm"]);
+    rig.drain();
+    let other = NodeId::new(9).unwrap();
+    let job = rig.read(other, Address::new(0x1000, 0));
+    run(&mut rig, 499_999);
+    assert_eq!(rig.outcome(), None);
+    run(&mut rig, 1);
+    let silent = rig.outcome().map(|one| (one.job, one.result));
+    assert_eq!(silent, Some((job, Err(SdoError::Silent))));
+    assert_eq!(frames(&mut rig), ["609#4000100000000000"]);
+}
+
+#[test]
+fn what_is_under_way_ends_with_its_bus() {
+    let mut rig = rig(&["gxmm"]);
+    let job = rig.read(NodeId::new(9).unwrap(), Address::new(0x1000, 0));
+    rig.clear();
+    assert_eq!(rig.bus.devices().len(), 0);
+    assert_eq!(
+        rig.outcome().map(|one| (one.job, one.result)),
+        Some((job, Err(SdoError::Silent)))
+    );
+    let next = rig.read(NodeId::ONE, Address::new(0x1000, 0));
+    assert_ne!(job, next);
+}

@@ -1,0 +1,69 @@
+//! EDS and DCF texts, and what odkit finds in them.
+
+use od_eds::{Eds, Finding, Severity, say};
+use wasm_bindgen::prelude::*;
+
+use crate::fixes::Places;
+use crate::record::{self, Record};
+
+/// What there is to say about an EDS or DCF text.
+#[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
+pub fn check_eds(text: &str) -> Vec<JsValue> {
+    let places = Places::of(text);
+    od_eds::load(text)
+        .diagnostics
+        .iter()
+        .map(|one| diagnostic(one, &places))
+        .collect()
+}
+
+/// The text with what can be mended in it: safe fixes, or likely guesses as well.
+#[wasm_bindgen(js_name = mendEds)]
+pub fn mend_eds(text: &str, guess: bool) -> String {
+    use od_eds::fix::{Applicability, mend};
+    let level = match guess {
+        true => Applicability::Unsafe,
+        false => Applicability::Safe,
+    };
+    let document = od_eds::Document::new(text);
+    let mended = mend(&document, level, |document| document.load().diagnostics);
+    mended.document.text().into()
+}
+
+/// The text in the bytes of an EDS or DCF file: UTF-8, UTF-16 or Windows-1252.
+#[wasm_bindgen(js_name = decodeEds)]
+pub fn decode_eds(bytes: &[u8]) -> String {
+    od_eds::decode(bytes).into()
+}
+
+pub(crate) fn diagnostics(found: &[Finding], text: &str) -> JsValue {
+    let places = Places::of(text);
+    record::list(found.iter().map(|one| diagnostic(one, &places)))
+}
+
+fn diagnostic(one: &Finding, places: &Places<'_>) -> JsValue {
+    let one = say(one, &Eds);
+    let span = one.span.unwrap_or_default();
+    Record::new()
+        .with("code", one.code)
+        .with(
+            "severity",
+            match one.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Info => "info",
+            },
+        )
+        .with("message", one.message.as_str())
+        .with("help", one.help.as_str())
+        .with("line", span.line)
+        .with("column", span.column)
+        .with(
+            "object",
+            one.address
+                .map(|address| address.to_string())
+                .unwrap_or_default(),
+        )
+        .with("fix", places.fix(one.fix.as_ref()))
+        .done()
+}

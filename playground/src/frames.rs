@@ -1,0 +1,77 @@
+//! Frames in words.
+
+use od_bench::words;
+use od_bench::words::{Service, Words};
+use od_model::Address;
+use wasm_bindgen::prelude::*;
+
+use crate::bus::Bus;
+use crate::packed;
+use crate::record::Record;
+
+#[wasm_bindgen]
+impl Bus {
+    /// Each of these packed frames in plain words.
+    #[wasm_bindgen(js_name = describeAll)]
+    pub fn describe_all(&self, frames: &[u8]) -> Vec<String> {
+        let frames = frames.chunks_exact(packed::LEN);
+        frames.map(|frame| self.describe(frame)).collect()
+    }
+
+    /// One packed frame in plain words, with the names of the objects.
+    pub fn describe(&self, frame: &[u8]) -> String {
+        packed::frame(frame)
+            .map(|frame| sentence(words::explain(self.rig.bus.devices(), &frame)))
+            .unwrap_or_default()
+    }
+
+    /// The objects in a packed PDO by the mapping that stands, three numbers each:
+    /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
+    pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
+        packed::frame(frame)
+            .and_then(|frame| words::layout(self.rig.bus.devices(), &frame))
+            .unwrap_or_default()
+            .into_iter()
+            .flat_map(|(at, first, bits)| {
+                [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
+            })
+            .collect()
+    }
+
+    /// The fields of a packed frame, one after the other; none for a frame that was disturbed.
+    #[wasm_bindgen(unchecked_return_type = "Field[]")]
+    pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
+        let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
+        let fields = known.map(|frame| words::fields(self.rig.bus.devices(), &frame));
+        let record = |field: words::Field| {
+            let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
+            Record::new()
+                .with("from", field.from)
+                .with("to", field.to)
+                .with("name", field.name)
+                .with("value", field.value)
+                .with(
+                    "object",
+                    field.object.map_or(JsValue::NULL, |at| key(at).into()),
+                )
+                .done()
+        };
+        fields.unwrap_or_default().into_iter().map(record).collect()
+    }
+}
+
+/// What a frame says, with its node where the identifier alone does not tell.
+pub(crate) fn sentence(words: Words) -> String {
+    let mut text = match (words.service, words.node) {
+        (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),
+        (Service::Nmt, None) => format!("{} all nodes", words.text),
+        (Service::ErrorControl | Service::Emcy, Some(node)) => {
+            format!("node {node}: {}", words.text)
+        }
+        _ => words.text,
+    };
+    if let Some(first) = text.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    text
+}

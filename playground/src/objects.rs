@@ -1,0 +1,70 @@
+//! The objects of a device.
+
+use od_bench::VirtualDevice;
+use od_model::Address;
+use wasm_bindgen::prelude::*;
+
+use crate::bus::Bus;
+use crate::values;
+
+#[wasm_bindgen]
+impl Bus {
+    /// The object dictionary of a device, one row for each value.
+    #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
+    pub fn dictionary(&self, device: usize) -> Vec<JsValue> {
+        let Some(device) = self.rig.bus.devices().get(device) else {
+            return Vec::new();
+        };
+        values::dictionary(device.dictionary(), device.node_id().raw())
+    }
+
+    /// The value of an object as a master would read it now, without a frame on the bus;
+    /// `null` where there is none.
+    #[wasm_bindgen(unchecked_return_type = "Value")]
+    pub fn read(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
+        let address = Address::new(index, sub);
+        let value = self.rig.with(device, |device, now| {
+            let data_type = device.dictionary().find(address).ok()?.data_type;
+            device
+                .is_powered()
+                .then(|| values::value(data_type, &device.read(address, now)))
+        });
+        value.flatten().unwrap_or(JsValue::NULL)
+    }
+
+    /// The objects that would have another value after a power cycle, each as
+    /// `index * 256 + sub`; with `saved`, those that are saved as they are.
+    pub fn unsaved(&mut self, device: usize, saved: bool) -> Vec<u32> {
+        let look = |device: &mut VirtualDevice| {
+            if !device.is_powered() {
+                return Vec::new();
+            }
+            let image = device.saved();
+            let dictionary = device.dictionary();
+            let of = |address: Address| device.is_unsaved(&image, address);
+            let wanted = |address: &Address| of(*address) == Some(!saved);
+            let addresses = dictionary.entries().iter().map(|entry| entry.address);
+            let key = |address: Address| u32::from(address.index) << 8 | u32::from(address.sub);
+            addresses.filter(wanted).map(key).collect()
+        };
+        self.rig
+            .with(device, |device, _| look(device))
+            .unwrap_or_default()
+    }
+
+    /// What the EEPROM would bring back for an object at the next start: its saved value, or
+    /// its default; `null` where it is no object that is saved.
+    #[wasm_bindgen(js_name = savedValue, unchecked_return_type = "Value")]
+    pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
+        let address = Address::new(index, sub);
+        let look = |device: &mut VirtualDevice| {
+            let mut saved = device.saved();
+            let data_type = device.dictionary().find(address).ok()?.data_type;
+            Some(values::value(data_type, &saved.bytes(device, address)?))
+        };
+        self.rig
+            .with(device, |device, _| look(device))
+            .flatten()
+            .unwrap_or(JsValue::NULL)
+    }
+}

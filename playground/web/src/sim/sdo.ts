@@ -1,0 +1,29 @@
+// Objects read and written over the bus, and what came of it in words.
+
+import { decode } from '../codec';
+import { address, otherSpelling, showValue } from '../format';
+import { nodeId, powered } from '../state';
+import { T } from '../texts';
+import type { Address, ObjectRecord, Outcome } from './api';
+import { ask } from './link';
+
+export type Said = { tone: '' | 'error' | 'good'; text: string };
+
+/** Nobody answered. */
+const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsPdoOff: false };
+
+/** Reads an object of the selected node over the bus, or with bytes writes it. */
+export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Promise<Outcome> =>
+  ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT);
+
+/** Why there is no value. */
+export const failure = ({ words }: Outcome): string => words || (powered.value ? T.sdo.stopped : T.sdo.off);
+
+export function inWords(object: ObjectRecord, isWrite: boolean, outcome: Outcome): Said {
+  const where = address(object.index, object.sub);
+  if (outcome.bytes === null) return { tone: 'error', text: failure(outcome) };
+  if (isWrite) return { tone: 'good', text: T.sdo.written(where) };
+  const value = decode(outcome.bytes, object);
+  const other = otherSpelling(value, object);
+  return { tone: 'good', text: `${where} = ${showValue(value, object)}${other ? ` (${other})` : ''}` };
+}
