@@ -4,6 +4,7 @@ use std::prelude::v1::*;
 
 use od_wire::{Frame, Instant, NodeId};
 
+use super::taken::Taken;
 use super::{Rig, Seen};
 use crate::bench::Bench;
 use crate::bus::Bus;
@@ -12,13 +13,6 @@ use crate::grammar::problem::Problem;
 use crate::lesson::{Lesson, Progress, Watched};
 use crate::rig::clockwork::Clockwork;
 use crate::script::{Host, Origin, Script, run_on};
-
-/// A lesson that is taken, and the names that its set-up gave the devices.
-pub(super) struct Taken {
-    progress: Progress,
-    /// Without its bus, which is the rig's.
-    names: Bench,
-}
 
 impl Rig {
     /// Starts a lesson: its set-up takes the place of all that is on the bus, and time goes on.

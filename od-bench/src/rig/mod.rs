@@ -6,6 +6,8 @@ mod clockwork;
 mod devices;
 #[cfg(feature = "lessons")]
 mod lesson;
+#[cfg(feature = "lessons")]
+mod taken;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -48,7 +50,7 @@ pub struct Rig {
     outcomes: VecDeque<Outcome>,
     /// The lesson that is taken.
     #[cfg(feature = "lessons")]
-    taken: Option<lesson::Taken>,
+    taken: Option<taken::Taken>,
 }
 
 impl Rig {
