@@ -46,7 +46,7 @@ fn a_lesson_is_shown_without_giving_it_away() {
             .out
             .starts_with("# Boot-up and heartbeat\n\nLevel 1, 10 minutes, 5 steps.")
     );
-    assert!(plain.out.contains("Which frame will be its first?"));
+    assert!(plain.out.contains("Which frame is it?"));
     assert!(!plain.out.contains("Hint") && !plain.out.contains("sdo write"));
     let all = odkit(
         &[
@@ -78,10 +78,10 @@ fn a_lesson_that_is_taken_says_what_is_missing() {
     let taken = odkit(&["lesson", "run", &path, "--hints", "2"], lines);
     assert_eq!(taken.code, 1);
     let expected = "(0.000000) can0 705#00\n\
-                    # step 1 is done at 0.000000 s: The first message\n\
+                    # step 1 is done at 0.000000 s: Power the encoder and find its first frame\n\
                     (0.000000) can0 585#6017100000000000\n\
                     (0.500000) can0 705#7F\n\
-                    # step 2 of 5 is open: Every half second\n\
+                    # step 2 of 5 is open: Configure a heartbeat of 500 ms\n\
                     #   holds    1017h is written over the bus\n\
                     #   holds    1017h Producer heartbeat time is 500\n\
                     #   missing  three heartbeats come, half a second apart (1 of 3 so far)\n\
