@@ -1,15 +1,16 @@
-//! The model's findings in rustc's output: at the token that made them, or at the
-//! path of the EDS, with the place in the file in the text.
+//! Findings in rustc's output: at the token that made them, or at the path of the EDS,
+//! with the place in the file in the text.
 
 use std::ops::Range;
 
 use od_eds::patch::{Action, Edit, Target};
-use od_eds::{Description, Eds, Finding, Key, Sentence, Vocabulary, say, token_of};
-use od_model::Address;
+use od_eds::{Description, Eds, Fact, Finding, Key, Sentence, Vocabulary, say, token_of};
+use od_model::{Address, DataType, Kind};
 use proc_macro2::Span;
 
 use crate::files::Files;
 use crate::report::{Place, Report};
+use crate::words::{CODES, TYPES};
 
 /// So many faults of one EDS file are shown; the rest is counted.
 const SHOWN: usize = 20;
@@ -81,27 +82,24 @@ impl Patch<'_> {
         }
     }
 
-    /// The last edit of an object that the finding is about, or that it names.
+    /// The last edit of an object that the finding is about, or that is one of its facts.
     fn culprit(&self, finding: &Finding) -> Option<&Edit> {
         let last = |index: u16| self.edits.iter().rev().find(|e| e.target.index == index);
         let about = finding.object.and_then(|address| last(address.index));
         about.or_else(|| {
-            let message = say(finding, &Eds).message;
-            self.edits
-                .iter()
-                .rev()
-                .find(|edit| message.contains(&format!("{:04X}h", edit.target.index)))
+            let facts = finding.facts.iter();
+            facts.filter_map(|(_, fact)| last(fact.index()?)).next()
         })
     }
 }
 
-/// How to mend what a `remove` made.
+/// The help for what a `remove` made.
 fn without(edit: &Edit, finding: &Sentence) -> String {
     let target = *edit.target;
     let about = finding.address.map(|address| address.index);
     match about == Some(target.index) {
-        true => format!("leave `remove {target}` out"),
-        false => format!("{}; or leave `remove {target}` out", finding.help),
+        true => format!("remove the statement `remove {target}`"),
+        false => format!("{}, or remove `remove {target}`", finding.help),
     }
 }
 
@@ -110,12 +108,12 @@ fn at_token(finding: &Sentence, description: &Description, files: Option<&Files>
     let mut text = heading(finding, description);
     let written = finding.span.filter(|span| token_of(*span).is_none());
     if let (Some(files), Some(span)) = (files, written) {
-        text.push_str(&format!("\nnote: it stands at {}", files.place(span)));
+        text.push_str(&format!("\nnote: defined at {}", files.place(span)));
     }
     if !finding.help.is_empty() {
         text.push_str(&format!("\nhelp: {}", finding.help));
     }
-    in_words_of_the_macro(&text)
+    text
 }
 
 /// `file:line:column: [E0412] object 2300h:09 "Reset": message`, notes and help below.
@@ -182,11 +180,31 @@ impl Vocabulary for Row {
     }
 
     fn set(&self, key: Key, value: &str) -> String {
+        let field = self.key(key).trim_matches('`');
         match (key, value) {
-            (Key::PdoMapping, "0") => "mappable = false".into(),
-            (Key::PdoMapping, "1") => "mappable = true".into(),
-            _ => format!("{} = {value}", self.key(key).trim_matches('`')),
+            (_, "") => field.into(),
+            (Key::PdoMapping, "0") => format!("{field} = false"),
+            (Key::PdoMapping, "1") => format!("{field} = true"),
+            _ => format!("{field} = {value}"),
         }
+    }
+
+    fn form_of(&self, data_type: DataType) -> String {
+        match data_type.kind() {
+            Kind::Boolean => "`true` or `false`".into(),
+            Kind::Text => "a text such as `\"a\"`".into(),
+            Kind::Bytes => "bytes such as `b\"\\x12\\xAB\"`".into(),
+            _ => Eds.form_of(data_type),
+        }
+    }
+
+    fn written(&self, fact: &Fact) -> Option<String> {
+        let word = match fact {
+            Fact::Type(data_type) => TYPES.word(*data_type),
+            Fact::Code(code) => CODES.word(*code),
+            _ => None,
+        };
+        word.map(Into::into)
     }
 
     fn section(&self, index: u16, sub: Option<u8>) -> String {
@@ -194,52 +212,5 @@ impl Vocabulary for Row {
     }
 }
 
-/// The checks speak of the keys of an EDS; beside a row they are its fields.
-fn in_words_of_the_macro(text: &str) -> String {
-    const WORDS: [(&str, &str); 10] = [
-        ("DefaultValue=", "default = "),
-        ("DefaultValue", "`default`"),
-        ("LowLimit", "`low`"),
-        ("HighLimit", "`high`"),
-        ("PDOMapping=1", "mappable = true"),
-        ("PDOMapping=0", "mappable = false"),
-        ("AccessType=", "access = "),
-        ("ParameterName=", "name = "),
-        ("DataType=", "type = "),
-        ("ObjectType=", "code = "),
-    ];
-    let mut text = text.to_string();
-    for (eds, here) in WORDS {
-        text = text.replace(eds, here);
-    }
-    // "write a section [1018]"
-    while let Some(at) = text.find("a section [") {
-        let (before, after) = text.split_at(at);
-        let after = after.trim_start_matches("a section [");
-        let Some((target, after)) = after.split_once(']') else {
-            break;
-        };
-        text = format!("{before}`add 0x{target} {{ … }}`{after}");
-    }
-    text
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_row_has_fields_and_not_keys() {
-        for (eds, here) in [
-            ("write `DefaultValue=2`", "write `default = 2`"),
-            (
-                "DefaultValue 3 is below LowLimit 5",
-                "`default` 3 is below `low` 5",
-            ),
-            ("write a section [1018sub0]", "write `add 0x1018sub0 { … }`"),
-            ("a section [", "a section ["),
-        ] {
-            assert_eq!(in_words_of_the_macro(eds), here);
-        }
-    }
-}
+mod tests;

@@ -118,6 +118,15 @@ impl<T> Words<T> {
         })
     }
 
+    /// The word for a value.
+    pub(crate) fn word(&self, value: T) -> Option<&'static str>
+    where
+        T: PartialEq,
+    {
+        let mut words = self.shown.iter().copied();
+        words.find(|word| (self.of)(word).as_ref() == Some(&value))
+    }
+
     fn list(&self) -> String {
         let quoted: Vec<String> = self.shown.iter().map(|word| format!("`{word}`")).collect();
         quoted.join(", ")

@@ -1,15 +1,14 @@
 //! Edits applied: strictly, in their order, with a finding for each that cannot be.
 
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::count::{count_members, count_sections, counted, counts_sections};
-use super::{Action, Change, Edit, Raw, Target, finding, missing};
+use super::{Action, Change, Edit, Raw, Target, missing};
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
-use crate::rules;
+use crate::rules::edits::{e0702, e0703, e0704, e0705, e0706, e0707, e0708, e0709, e0710};
 use crate::span::{Span, Spanned};
 use od_model::DataType;
 
@@ -77,8 +76,10 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
         match &change.value {
             Change::Code(code) if whole => object.code = Spanned::new(*code, change.span),
             Change::Name(name) if whole => object.name = Spanned::new(name.clone(), change.span),
-            Change::Code(_) => findings.push(code_of_member(change, target)),
-            other if !has_value => findings.push(value_of_container(change.span, target, other)),
+            Change::Code(_) => findings.push(e0709::finding(&edit.target, change.span)),
+            other if !has_value => {
+                findings.push(e0710::finding(&edit.target, change.span, other.key()));
+            }
             _ => {}
         }
     }
@@ -93,7 +94,7 @@ fn modify(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding
 fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Finding>) {
     let target = *edit.target;
     if description.objects.contains_key(&target.index) {
-        findings.push(already(edit));
+        findings.push(e0702::finding(&edit.target));
         return;
     }
     let code = edit.changes.iter().find_map(|change| match change.value {
@@ -114,7 +115,7 @@ fn add_object(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     if code.has_members() {
         for change in &edit.changes {
             if !matches!(change.value, Change::Code(_) | Change::Name(_)) {
-                findings.push(value_of_container(change.span, target, &change.value));
+                findings.push(e0710::finding(&edit.target, change.span, change.key()));
             }
         }
     } else if let Some(entry) = make(edit, findings) {
@@ -127,42 +128,20 @@ fn add_member(description: &mut Description, edit: &Edit, findings: &mut Vec<Fin
     let target = *edit.target;
     let sub = target.address().sub;
     let Some(object) = description.objects.get_mut(&target.index) else {
-        findings.push(
-            finding(
-                &rules::E0703,
-                edit.target.span,
-                target,
-                format!(
-                    "{target} has no object to stand in: {:04X}h does not exist",
-                    target.index
-                ),
-            )
-            .with_help(format!(
-                "add the object first: `add 0x{:04X} {{ code = record; name = \"…\" }}`",
-                target.index
-            )),
-        );
+        findings.push(e0703::finding(&edit.target));
         return;
     };
     if !object.code.has_members() {
-        findings.push(
-            finding(
-                &rules::E0704,
-                edit.target.span,
-                target,
-                format!("{:04X}h is a {}: it has no members", target.index, *object.code),
-            )
-            .with_help("only a RECORD or an ARRAY has sub-indices; remove the object and add it with `code = record`"),
-        );
+        findings.push(e0704::added(&edit.target, *object.code));
         return;
     }
     if object.entries.contains_key(&sub) {
-        findings.push(already(edit));
+        findings.push(e0702::finding(&edit.target));
         return;
     }
     for change in &edit.changes {
         if matches!(change.value, Change::Code(_)) {
-            findings.push(code_of_member(change, target));
+            findings.push(e0709::finding(&edit.target, change.span));
         }
     }
     if let Some(mut entry) = make(edit, findings) {
@@ -179,35 +158,17 @@ fn name_of(edit: &Edit, findings: &mut Vec<Finding>) -> Spanned<String> {
             return Spanned::new(name.clone(), change.span);
         }
     }
-    let target = *edit.target;
-    findings.push(
-        finding(
-            &rules::E0705,
-            edit.target.span,
-            target,
-            format!("`add {target}` gives no name"),
-        )
-        .with_help("say `name = \"…\"`: the handle is called after it"),
-    );
-    Spanned::new(target.to_string(), edit.target.span)
+    findings.push(e0705::finding(&edit.target));
+    Spanned::new(edit.target.to_string(), edit.target.span)
 }
 
 /// The entry that an `add` describes, without its name; `None` if it has no type.
 fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
-    let target = *edit.target;
     let Some(data_type) = edit.changes.iter().find_map(|change| match change.value {
         Change::Type(data_type) => Some(data_type),
         _ => None,
     }) else {
-        findings.push(
-            finding(
-                &rules::E0706,
-                edit.target.span,
-                target,
-                format!("`add {target}` gives no type"),
-            )
-            .with_help("say `type = u16`, `type = str`, `type = UNSIGNED24` …"),
-        );
+        findings.push(e0706::finding(&edit.target));
         return None;
     };
     let mut entry = EntryDescription::new("", data_type);
@@ -219,7 +180,6 @@ fn make(edit: &Edit, findings: &mut Vec<Finding>) -> Option<EntryDescription> {
 
 /// Writes the fields of an edit into an entry; the values after the type that they are of.
 fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) {
-    let target = *edit.target;
     let gives = |key: Key| edit.changes.iter().any(|change| change.key() == key);
     for change in &edit.changes {
         let span = change.span;
@@ -230,13 +190,13 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
             Change::Save(group) => entry.group = Some(Spanned::new(*group, span)),
             Change::Type(data_type) => {
                 entry.data_type = Some(Spanned::new(*data_type, span));
-                for (key, field, value) in [
-                    (Key::DefaultValue, "default", &mut entry.default),
-                    (Key::LowLimit, "low", &mut entry.low),
-                    (Key::HighLimit, "high", &mut entry.high),
+                for (key, value) in [
+                    (Key::DefaultValue, &mut entry.default),
+                    (Key::LowLimit, &mut entry.low),
+                    (Key::HighLimit, &mut entry.high),
                 ] {
                     if !gives(key) {
-                        findings.extend(retype(field, value, *data_type, span, target));
+                        findings.extend(retype(&edit.target, span, key, value, *data_type));
                     }
                 }
             }
@@ -253,18 +213,16 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
             Change::High(raw) => (&mut entry.high, raw),
             _ => continue,
         };
-        match raw.as_ref().map(|raw| raw.value_for(data_type)) {
+        match raw {
             None => *field = None,
-            Some(Ok(value)) => *field = Some(Spanned::new(value, change.span)),
-            Some(Err(fault)) => findings.push(
-                finding(
-                    &rules::E0707,
-                    change.span,
-                    target,
-                    format!("`{}`: {}", change.field(), fault.message),
-                )
-                .with_help(fault.help),
-            ),
+            Some(raw) => match raw.value_for(data_type) {
+                Some(value) => *field = Some(Spanned::new(value, change.span)),
+                None => {
+                    let (at, given) = (change.span, raw.to_string());
+                    let finding = e0707::finding(&edit.target, at, change.key(), &given, data_type);
+                    findings.push(finding);
+                }
+            },
         }
     }
     // A DCF's value would hide the default that the edit gives.
@@ -275,74 +233,25 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
 
 /// Gives a value that stays the form that the entry's new type wants.
 fn retype(
-    key: &str,
+    target: &Spanned<Target>,
+    at: Span,
+    key: Key,
     field: &mut Option<Spanned<Value>>,
     data_type: DataType,
-    at: Span,
-    target: Target,
 ) -> Option<Finding> {
     let old = field.take()?;
-    match Raw::from(&old.value).value_for(data_type) {
-        Ok(value) => {
-            *field = Some(Spanned::new(value, old.span));
-            None
-        }
-        Err(fault) => Some(
-            finding(
-                &rules::E0708,
-                at,
+    let given = Raw::from(&old.value);
+    match given.value_for(data_type) {
+        Some(value) => *field = Some(Spanned::new(value, old.span)),
+        None => {
+            return Some(e0708::finding(
                 target,
-                format!(
-                    "the {key} of the base does not fit the new type: {}",
-                    fault.message
-                ),
-            )
-            .with_help(format!("give `{key}` with the type, or `{key} = none`")),
-        ),
+                at,
+                key,
+                &given.to_string(),
+                data_type,
+            ));
+        }
     }
-}
-
-fn already(edit: &Edit) -> Finding {
-    let target = *edit.target;
-    let what = match target.sub {
-        None => format!("{:04X}h", target.index),
-        Some(_) => target.address().to_string(),
-    };
-    finding(
-        &rules::E0702,
-        edit.target.span,
-        target,
-        format!("{what} is there already"),
-    )
-    .with_help(format!("to change it, write `modify {target} {{ … }}`"))
-}
-
-fn code_of_member(change: &Spanned<Change>, target: Target) -> Finding {
-    finding(
-        &rules::E0709,
-        change.span,
-        target,
-        format!("{target} is a member: it has no object code"),
-    )
-    .with_help(format!(
-        "`code` stands in the object: `0x{:04X} {{ code = record }}`",
-        target.index
-    ))
-}
-
-fn value_of_container(at: Span, target: Target, change: &Change) -> Finding {
-    finding(
-        &rules::E0710,
-        at,
-        target,
-        format!(
-            "{:04X}h has members: `{}` belongs to one of them",
-            target.index,
-            change.field()
-        ),
-    )
-    .with_help(format!(
-        "name the member, for example `0x{:04X}sub1`",
-        target.index
-    ))
+    None
 }

@@ -1,56 +1,34 @@
 //! Does the base have what an edit names? If not: what is near it?
 
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::{Target, finding};
 use crate::description::{Description, ObjectDescription};
 use crate::finding::Finding;
-use crate::rules;
+use crate::patch::target::Target;
+use crate::rules::edits::{e0701, e0704};
 use crate::span::Spanned;
 
 /// The finding that `target` is not in `description`; `None` if it is.
 pub fn missing(description: &Description, target: &Spanned<Target>) -> Option<Finding> {
-    let Target { index, sub } = target.value;
-    let Some(object) = description.objects.get(&index) else {
-        return Some(
-            finding(
-                &rules::E0701,
-                target.span,
-                target.value,
-                format!("there is no object {index:04X}h"),
-            )
-            .with_help(near_index(description, target.value)),
-        );
+    let Some(object) = description.objects.get(&target.index) else {
+        return Some(match near_index(description, target.value) {
+            Some((meant, name)) => e0701::near(target, meant, name),
+            None if description.objects.is_empty() => e0701::first(target),
+            None => e0701::finding(target),
+        });
     };
-    let sub = sub?;
+    let sub = target.sub?;
     if !object.code.has_members() {
-        return Some(
-            finding(
-                &rules::E0704,
-                target.span,
-                target.value,
-                format!("{index:04X}h is a {}: it has no members", *object.code),
-            )
-            .with_help(format!("its one value is `0x{index:04X}`")),
-        );
+        return Some(e0704::finding(target, *object.code));
     }
-    if object.entries.contains_key(&sub) {
-        return None;
-    }
-    Some(
-        finding(
-            &rules::E0701,
-            target.span,
-            target.value,
-            format!("there is no {}", target.address()),
-        )
-        .with_help(format!("{index:04X}h has {}", subs(object))),
-    )
+    let missing = !object.entries.contains_key(&sub);
+    missing.then(|| e0701::sub_index(target, &subs(object)))
 }
 
-fn near_index(description: &Description, target: Target) -> String {
+/// The target whose index differs in one digit, and the name of its object.
+fn near_index(description: &Description, target: Target) -> Option<(Target, &str)> {
     let digits = |index: u16| [index >> 12, index >> 8 & 15, index >> 4 & 15, index & 15];
     let near = description.objects.iter().filter(|(index, object)| {
         let same = digits(**index)
@@ -64,21 +42,15 @@ fn near_index(description: &Description, target: Target) -> String {
                 .is_none_or(|sub| object.entries.contains_key(&sub) && object.code.has_members())
     });
     // Of several that differ in one digit, the numerically nearest.
-    let near = near.min_by_key(|(index, _)| index.abs_diff(target.index));
-    match near {
-        Some((index, object)) => {
-            let meant = Target {
-                index: *index,
-                ..target
-            };
-            format!("did you mean `{meant}`, \"{}\"?", *object.name)
-        }
-        None if description.objects.is_empty() => "there are no objects yet".into(),
-        None => "`odkit dump` lists the objects of a file".into(),
-    }
+    let (index, object) = near.min_by_key(|(index, _)| index.abs_diff(target.index))?;
+    let meant = Target {
+        index: *index,
+        ..target
+    };
+    Some((meant, &object.name))
 }
 
-/// "sub-indices 0–4, 6": what there is, in runs.
+/// "sub0–sub4, sub6": the sub-indices of an object, in runs.
 fn subs(object: &ObjectDescription) -> String {
     let mut runs: Vec<(u8, u8)> = Vec::new();
     for &sub in object.entries.keys() {
@@ -94,8 +66,5 @@ fn subs(object: &ObjectDescription) -> String {
             false => format!("sub{first:X}–sub{last:X}"),
         })
         .collect();
-    match runs.is_empty() {
-        true => "no members".to_string(),
-        false => runs.join(", "),
-    }
+    runs.join(", ")
 }

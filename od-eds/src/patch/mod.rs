@@ -20,71 +20,26 @@
 //!
 //! let findings = patch::apply(&mut device, &[gear]);
 //! let told = od_eds::say(&findings[0], &od_eds::Eds);
-//! assert_eq!(told.message, "2110h is there already");
+//! assert_eq!(told.message, "2110h already exists");
 //! ```
 
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
 
 use crate::fact::Key;
-use crate::finding::{Finding, Rule};
-use crate::span::{Span, Spanned};
-use od_model::{Access, Address, DataType, Group, Kind, ObjectCode};
+use crate::span::Spanned;
+use od_model::{Access, DataType, Group, ObjectCode};
 
 mod apply;
 mod count;
 mod find;
 mod raw;
+pub(crate) mod target;
 
 pub use apply::apply;
 pub use find::missing;
 pub use raw::Raw;
-
-/// What an edit is about: a whole object, or one of its members.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Target {
-    /// Index.
-    pub index: u16,
-    /// The member; `None` for the object, which is how the value of a VAR is named too.
-    pub sub: Option<u8>,
-}
-
-impl Target {
-    /// The object at `index`.
-    pub const fn object(index: u16) -> Self {
-        Self { index, sub: None }
-    }
-
-    /// The member at `index` and `sub`.
-    pub const fn member(index: u16, sub: u8) -> Self {
-        Self {
-            index,
-            sub: Some(sub),
-        }
-    }
-
-    /// The value it names, with sub-index 0 for an object.
-    pub const fn address(self) -> Address {
-        Address::new(
-            self.index,
-            match self.sub {
-                Some(sub) => sub,
-                None => 0,
-            },
-        )
-    }
-}
-
-/// As it is written in a macro call, `0x1018sub2`: the EDS section's own spelling behind `0x`.
-impl fmt::Display for Target {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.sub {
-            Some(sub) => write!(f, "0x{:04X}sub{sub:X}", self.index),
-            None => write!(f, "0x{:04X}", self.index),
-        }
-    }
-}
+pub use target::Target;
 
 /// What an edit does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -128,21 +83,6 @@ impl Change {
             Self::Default(_) => Key::DefaultValue,
             Self::Low(_) => Key::LowLimit,
             Self::High(_) => Key::HighLimit,
-        }
-    }
-
-    /// The field's name in a macro call.
-    pub const fn field(&self) -> &'static str {
-        match self {
-            Self::Code(_) => "code",
-            Self::Name(_) => "name",
-            Self::Type(_) => "type",
-            Self::Access(_) => "access",
-            Self::Mappable(_) => "mappable",
-            Self::Save(_) => "save",
-            Self::Default(_) => "default",
-            Self::Low(_) => "low",
-            Self::High(_) => "high",
         }
     }
 }
@@ -214,15 +154,6 @@ impl Edit {
         /// Says the largest value.
         high(Raw) => |raw: Raw| Change::High(Some(raw));
     }
-}
-
-fn finding(rule: &'static Rule, at: Span, target: Target, message: String) -> Finding {
-    rule.told(at, message).about(target.address())
-}
-
-/// Is this one of the types that only a record can have?
-fn is_record(data_type: DataType) -> bool {
-    data_type.kind() == Kind::Record
 }
 
 #[cfg(test)]

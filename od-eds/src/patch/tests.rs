@@ -3,7 +3,8 @@ use alloc::vec;
 use super::*;
 use crate::catalogue::{Eds, say};
 use crate::description::{Description, Value};
-use crate::span::{token, token_of};
+use crate::span::{Span, token, token_of};
+use od_model::Address;
 
 fn base() -> Description {
     let mut description = Description::default();
@@ -97,28 +98,32 @@ fn what_is_not_there_is_not_edited() {
         Edit::modify(Target::member(0x1019, 2)),
         &[(
             "E0701",
-            "there is no object 1019h",
-            "did you mean `0x1018sub2`, \"Identity object\"?",
+            "1019h does not exist",
+            "write `0x1018sub2` (\"Identity object\")",
         )],
     );
     check(
         Edit::remove(Target::member(0x1018, 7)),
-        &[("E0701", "there is no 1018h:07", "1018h has sub0–sub2")],
+        &[(
+            "E0701",
+            "1018h:07 does not exist",
+            "write one of the sub-indices sub0–sub2",
+        )],
     );
     check(
         Edit::remove(Target::object(0x6502)),
         &[(
             "E0701",
-            "there is no object 6502h",
-            "`odkit dump` lists the objects of a file",
+            "6502h does not exist",
+            "list the objects of a file with `odkit dump`",
         )],
     );
     check(
         Edit::modify(Target::member(0x1000, 0)),
         &[(
             "E0704",
-            "1000h is a VAR: it has no members",
-            "its one value is `0x1000`",
+            "1000h has object code VAR and no sub-objects",
+            "write `0x1000` for its value",
         )],
     );
 }
@@ -129,8 +134,8 @@ fn what_is_there_is_not_added() {
         Edit::add(Target::member(0x1018, 1)),
         &[(
             "E0702",
-            "1018h:01 is there already",
-            "to change it, write `modify 0x1018sub1 { … }`",
+            "1018h:01 already exists",
+            "write `modify 0x1018sub1 { … }` to change it",
         )],
     );
 }
@@ -141,24 +146,24 @@ fn a_value_is_one_of_its_type() {
         Edit::modify(Target::object(0x1000)).default(Raw::Integer(-1)),
         &[(
             "E0707",
-            "`default`: -1 does not fit UNSIGNED32",
-            "UNSIGNED32 holds 0 to 4294967295",
+            "DefaultValue `-1` is not a valid UNSIGNED32",
+            "write a number from 0 to 4294967295",
         )],
     );
     check(
         Edit::modify(Target::object(0x1000)).default(Raw::Text("x".into())),
         &[(
             "E0707",
-            "`default`: the text \"x\" is not a value of UNSIGNED32",
-            "write a number, or `$NODEID + 0x180`",
+            "DefaultValue `\"x\"` is not a valid UNSIGNED32",
+            "write a number from 0 to 4294967295",
         )],
     );
     check(
         Edit::modify(Target::object(0x1000)).data_type(DataType::Unsigned8),
         &[(
             "E0708",
-            "the default of the base does not fit the new type: 406 does not fit UNSIGNED8",
-            "give `default` with the type, or `default = none`",
+            "DefaultValue `406` of the base is not a valid UNSIGNED8",
+            "write DefaultValue too: a number from 0 to 255, or `none`",
         )],
     );
 }
@@ -178,16 +183,16 @@ fn fields_stand_where_they_belong() {
         Edit::modify(Target::object(0x1018)).default(Raw::Integer(1)),
         &[(
             "E0710",
-            "1018h has members: `default` belongs to one of them",
-            "name the member, for example `0x1018sub1`",
+            "1018h has sub-objects, and DefaultValue belongs to one of them",
+            "write the sub-object, such as `0x1018sub1`",
         )],
     );
     check(
         Edit::modify(Target::member(0x1018, 1)).code(ObjectCode::Array),
         &[(
             "E0709",
-            "0x1018sub1 is a member: it has no object code",
-            "`code` stands in the object: `0x1018 { code = record }`",
+            "`0x1018sub1` is a sub-object and has no ObjectType",
+            "write `0x1018 { ObjectType=record }`",
         )],
     );
 }
@@ -199,13 +204,13 @@ fn an_add_says_name_and_type() {
         &[
             (
                 "E0705",
-                "`add 0x2110` gives no name",
-                "say `name = \"…\"`: the handle is called after it",
+                "`add 0x2110` lacks ParameterName",
+                "write `ParameterName=\"…\"`",
             ),
             (
                 "E0706",
-                "`add 0x2110` gives no type",
-                "say `type = u16`, `type = str`, `type = UNSIGNED24` …",
+                "`add 0x2110` lacks DataType",
+                "write `DataType=0x0006` (UNSIGNED16), or another type",
             ),
         ],
     );
@@ -213,8 +218,8 @@ fn an_add_says_name_and_type() {
         Edit::add(Target::member(0x2110, 1)).name("x"),
         &[(
             "E0703",
-            "0x2110sub1 has no object to stand in: 2110h does not exist",
-            "add the object first: `add 0x2110 { code = record; name = \"…\" }`",
+            "`0x2110sub1` needs object 2110h, which does not exist",
+            "write `add 0x2110 { code = record; name = \"…\" }` first",
         )],
     );
 }

@@ -1,14 +1,25 @@
-//! E0702: what is added exists already.
-
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::patch::target::Target;
+use crate::span::Spanned;
+use alloc::string::ToString;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0702",
     severity: Error,
-    title: "what is added exists already",
-    why: "A variant is strict: it adds what its base lacks.",
+    title: "added object already exists",
+    why: "A variant adds only objects that its base lacks. odkit reports the statement and ignores it.",
     source: "odkit, object_dictionary!",
-    example: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // it is there already",
+    example: "add 0x1017 { name = \"Heartbeat\"; type = u16 }   // the EDS has 1017h",
+    says: "{object} already exists",
+    help: "write `modify {target} {{ … }}` to change it",
+    check: Check::ByEdit,
     ..Rule::NEW
 };
+
+/// The finding about an `add` of an object or a sub-object that the description has.
+pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
+    RULE.at(target.span)
+        .about(target.address())
+        .fact("object", target.shown())
+        .fact("target", target.to_string())
+}

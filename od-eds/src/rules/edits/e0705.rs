@@ -1,14 +1,23 @@
-//! E0705: added object has no name.
-
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::patch::target::Target;
+use crate::span::Spanned;
+use alloc::string::ToString;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0705",
     severity: Error,
     title: "added object has no name",
-    why: "The handle is called after the name.",
+    why: "The handle in Rust gets its name from the name of the object.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000 { type = u16 }",
+    says: "`add {target}` lacks {ParameterName}",
+    help: "write `{ParameterName=\"…\"}`",
+    check: Check::ByEdit,
     ..Rule::NEW
 };
+
+/// The finding about an `add` without a name.
+pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
+    let finding = RULE.at(target.span).about(target.address());
+    finding.fact("target", target.to_string())
+}

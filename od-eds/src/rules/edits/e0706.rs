@@ -1,14 +1,26 @@
-//! E0706: added value has no type.
-
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::patch::target::Target;
+use crate::span::Spanned;
+use alloc::string::ToString;
+use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0706",
     severity: Error,
     title: "added value has no type",
-    why: "A handle has a Rust type.",
+    why: "The handle in Rust gets its type from the type of the value.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000 { name = \"Gain\" }",
+    says: "`add {target}` lacks {DataType}",
+    help: "write `{DataType={type}}` ({type}), or another type",
+    check: Check::ByEdit,
     ..Rule::NEW
 };
+
+/// The finding about an `add` without a type.
+pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
+    RULE.at(target.span)
+        .about(target.address())
+        .fact("target", target.to_string())
+        .fact("type", DataType::Unsigned16)
+}

@@ -1,14 +1,44 @@
-//! E0707: value of an edit is none of its type.
-
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::fact::{Fact, Key};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::patch::target::Target;
+use crate::rules::values::shared::{NOT_VALID, WHOLE};
+use crate::span::{Span, Spanned};
+use od_model::{DataType, Kind};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0707",
     severity: Error,
-    title: "value of an edit is none of its type",
-    why: "A default or a limit is a value of the entry's type.",
+    title: "value of an edit is not valid for its type",
+    why: "A default or a limit is a value of its type. odkit keeps the value of the base.",
     source: "odkit, object_dictionary!",
     example: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
+    says: NOT_VALID,
+    help: "write {form}",
+    also: &[RECORD],
+    check: Check::ByEdit,
     ..Rule::NEW
 };
+
+/// A type that only a whole object has.
+const RECORD: Form = Form {
+    says: WHOLE,
+    help: "write the type of a single value, such as `{DataType={right}}` ({right})",
+};
+
+/// The finding about a value, as it is given, that is not valid for the type.
+pub(crate) fn finding(
+    target: &Spanned<Target>,
+    at: Span,
+    key: Key,
+    given: &str,
+    data_type: DataType,
+) -> Finding {
+    let finding = RULE.at(at).about(target.address()).key(key);
+    let finding = finding.fact("type", data_type);
+    match data_type.kind() {
+        Kind::Record => finding.form(&RECORD).fact("right", DataType::Unsigned32),
+        _ => finding
+            .fact("given", given)
+            .fact("form", Fact::FormOf(data_type)),
+    }
+}

@@ -1,14 +1,25 @@
-//! E0710: value field of an object with members.
-
-use crate::finding::Rule;
-use crate::finding::Severity::Error;
+use crate::fact::{Fact, Key};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::patch::target::Target;
+use crate::span::{Span, Spanned};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0710",
     severity: Error,
-    title: "value field of an object with members",
-    why: "Type, access, default and limits belong to the members.",
+    title: "value of an object with sub-objects",
+    why: "Type, access, default and limits belong to the sub-objects. odkit ignores the value.",
     source: "odkit, object_dictionary!",
     example: "modify 0x1018 { default = 5 }        // a RECORD has no value",
+    says: "{object} has sub-objects, and {key} belongs to one of them",
+    help: "write the sub-object, such as `0x{object:04X}sub1`",
+    check: Check::ByEdit,
     ..Rule::NEW
 };
+
+/// The finding about a field of a value at an object with sub-objects.
+pub(crate) fn finding(target: &Spanned<Target>, at: Span, key: Key) -> Finding {
+    RULE.at(at)
+        .about(target.address())
+        .key(key)
+        .fact("object", Fact::Index(target.index))
+}

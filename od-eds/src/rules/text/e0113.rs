@@ -13,6 +13,7 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// The finding about the place where the XML breaks, in the words of its parser.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn finding(at: Span, error: &str) -> Finding {
     RULE.at(at).fact("error", error)
 }

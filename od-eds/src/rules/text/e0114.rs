@@ -22,6 +22,7 @@ const MISSING: Form = Form {
 };
 
 /// The finding about an index or a sub-index: an attribute that is not valid, or is missing.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn finding(
     element: Span,
     name: &str,

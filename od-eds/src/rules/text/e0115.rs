@@ -13,6 +13,7 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// The finding about a reference that leads to no parameter.
+#[cfg_attr(not(feature = "xdd"), allow(dead_code))]
 pub(crate) fn finding(at: Span, id: &str) -> Finding {
     RULE.at(at).fact("given", id)
 }

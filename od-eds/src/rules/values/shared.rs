@@ -15,6 +15,12 @@ use crate::subject::Entry;
 /// The label at a DataType.
 pub(crate) const DECLARED: &str = "{type} is declared here";
 
+/// What a value says that is not valid for its type.
+pub(crate) const NOT_VALID: &str = "{key} `{given}` is not a valid {type}";
+
+/// What a type says that only a whole object has.
+pub(crate) const WHOLE: &str = "{type} is the type of a whole object";
+
 /// What a value says that is written as a formula and is none.
 pub(super) const FORMULA: Form = Form {
     says: "{key} `{given}` is no {type}",

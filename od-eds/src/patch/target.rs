@@ -1,0 +1,59 @@
+//! The object or sub-object that an edit is about.
+
+use core::fmt;
+
+use crate::fact::Fact;
+use od_model::Address;
+
+/// What an edit is about: a whole object, or one of its members.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Target {
+    /// Index.
+    pub index: u16,
+    /// The member; `None` for the object, which is how the value of a VAR is named too.
+    pub sub: Option<u8>,
+}
+
+impl Target {
+    /// The object at `index`.
+    pub const fn object(index: u16) -> Self {
+        Self { index, sub: None }
+    }
+
+    /// The member at `index` and `sub`.
+    pub const fn member(index: u16, sub: u8) -> Self {
+        Self {
+            index,
+            sub: Some(sub),
+        }
+    }
+
+    /// The value it names, with sub-index 0 for an object.
+    pub const fn address(self) -> Address {
+        Address::new(
+            self.index,
+            match self.sub {
+                Some(sub) => sub,
+                None => 0,
+            },
+        )
+    }
+
+    /// In a sentence: `1018h`, or `1018h:02`.
+    pub(crate) fn shown(self) -> Fact {
+        match self.sub {
+            Some(_) => Fact::Object(self.address()),
+            None => Fact::Index(self.index),
+        }
+    }
+}
+
+/// As it is written in a macro call, `0x1018sub2`: the EDS section's own spelling behind `0x`.
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.sub {
+            Some(sub) => write!(f, "0x{:04X}sub{sub:X}", self.index),
+            None => write!(f, "0x{:04X}", self.index),
+        }
+    }
+}
