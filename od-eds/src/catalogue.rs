@@ -9,6 +9,7 @@
 //! | `{count:entry\|entries}` | a count and its noun: "1 entry", "2 entries" |
 //! | `{LowLimit}`, `{key}` | this key, and the one that the finding is about |
 //! | `{DataType={right}}` | this key set to a value, which may have blanks too |
+//! | `{fix}` | " (safe fix)" or " (unsafe fix)", if the finding has one |
 //! | `{{`, `}}` | a brace |
 
 use alloc::format;
@@ -19,7 +20,7 @@ use od_model::{Address, DataType, Kind};
 
 use crate::fact::{Fact, Key, shown};
 use crate::finding::{Finding, Severity};
-use crate::fix::Fix;
+use crate::fix::{Applicability, Fix};
 use crate::span::Span;
 
 /// The words of those who read a finding: of an EDS file, of a macro call, of a language.
@@ -60,6 +61,14 @@ pub trait Vocabulary {
             Fact::Type(data_type) => Some(format!("0x{:04X}", data_type.code())),
             Fact::Code(code) => Some(format!("0x{:X}", code.code())),
             _ => None,
+        }
+    }
+
+    /// What follows an advice that odkit can apply.
+    fn fix(&self, fix: Applicability) -> &'static str {
+        match fix {
+            Applicability::Safe => " (safe fix)",
+            Applicability::Unsafe => " (unsafe fix)",
         }
     }
 
@@ -157,6 +166,11 @@ impl Blanks<'_> {
         }
         if let Some(key) = key(blank) {
             return self.words.key(key).into();
+        }
+        if blank == "fix" {
+            let fix = self.finding.fix.as_ref();
+            let said = fix.map(|fix| self.words.fix(fix.applicability));
+            return said.unwrap_or_default().into();
         }
         let (name, form) = blank.split_once(':').unwrap_or((blank, ""));
         let facts = &self.finding.facts;

@@ -50,7 +50,7 @@ impl Fixability {
     /// In one word, for tables.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::None => "by hand",
+            Self::None => "none",
             Self::Safe => "safe",
             Self::Unsafe => "unsafe",
             Self::Either => "safe or unsafe",

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use od_eds::fix::Applicability;
 use od_eds::patch::{Action, Edit, Target};
 use od_eds::{Description, Eds, Fact, Finding, Key, Sentence, Vocabulary, say, token_of};
 use od_model::{Address, DataType, Kind};
@@ -187,6 +188,10 @@ impl Vocabulary for Row {
             (Key::PdoMapping, "1") => format!("{field} = true"),
             _ => format!("{field} = {value}"),
         }
+    }
+
+    fn fix(&self, _: Applicability) -> &'static str {
+        ""
     }
 
     fn form_of(&self, data_type: DataType) -> String {

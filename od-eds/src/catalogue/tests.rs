@@ -21,7 +21,7 @@ fn blanks<'a>(text: &'a str, names: &mut BTreeSet<&'a str>) {
         let (name, value) = blank.split_once('=').unwrap_or((blank, ""));
         let (name, _) = name.split_once(':').unwrap_or((name, ""));
         blanks(value, names);
-        if Key::of(name).is_none() {
+        if Key::of(name).is_none() && name != "fix" {
             names.insert(name);
         }
     }

@@ -1,5 +1,5 @@
 use crate::fact::{Fact, Key};
-use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::rules::values::shared::{NOT_VALID, WHOLE};
 use crate::span::{Span, Spanned};
@@ -14,15 +14,9 @@ pub(crate) static RULE: Rule = Rule {
     example: "add 0x2000 { name = \"Gain\"; type = u8; default = 300 }",
     says: NOT_VALID,
     help: "write {form}",
-    also: &[RECORD],
+    also: &[WHOLE],
     check: Check::ByEdit,
     ..Rule::NEW
-};
-
-/// A type that only a whole object has.
-const RECORD: Form = Form {
-    says: WHOLE,
-    help: "write the type of a single value, such as `{DataType={right}}` ({right})",
 };
 
 /// The finding about a value, as it is given, that is not valid for the type.
@@ -36,7 +30,7 @@ pub(crate) fn finding(
     let finding = RULE.at(at).about(target.address()).key(key);
     let finding = finding.fact("type", data_type);
     match data_type.kind() {
-        Kind::Record => finding.form(&RECORD).fact("right", DataType::Unsigned32),
+        Kind::Record => finding.form(&WHOLE).fact("right", DataType::Unsigned32),
         _ => finding
             .fact("given", given)
             .fact("form", Fact::FormOf(data_type)),

@@ -9,10 +9,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0501",
     severity: Error,
     title: "PDO maps an object that does not exist",
-    why: "The PDO cannot be made.",
+    why: "A device cannot build the PDO, and a master cannot decode it.",
     source: "CiA 301, PDO mapping parameter",
-    says: "{object} does not exist",
-    help: "map an object that exists, or add it",
+    says: "mapped object {object} does not exist",
+    help: "map an object that exists, or add {object}",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -9,11 +9,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0502",
     severity: Error,
     title: "PDO maps an object that is not mappable",
-    why: "PDOMapping=0 forbids it.",
+    why: "A device aborts the download of a mapping entry whose object has PDOMapping 0.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
     says: "{object} \"{name}\" is not mappable",
-    help: "write `{PDOMapping=1}` for {object}, or map another object",
+    help: "write `{PDOMapping=1}` for {object}{fix}, or map another object",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -26,6 +26,6 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let fix = Fix::unsafe_fix().replace(value.mappable.span, "1");
         let finding = mapped.finding(&RULE).fact("object", value.shown());
         let finding = finding.fact("name", value.name.as_str()).fix(fix);
-        findings.push(finding.related(value.mappable.span.or(value.span), "the object is here"));
+        findings.push(finding.related(value.mappable.span.or(value.span), "object defined here"));
     }
 }

@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0503",
     severity: Error,
     title: "PDO maps an object of the wrong direction",
-    why: "A TPDO carries what can be read (ro, rw, rwr, const), an RPDO what can be written (wo, rw, rww).",
+    why: "A TPDO sends values that a master can read (`ro`, `rw`, `rwr`, `const`), an RPDO values that a master can write (`wo`, `rw`, `rww`).",
     source: "CiA 306-1, AccessType",
-    says: "{object} \"{name}\" is {access} and not for a TPDO",
-    help: "a TPDO maps ro, rw, rwr and const",
+    says: "{object} \"{name}\" is `{access}` and cannot be mapped into a TPDO",
+    help: "map an object with {AccessType} `ro`, `rw`, `rwr` or `const`",
     also: &[RPDO],
     check: Check::Object(check),
     ..Rule::NEW
@@ -19,8 +19,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// What an RPDO says.
 const RPDO: Form = Form {
-    says: "{object} \"{name}\" is {access} and not for an RPDO",
-    help: "an RPDO maps wo, rw and rww",
+    says: "{object} \"{name}\" is `{access}` and cannot be mapped into an RPDO",
+    help: "map an object with {AccessType} `wo`, `rw` or `rww`",
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -33,7 +33,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let finding = finding
             .fact("name", value.name.as_str())
             .fact("access", *value.access);
-        let finding = finding.related(value.access.span.or(value.span), "its {AccessType} is here");
+        let finding = finding.related(value.access.span.or(value.span), "{AccessType} set here");
         findings.push(if mapped.rpdo {
             finding.form(&RPDO)
         } else {

@@ -1,18 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
-use crate::rules::pdo::shared::mapped;
+use crate::rules::pdo::shared::{WRITE_ENTRY, WRONG_LENGTH, mapped};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0504",
     severity: Error,
     title: "PDO maps an object with a wrong length",
-    why: "The last byte of a mapping entry is the object's length in bits.",
+    why: "The low byte of a mapping entry is the length of the object in bits. A device aborts the download of another length.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    says: "{object} has {right:bit|bits}, but is mapped with {bits}",
-    help: "write `{entry}`",
+    says: WRONG_LENGTH,
+    help: WRITE_ENTRY,
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0505",
     severity: Error,
     title: "PDO is longer than 64 bits",
-    why: "A CAN frame carries eight bytes.",
+    why: "A CAN frame has at most eight data bytes.",
     source: "CiA 301, PDO mapping parameter",
-    says: "with this object the PDO has {bits} bits",
-    help: "a PDO has at most 64 bits; map less",
+    says: "this entry brings the PDO to {bits} bits; the limit is 64",
+    help: "remove a mapping entry, or map a shorter object",
     check: Check::Object(check),
     ..Rule::NEW
 };

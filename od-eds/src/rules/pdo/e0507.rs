@@ -8,11 +8,11 @@ use crate::subject::Object;
 pub(crate) static RULE: Rule = Rule {
     code: "E0507",
     severity: Error,
-    title: "TPDO maps a dummy",
-    why: "Dummies fill gaps in what is received; there is nothing to send.",
+    title: "TPDO maps a dummy entry",
+    why: "Dummy entries skip bits of a received PDO. A TPDO has no value to send for them.",
     source: "CiA 301, dummy mapping",
-    says: "{dummy} is a dummy, and this is a TPDO",
-    help: "map an object that can be sent",
+    says: "{dummy} is a dummy entry and cannot be mapped into a TPDO",
+    help: "map an object that the device can send",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -12,11 +12,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0509",
     severity: Error,
     title: "PDO communication parameter lacks COB-ID or transmission type",
-    why: "Sub-index 1 is the COB-ID, an UNSIGNED32, sub-index 2 the transmission type, an UNSIGNED8.",
+    why: "Sub-index 1 is the COB-ID, an UNSIGNED32; sub-index 2 is the transmission type, an UNSIGNED8. A master needs both to configure the PDO.",
     source: "CiA 301, PDO communication parameter",
     fixability: Fixability::Unsafe,
-    says: "there is no sub-index {sub} ({what})",
-    help: "write {missing}",
+    says: "sub-index {sub} ({what}) is missing",
+    help: "add {missing}",
     also: &[TYPE],
     check: Check::Object(check),
     ..Rule::NEW
@@ -24,8 +24,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// What a value of another type says.
 const TYPE: Form = Form {
-    says: "the {what} must be {right}, but is {given}",
-    help: "write `{DataType={right}}`",
+    says: "{what} is {given} but must be {right}",
+    help: "write `{DataType={right}}`{fix}",
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

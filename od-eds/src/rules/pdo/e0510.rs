@@ -9,12 +9,12 @@ use od_model::DataType;
 pub(crate) static RULE: Rule = Rule {
     code: "E0510",
     severity: Error,
-    title: "mapping entry is no UNSIGNED32",
-    why: "A mapping entry is index, sub-index and length in one UNSIGNED32.",
+    title: "mapping entry is not an UNSIGNED32",
+    why: "A mapping entry holds index, sub-index and length in one UNSIGNED32. A master that writes it as four bytes gets an SDO abort.",
     source: "CiA 301, PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    says: "a mapping entry must be UNSIGNED32, but is {given}",
-    help: "write `{DataType=0x0007}`",
+    says: "mapping entry is {given} but must be {right}",
+    help: "write `{DataType={right}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -26,7 +26,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
             .filter(|given| **given != DataType::Unsigned32)
         {
             let fix = Fix::unsafe_fix().replace(given.span, "0x0007");
-            findings.push(RULE.on(&entry, given.span).fact("given", *given).fix(fix));
+            let finding = RULE.on(&entry, given.span).fact("given", *given);
+            findings.push(finding.fact("right", DataType::Unsigned32).fix(fix));
         }
     }
 }

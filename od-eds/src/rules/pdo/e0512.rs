@@ -9,10 +9,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0512",
     severity: Error,
     title: "PDO maps a sub-index that does not exist",
-    why: "The PDO cannot be made.",
+    why: "A device cannot build the PDO, and a master cannot decode it.",
     source: "CiA 301, PDO mapping parameter",
-    says: "{sub} does not exist",
-    help: "map a sub-index that exists, or add it",
+    says: "mapped sub-object {sub} does not exist",
+    help: "map a sub-object that exists, or add {sub}",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -25,6 +25,6 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         };
         let finding = mapped.finding(&RULE).fact("sub", mapped.target);
         let finding = finding.fact("object", Fact::Index(mapped.target.index));
-        findings.push(finding.related(object.span, "{object} is here"));
+        findings.push(finding.related(object.span, "{object} defined here"));
     }
 }

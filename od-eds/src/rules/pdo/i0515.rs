@@ -4,11 +4,11 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "I0515",
     severity: Info,
-    title: "CompactPDO stands for PDO objects",
-    why: "They have no sections. They are made with the sub-indices that its bits name; a reader that does not know CompactPDO lacks them.",
+    title: "CompactPDO replaces sections of PDO objects",
+    why: "odkit makes these objects with the sub-indices that the bits name. A tool that does not support CompactPDO lacks them.",
     source: "CiA 306-1, DeviceInfo",
-    says: "CompactPDO stands for {count} objects of {word}s",
-    help: "they are made; a reader that does not know CompactPDO lacks them",
+    says: "CompactPDO replaces {count:object|objects} of {word}s",
+    help: "add the sections if a tool does not support CompactPDO",
     ..Rule::NEW
 };
 

@@ -8,11 +8,11 @@ use crate::subject::Object;
 pub(crate) static RULE: Rule = Rule {
     code: "I0528",
     severity: Info,
-    title: "PDO carries an object twice",
-    why: "That is allowed, and hardly ever meant.",
+    title: "PDO maps an object twice",
+    why: "CiA 301 allows it, but it is rarely intended.",
     source: "CiA 301, PDO mapping parameter",
-    says: "this PDO carries the same object twice",
-    help: "map it once, if twice is not meant",
+    says: "this entry maps the same object again",
+    help: "remove the entry, unless the PDO needs the value twice",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -23,11 +23,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let same = |(number, _): &&(u32, Span)| *number == mapped.number && number >> 21 != 0;
         match seen.iter().find(same) {
             Some((_, first)) => {
-                findings.push(
-                    mapped
-                        .finding(&RULE)
-                        .related(*first, "it is mapped here, too"),
-                );
+                findings.push(mapped.finding(&RULE).related(*first, "first mapped here"));
             }
             None => seen.push((mapped.number, mapped.span)),
         }

@@ -7,11 +7,11 @@ use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 pub(crate) static RULE: Rule = Rule {
     code: "I0531",
     severity: Info,
-    title: "COB-ID does not follow the node ID",
-    why: "Two such devices in one network send on one identifier. The first four PDOs usually have $NODEID in their COB-IDs.",
+    title: "COB-ID does not depend on the node ID",
+    why: "Two such devices in one network use the same CAN-ID. The COB-IDs of the first four PDOs usually contain $NODEID.",
     source: "CiA 301, predefined connection set",
-    says: "{id:03X}h does not follow the node ID",
-    help: "write `$NODEID+0x{base:X}`, if every device has its own",
+    says: "COB-ID {id:03X}h does not depend on the node ID",
+    help: "write `$NODEID+0x{base:X}` to give each node its own COB-ID",
     check: Check::Device(check),
     ..Rule::NEW
 };

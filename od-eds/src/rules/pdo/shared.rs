@@ -6,6 +6,7 @@ use od_model::{Address, DataType};
 
 use crate::fact::Fact;
 use crate::finding::{Finding, Rule};
+use crate::rules::values::shared::DECLARED;
 use crate::span::{Span, Spanned};
 use crate::subject::{Entry, Object, shown, start_number};
 
@@ -91,6 +92,13 @@ pub(super) fn mapped<'a>(object: &Object<'a>) -> Vec<Mapped<'a>> {
     mapped.collect()
 }
 
+/// What an entry with another length says.
+pub(super) const WRONG_LENGTH: &str =
+    "{object} is mapped with {bits:bit|bits} but is {right:bit|bits} long";
+
+/// The help for an entry with another length.
+pub(super) const WRITE_ENTRY: &str = "write `{entry}`{fix}";
+
 /// An object that is mapped with another length than it has.
 pub(super) struct WrongLength {
     /// The object in a sentence.
@@ -170,7 +178,7 @@ impl WrongLength {
         match self.data_type {
             Some(data_type) => finding
                 .fact("type", *data_type)
-                .related(data_type.span, "{type} is declared here"),
+                .related(data_type.span, DECLARED),
             None => finding,
         }
     }

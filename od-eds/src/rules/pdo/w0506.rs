@@ -11,12 +11,12 @@ use crate::subject::Object;
 pub(crate) static RULE: Rule = Rule {
     code: "W0506",
     severity: Warning,
-    title: "RPDO maps a dummy that [DummyUsage] does not allow",
-    why: "A device says in [DummyUsage] which of the types 0001h–0007h fill gaps.",
+    title: "[DummyUsage] does not allow the dummy entry",
+    why: "[DummyUsage] lists which of the types 0001h to 0007h an RPDO can map as dummy entries. A device aborts the mapping of another.",
     source: "CiA 306-1, DummyUsage",
     fixability: Fixability::Unsafe,
-    says: "[DummyUsage] does not allow the dummy {dummy}",
-    help: "write `{line}` in [DummyUsage]",
+    says: "[DummyUsage] does not allow dummy entry {dummy}",
+    help: "write `{line}` in [DummyUsage]{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0508",
     severity: Warning,
     title: "PDO has only one of its two objects",
-    why: "A PDO has a communication and a mapping parameter, 200h apart.",
+    why: "A PDO needs a communication parameter and a mapping parameter, whose indices differ by 200h.",
     source: "CiA 301, PDO communication parameter",
     says: "{object} has no {what} parameter {other}",
-    help: "write {missing}",
+    help: "add {missing}",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0511",
     severity: Warning,
     title: "transmission type is reserved",
-    why: "0–240 and 252–255 have a meaning, for an RPDO 0–240, 254 and 255.",
+    why: "CiA 301 defines 0 to 240 and 252 to 255, for an RPDO 0 to 240, 254 and 255. A device aborts the download of another value.",
     source: "CiA 301, PDO communication parameter",
     says: "transmission type {given} is reserved",
-    help: "a TPDO has 0–240 or 252–255",
+    help: "write 0 to 240, or 252 to 255",
     also: &[RPDO],
     check: Check::Object(check),
     ..Rule::NEW
@@ -19,8 +19,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// What an RPDO says.
 const RPDO: Form = Form {
-    says: "transmission type {given} is reserved",
-    help: "an RPDO has 0–240, 254 or 255",
+    help: "write 0 to 240, 254 or 255",
+    ..Form::OWN
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {

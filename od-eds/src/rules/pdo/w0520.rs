@@ -7,11 +7,11 @@ use crate::rules::pdo::cob_ids::cob_ids;
 pub(crate) static RULE: Rule = Rule {
     code: "W0520",
     severity: Warning,
-    title: "COB-ID is kept for another service",
-    why: "A PDO, SYNC, TIME or EMCY on an identifier of NMT, SDO, error control or LSS disturbs that service in every device of the network.",
+    title: "CAN-ID is reserved for another service",
+    why: "A PDO, SYNC, TIME or EMCY message with a CAN-ID of NMT, SDO, error control or LSS disturbs that service in all devices of the network.",
     source: "CiA 301, restricted CAN-IDs",
-    says: "{id:03X}h is an identifier of another service",
-    help: "write an identifier that CiA 301 leaves free, such as 0x181 to 0x57F for PDOs",
+    says: "CAN-ID {id:03X}h is reserved for another service",
+    help: "write a CAN-ID that CiA 301 leaves free, such as `0x181` to `0x57F` for PDOs",
     check: Check::Device(check),
     ..Rule::NEW
 };

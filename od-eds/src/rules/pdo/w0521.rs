@@ -2,18 +2,18 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0521",
     severity: Warning,
-    title: "two PDOs have one COB-ID",
-    why: "Two PDOs of one device on one identifier cannot be told apart.",
+    title: "two PDOs have the same COB-ID",
+    why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
     source: "CiA 301, PDO communication parameter",
-    says: "{object} has the COB-ID of {first}",
-    help: "write another COB-ID, or set bit 31 (0x80000000) for a PDO that is not used",
+    says: "{object} repeats the COB-ID of {first}",
+    help: "write another COB-ID, or set bit 31 (`0x80000000`) to make the PDO not valid",
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -27,9 +27,9 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
                 used.insert((cob_id.formula, cob_id.identifier), (index, cob_id.span));
             }
             Some((first, span)) => {
-                let finding = cob_id.finding(&RULE).fact("object", Fact::Index(index));
-                let finding = finding.fact("first", Fact::Index(*first));
-                findings.push(finding.related(*span, "it is used here"));
+                let finding = cob_id.finding(&RULE).fact("object", Address::new(index, 1));
+                let finding = finding.fact("first", Address::new(*first, 1));
+                findings.push(finding.related(*span, "first used here"));
             }
         }
     }

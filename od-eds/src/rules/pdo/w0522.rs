@@ -7,11 +7,11 @@ use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 pub(crate) static RULE: Rule = Rule {
     code: "W0522",
     severity: Warning,
-    title: "identifier has more bits than it says",
-    why: "Bit 29 of a COB-ID says that the identifier has 29 bits; without it bits 11 to 28 are 0.",
+    title: "CAN-ID is too long for an 11-bit COB-ID",
+    why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0.",
     source: "CiA 301, COB-ID",
-    says: "0x{id:X} has more than 11 bits, and bit 29 is 0",
-    help: "write an identifier up to 0x7FF, or set bit 29 (0x20000000)",
+    says: "CAN-ID `0x{id:X}` has more than 11 bits, but bit 29 is 0",
+    help: "write a CAN-ID up to `0x7FF`, or set bit 29 (`0x20000000`)",
     check: Check::Device(check),
     ..Rule::NEW
 };

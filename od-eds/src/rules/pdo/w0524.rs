@@ -8,7 +8,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0524",
     severity: Warning,
     title: "mapping counts more than 64 objects",
-    why: "A PDO has 64 bits, so at most 64 objects; 254 and 255 say that it is multiplexed.",
+    why: "A PDO has 64 bits, so it maps at most 64 objects. 254 and 255 mark a multiplexed PDO.",
     source: "CiA 301, PDO mapping parameter",
     says: "{count} objects cannot be mapped into 64 bits",
     help: "write a number up to 64, or 254 or 255 for a multiplexed PDO",

@@ -1,17 +1,17 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::rules::pdo::shared::{count, numbers};
+use crate::rules::pdo::shared::numbers;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0525",
     severity: Warning,
-    title: "mapping entry in use maps nothing",
-    why: "Sub-index 0 says how many objects are mapped, and each of these entries names one.",
+    title: "mapping entry in use is 0",
+    why: "Sub-index 0 is the number of mapped objects, and each of these entries names one. A device aborts such a mapping.",
     source: "CiA 301, PDO mapping parameter",
-    says: "{count} objects are mapped, but this entry maps nothing",
-    help: "write what is mapped, or a lower number into sub-index 0",
+    says: "mapping entry is 0, but sub-index 0 counts it as mapped",
+    help: "write the mapped object, such as `0x60040020`, or lower sub-index 0",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -20,8 +20,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     for (entry, number) in numbers(object) {
         // Nothing, not even a length: there is nothing else to judge.
         if number.value == 0 {
-            let count = count(object).unwrap_or(0);
-            findings.push(RULE.on(&entry, number.span).fact("count", count));
+            findings.push(RULE.on(&entry, number.span));
         }
     }
 }

@@ -12,8 +12,8 @@ pub(crate) static RULE: Rule = Rule {
     title: "mapping is finer than the granularity",
     why: "Granularity in [DeviceInfo] is the smallest number of bits that the device can map.",
     source: "CiA 306-1, DeviceInfo",
-    says: "{bits} bits are mapped, but Granularity is {granularity}",
-    help: "map a multiple of the granularity, or mend it in [DeviceInfo]",
+    says: "object is mapped with {bits:bit|bits}, but Granularity is {granularity}",
+    help: "map a multiple of the granularity, or correct Granularity in [DeviceInfo]",
     check: Check::Device(check),
     ..Rule::NEW
 };

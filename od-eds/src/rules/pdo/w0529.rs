@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 
+use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::pdo::shared::is_communication;
 use crate::subject::{Object, start_number};
@@ -8,11 +9,11 @@ use od_model::Address;
 pub(crate) static RULE: Rule = Rule {
     code: "W0529",
     severity: Warning,
-    title: "PDO waits for SYNC, but there is no 1005h",
-    why: "Transmission types 0 to 240, 252 and 253 follow SYNC, whose identifier stands in 1005h.",
+    title: "PDO waits for SYNC, but 1005h is missing",
+    why: "Transmission types 0 to 240, 252 and 253 depend on SYNC, whose COB-ID is in 1005h.",
     source: "CiA 301, PDO communication parameter",
-    says: "transmission type {given} waits for SYNC, but there is no 1005h",
-    help: "write a section [1005], or another transmission type such as 255",
+    says: "transmission type {given} needs object 1005h (COB-ID SYNC message)",
+    help: "add {missing}, or write a transmission type without SYNC, such as 255",
     check: Check::Object(check),
     ..Rule::NEW
 };
@@ -29,7 +30,8 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         findings.push(
             RULE.on(object, given.span)
                 .about(address)
-                .fact("given", given.value),
+                .fact("given", given.value)
+                .fact("missing", Fact::Section(0x1005, None)),
         );
     }
 }

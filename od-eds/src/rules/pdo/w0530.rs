@@ -10,12 +10,12 @@ use od_model::Address;
 pub(crate) static RULE: Rule = Rule {
     code: "W0530",
     severity: Warning,
-    title: "first SDO server is not at its place",
-    why: "Every master asks the first SDO server with 600h plus the node ID, and waits for 580h plus the node ID.",
+    title: "COB-ID of the default SDO is not standard",
+    why: "A master sends requests to the default SDO with CAN-ID 600h + node ID and expects responses with 580h + node ID.",
     source: "CiA 301, predefined connection set",
     fixability: Fixability::Unsafe,
-    says: "the first SDO server has {base:X}h plus the node ID here",
-    help: "write `$NODEID+0x{base:X}`",
+    says: "COB-ID of the default SDO must be {base:X}h + node ID",
+    help: "write `$NODEID+0x{base:X}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };

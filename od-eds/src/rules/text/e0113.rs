@@ -5,10 +5,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0113",
     severity: Error,
     title: "XML is not well-formed",
-    why: "Nothing can be read of such a file.",
+    why: "No tool can read such a file, and odkit reads nothing of it.",
     source: "XML 1.0",
-    says: "the XML breaks here: {error}",
-    help: "mend the XML; nothing is read of a file that is none",
+    says: "XML is not well-formed: {error}",
+    help: "correct the XML",
     ..Rule::NEW
 };
 

@@ -6,18 +6,18 @@ use crate::span::{Span, Spanned};
 pub(crate) static RULE: Rule = Rule {
     code: "E0114",
     severity: Error,
-    title: "object of an XDD has no index",
-    why: "An index is four, a sub-index two hexadecimal digits without `0x`. The element is left out.",
+    title: "object of an XDD has no valid index",
+    why: "An index has four hexadecimal digits and a sub-index two, without `0x`. odkit leaves the element out.",
     source: "CiA 311, CANopenObject",
-    says: "`{given}` is no {name}",
-    help: "write {digits} hexadecimal digits; the element is left out",
+    says: "`{given}` is not a valid {name}",
+    help: "write {digits} hexadecimal digits",
     also: &[MISSING],
     ..Rule::NEW
 };
 
 /// What an element without the attribute says.
 const MISSING: Form = Form {
-    says: "there is no {name}",
+    says: "{name} is missing",
     ..Form::OWN
 };
 

@@ -4,11 +4,11 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "E0115",
     severity: Error,
-    title: "object of an XDD refers to no parameter",
-    why: "Type, access and default of the object are said of the parameter. What the object says itself is read.",
+    title: "object of an XDD refers to a missing parameter",
+    why: "The parameter gives type, access and default value of the object. odkit reads only the attributes of the object itself.",
     source: "CiA 311, CANopenObject",
-    says: "there is no parameter with the uniqueID `{given}`",
-    help: "write the parameter, or the attributes of the object itself",
+    says: "no parameter has the uniqueID `{given}`",
+    help: "add the parameter, or write its attributes at the object",
     ..Rule::NEW
 };
 

@@ -6,17 +6,17 @@ pub(crate) static RULE: Rule = Rule {
     code: "I0111",
     severity: Info,
     title: "file is not ASCII",
-    why: "CiA 306 asks for ASCII. UTF-8, UTF-16 and Windows-1252 are read, with or without a byte order mark; many readers know only one of them.",
+    why: "CiA 306 requires ASCII. odkit also reads UTF-8, UTF-16 and Windows-1252, with or without a byte order mark; many EDS parsers read only one of them.",
     source: "CiA 306-1, file format",
-    says: "the file is {encoding}",
-    help: "where another reader fails, save it as ASCII",
+    says: "file is encoded in {encoding}",
+    help: "save the file as ASCII if a tool cannot read it",
     also: &[MARKED],
     ..Rule::NEW
 };
 
 /// What a file with a byte order mark says.
 const MARKED: Form = Form {
-    says: "the file is {encoding}, with a byte order mark",
+    says: "file is encoded in {encoding}, with a byte order mark",
     ..Form::OWN
 };
 

@@ -5,12 +5,12 @@ use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
     code: "W0101",
     severity: Warning,
-    title: "line is no section, no key and no comment",
-    why: "Most readers stop at such a line. It is ignored here.",
+    title: "line is not a section, a key or a comment",
+    why: "Most EDS parsers stop at such a line. odkit ignores it.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    says: "`{given}` is no section, no `key=value` and no comment",
-    help: "the line is ignored; begin it with `;` to make it a comment",
+    says: "`{given}` is not a section, a `key=value` line or a comment",
+    help: "start the line with `;`{fix}, or remove it",
     ..Rule::NEW
 };
 

@@ -6,11 +6,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0102",
     severity: Warning,
     title: "line has no key before the `=`",
-    why: "Nothing can ask for a value without a key. The line is ignored.",
+    why: "A tool can read a value only by its key. odkit ignores the line.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
     says: "`{given}` has no key before the `=`",
-    help: "the line is ignored; remove it, or name the key",
+    help: "start the line with `;`{fix}, or write a key before the `=`",
     ..Rule::NEW
 };
 

@@ -8,11 +8,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0103",
     severity: Warning,
     title: "section header has no closing bracket",
-    why: "Most readers stop at such a line. The header is taken to end with its line.",
+    why: "Most EDS parsers stop at such a line. odkit assumes that the header ends with its line.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    says: "the section `{given}` has no closing bracket",
-    help: "write `[{given}]`",
+    says: "header of section `{given}` has no closing bracket",
+    help: "write `[{given}]`{fix}",
     ..Rule::NEW
 };
 

@@ -7,12 +7,12 @@ use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
     code: "W0104",
     severity: Warning,
-    title: "text behind a section header",
-    why: "Most readers stop at such a line. The text is ignored.",
+    title: "text after a section header",
+    why: "Most EDS parsers stop at such a line. odkit ignores the text.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    says: "`{given}` stands behind the section `[{name}]`",
-    help: "give a comment a line of its own that begins with `;`",
+    says: "`{given}` follows the section header `[{name}]`",
+    help: "move the text to a line that starts with `;`{fix}",
     ..Rule::NEW
 };
 

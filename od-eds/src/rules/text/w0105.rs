@@ -5,10 +5,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0105",
     severity: Warning,
     title: "key before the first section",
-    why: "A key belongs to a section. It is kept, and nothing reads it.",
+    why: "A key belongs to a section. odkit keeps the key and ignores it.",
     source: "CiA 306-1, file format",
-    says: "`{name}` stands before the first section",
-    help: "write the section's name above it, for example `[FileInfo]`",
+    says: "`{name}` is before the first section",
+    help: "write a section header such as `[FileInfo]` above it",
     ..Rule::NEW
 };
 

@@ -5,16 +5,19 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0106",
     severity: Warning,
-    title: "section stands twice",
-    why: "Readers differ in which one they take. The first counts; both are kept.",
+    title: "duplicate section",
+    why: "Tools differ in which of the two they use. odkit uses the first and keeps both.",
     source: "CiA 306-1, file format",
-    says: "[{name}] stands twice",
-    help: "put the keys of both into one section",
+    says: "duplicate section [{name}]",
+    help: "move the keys of both into one section",
     ..Rule::NEW
 };
+
+/// The label at the first of two.
+pub(crate) const FIRST: &str = "first defined here";
 
 /// The finding about a second section of a name.
 pub(crate) fn finding(second: &Placed<'_>, first: Span) -> Finding {
     let finding = RULE.at(second.header).fact("name", &*second.name.value);
-    finding.related(first, "this one counts")
+    finding.related(first, FIRST)
 }

@@ -6,11 +6,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0108",
     severity: Warning,
     title: "`:` instead of `=`",
-    why: "Only some readers know it. It is read as `=`.",
+    why: "Only some EDS parsers accept it. odkit reads it as `=`.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    says: "`{name}` is separated from its value by `:`",
-    help: "write `{name}={given}`",
+    says: "`{name}` is followed by `:` instead of `=`",
+    help: "write `{name}={given}`{fix}",
     ..Rule::NEW
 };
 

@@ -8,12 +8,12 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0109",
     severity: Warning,
-    title: "comment behind a value",
-    why: "A comment has a line of its own; behind a value it is part of the value. Where the value is a number, it is cut off.",
+    title: "comment after a value",
+    why: "A comment needs a line of its own; after a value it is part of the value. odkit ignores it if the value is a number.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Safe,
-    says: "a comment stands behind the value: `{given}`",
-    help: "write `{key={right}}`",
+    says: "`{given}` has a comment after the value",
+    help: "write `{key={right}}`, and the comment on the next line{fix}",
     ..Rule::NEW
 };
 

@@ -4,11 +4,11 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0110",
     severity: Warning,
-    title: "section header without name",
-    why: "No reader can ask for such a section. It is kept, and nothing reads it.",
+    title: "section header without a name",
+    why: "A tool can find a section only by its name. odkit keeps the section and ignores it.",
     source: "CiA 306-1, file format",
-    says: "the section has no name",
-    help: "write the name between the brackets",
+    says: "section header has no name",
+    help: "write a name between the brackets",
     ..Rule::NEW
 };
 

@@ -5,11 +5,11 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0112",
     severity: Warning,
-    title: "byte is no character of the file's encoding",
-    why: "Two encodings in one file, or a file that was cut. In UTF-8 the byte is read as Windows-1252, in UTF-16 as U+FFFD; a file that is written back keeps it.",
+    title: "byte is not valid in the file's encoding",
+    why: "The file mixes two encodings, or is incomplete. odkit reads the byte as Windows-1252 in UTF-8 and as U+FFFD in UTF-16; a file that odkit writes keeps it.",
     source: "CiA 306-1, file format",
-    says: "here is a byte that is no character of {encoding}",
-    help: "write the character anew, or save the file in one encoding",
+    says: "invalid {encoding} byte",
+    help: "retype the character, or save the file in one encoding",
     ..Rule::NEW
 };
 

@@ -1,17 +1,18 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::values::shared::WHOLE;
 use crate::subject::{Entry, is_definition};
-use od_model::Kind;
+use od_model::{DataType, Kind};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0403",
     severity: Error,
     title: "value has the type of a record",
-    why: "0020h–0023h describe whole objects; a value has one of the basic types. It is left out of the dictionary.",
+    why: "0020h to 0023h are types of whole objects; a value has a basic type. odkit leaves the value out of the dictionary.",
     source: "CiA 301, data types",
-    says: "{type} is the type of a whole object",
-    help: "write the type of this one value, for example `{DataType=0x0007}` for UNSIGNED32",
+    says: WHOLE.says,
+    help: WHOLE.help,
     check: Check::Entry(check),
     ..Rule::NEW
 };
@@ -21,6 +22,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && data_type.kind() == Kind::Record
         && !is_definition(entry.object)
     {
-        findings.push(RULE.on(entry, data_type.span).fact("type", *data_type));
+        let finding = RULE.on(entry, data_type.span).fact("type", *data_type);
+        findings.push(finding.fact("right", DataType::Unsigned32));
     }
 }

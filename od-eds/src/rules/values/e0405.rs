@@ -5,11 +5,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "E0405",
     severity: Error,
-    title: "AccessType is none",
-    why: "AccessType is ro, wo, rw, rwr, rww or const. `ro` is taken.",
+    title: "AccessType is not valid",
+    why: "AccessType gives what a master can read and write. odkit assumes `ro`.",
     source: "CiA 306-1, object sections",
-    says: "`{given}` is no {AccessType}",
-    help: "write ro, wo, rw, rwr, rww or const; `ro` is taken now",
+    says: "`{given}` is not a valid {AccessType}",
+    help: "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const` (odkit assumes `ro`)",
     ..Rule::NEW
 };
 

@@ -2,16 +2,16 @@ use alloc::vec::Vec;
 
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::rules::values::shared::{FORMULA, report_unfit};
+use crate::rules::values::shared::{FORMULA, NOT_VALID, report_unfit};
 use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0412",
     severity: Error,
-    title: "DefaultValue is no value of its type",
-    why: "The value cannot be what the description says it is. The dictionary has no default there.",
+    title: "DefaultValue is not valid for its DataType",
+    why: "A tool cannot use a default value that its type does not allow. odkit leaves it out of the dictionary.",
     source: "CiA 306-1, object sections; CiA 301, data types",
-    says: "{key} `{given}` is no {type}",
+    says: NOT_VALID,
     help: "write {form}",
     also: &[FORMULA],
     check: Check::Entry(check),

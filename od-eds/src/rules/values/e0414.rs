@@ -2,18 +2,18 @@ use alloc::vec::Vec;
 
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::rules::values::shared::{ABOVE, Outside, outside};
+use crate::rules::values::shared::{ABOVE, BELOW, Outside, WITHIN, outside};
 use crate::span::token_of;
 use crate::subject::Entry;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0414",
     severity: Error,
-    title: "value is outside its limits",
-    why: "A device refuses to be set to what its own default is.",
+    title: "configured value is outside its limits",
+    why: "A device aborts the download of a value outside its limits, so a master cannot configure it.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    says: "{key} {value} is below {LowLimit} {limit}",
-    help: "write a {key} within the limits, or mend the limit",
+    says: BELOW,
+    help: WITHIN,
     also: &[ABOVE],
     check: Check::Entry(check),
     ..Rule::NEW
@@ -24,7 +24,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     findings.extend(fails.map(|outside| outside.finding(&RULE, entry)));
 }
 
-/// A master that configures by a DCF gets an abort; a default is only odd. A value of a macro
+/// A master that configures by a DCF gets an abort; a default is only unusual. A value of a macro
 /// call is the author's own to correct.
 pub(super) fn fails(outside: &Outside<'_>) -> bool {
     let own = |span| token_of(span).is_some();

@@ -10,11 +10,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0415",
     severity: Error,
     title: "LowLimit is greater than HighLimit",
-    why: "No value lies between them.",
+    why: "No value lies between the two, so a master cannot write the object.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
-    says: "{LowLimit} {low} is greater than {HighLimit} {high}",
-    help: "swap the two, or leave both empty",
+    says: "{LowLimit} `{low}` is greater than {HighLimit} `{high}`",
+    help: "swap the two limits{fix}, or remove both",
     check: Check::Entry(check),
     ..Rule::NEW
 };
@@ -29,6 +29,6 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         let finding = finding
             .fact("low", low.value.clone())
             .fact("high", high.value.clone());
-        findings.push(finding.related(high.span, "{HighLimit} is here").fix(swap));
+        findings.push(finding.related(high.span, "{HighLimit} set here").fix(swap));
     }
 }

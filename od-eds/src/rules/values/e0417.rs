@@ -11,11 +11,11 @@ use od_model::DataType;
 pub(crate) static RULE: Rule = Rule {
     code: "E0417",
     severity: Error,
-    title: "$NODEID where it cannot be",
-    why: "Only an UNSIGNED8, UNSIGNED16, UNSIGNED24 or UNSIGNED32 can depend on the node ID.",
+    title: "$NODEID in a type that does not support it",
+    why: "Only UNSIGNED8, UNSIGNED16, UNSIGNED24 and UNSIGNED32 can depend on the node ID.",
     source: "CiA 306-1, $NODEID",
-    says: "{key} `{given}`: {type} holds no $NODEID",
-    help: "write a number, or `{DataType=0x0007}` (UNSIGNED32)",
+    says: "{key} `{given}` uses $NODEID, which {type} does not support",
+    help: "write a number, or `{DataType={right}}` ({right})",
     check: Check::Entry(check),
     ..Rule::NEW
 };
@@ -43,5 +43,6 @@ pub(crate) fn finding(
     let finding = RULE.at(span).key(key).fact("given", given);
     finding
         .fact("type", *data_type)
+        .fact("right", DataType::Unsigned32)
         .related(data_type.span, DECLARED)
 }

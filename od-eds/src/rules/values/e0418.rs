@@ -8,10 +8,10 @@ use crate::subject::Entry;
 pub(crate) static RULE: Rule = Rule {
     code: "E0418",
     severity: Error,
-    title: "$NODEID formula does not fit its type for every node ID",
-    why: "The sum with the highest node ID, 127, must fit.",
+    title: "$NODEID formula is too large for its DataType",
+    why: "The highest node ID is 127, and the sum with it must be valid too.",
     source: "CiA 306-1, $NODEID",
-    says: "{key} `{given}` is {sum} for node 127, which is no {type}",
+    says: "{key} `{given}` is {sum} for node ID 127, which is not a valid {type}",
     help: "write at most `$NODEID+0x{most:X}`",
     check: Check::Entry(check),
     ..Rule::NEW

@@ -1,13 +1,14 @@
 use crate::finding::{Fixability, Rule, Severity::Info};
+use crate::rules::values::shared::WRITE;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0408",
     severity: Info,
     title: "number with a leading 0 is octal",
-    why: "`010` is 8. It is read so, as C reads it; not every reader does.",
+    why: "`010` is 8 in C and in odkit, but 10 in some tools.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    says: "`{given}` is read as octal",
-    help: "write `{key={right}}`",
+    says: "odkit reads `{given}` as octal",
+    help: WRITE,
     ..Rule::NEW
 };

@@ -1,13 +1,14 @@
 use crate::finding::{Fixability, Rule, Severity::Info};
+use crate::rules::values::shared::WRITE;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0411",
     severity: Info,
-    title: "$NODEID is not written as `$NODEID+n`",
-    why: "Another order, other case or blanks are read the same; not every reader does.",
+    title: "$NODEID formula is not written as `$NODEID+n`",
+    why: "odkit also reads another order, other case and blanks; some tools do not.",
     source: "CiA 306-1, $NODEID",
     fixability: Fixability::Safe,
-    says: "`{given}` is read as `$NODEID` plus a number",
-    help: "write `{key={right}}`",
+    says: "odkit reads `{given}` as `$NODEID` plus a number",
+    help: WRITE,
     ..Rule::NEW
 };

@@ -5,10 +5,10 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "I0425",
     severity: Info,
-    title: "type that the file defines",
-    why: "The object of that index says in sub-index 1 which basic type it stands for. That type is taken, with its limits; most readers know no such types.",
+    title: "data type defined in the file",
+    why: "Sub-index 1 of the object with that index gives the basic type. odkit uses this type and its limits; most EDS parsers do not know such types.",
     source: "CanFestival, object dictionary editor",
-    says: "`{given}` is a type that the file defines",
+    says: "`{given}` is a data type that the file defines",
     help: "write `{DataType={right}}`",
     ..Rule::NEW
 };
@@ -19,5 +19,5 @@ pub(crate) fn finding(given: &Text<'_>, stands_for: &Text<'_>) -> Finding {
         .given(given)
         .key(Key::DataType)
         .fact("right", &*stands_for.value);
-    finding.related(stands_for.span, "it stands for this type")
+    finding.related(stands_for.span, "basic type defined here")
 }

@@ -7,11 +7,11 @@ use od_model::Access;
 pub(crate) static RULE: Rule = Rule {
     code: "I0447",
     severity: Info,
-    title: "mappable, but into which PDO",
-    why: "An object that is rw and mappable may stand in TPDOs and RPDOs alike; rwr or rww says which, if it is only one.",
+    title: "AccessType `rw` gives no PDO direction",
+    why: "A mappable `rw` object can be mapped into TPDOs and RPDOs; `rwr` or `rww` limits it to one of them.",
     source: "CiA 306-1, AccessType",
-    says: "it is mappable, and `rw` does not say into which PDOs",
-    help: "write `rwr` for TPDOs or `rww` for RPDOs, if it is for one of them",
+    says: "{AccessType} `rw` of a mappable object gives no PDO direction",
+    help: "write `{AccessType=rwr}` for TPDOs only, or `{AccessType=rww}` for RPDOs only",
     check: Check::Entry(check),
     ..Rule::NEW
 };

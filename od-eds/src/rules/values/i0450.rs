@@ -6,11 +6,11 @@ use crate::subject::Entry;
 pub(crate) static RULE: Rule = Rule {
     code: "I0450",
     severity: Info,
-    title: "limits leave one value",
-    why: "A value that can be written, but only to what it is: such limits are usually left over from an editor.",
+    title: "limits allow only one value",
+    why: "A master can write the object, but only to the value that it has. Editors often leave such limits.",
     source: "CiA 306-1, LowLimit and HighLimit",
-    says: "between the limits there is one value for a {access} object",
-    help: "write the limits that the device has, or leave both empty",
+    says: "{LowLimit} equals {HighLimit}, so this `{access}` object can have only one value",
+    help: "write the limits of the device, or remove both",
     check: Check::Entry(check),
     ..Rule::NEW
 };
@@ -21,6 +21,6 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && entry.access.writable()
     {
         let finding = RULE.on(entry, high.span).fact("access", *entry.access);
-        findings.push(finding.related(low.span, "{LowLimit} is here"));
+        findings.push(finding.related(low.span, "{LowLimit} set here"));
     }
 }

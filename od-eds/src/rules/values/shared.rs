@@ -13,18 +13,24 @@ use crate::span::{Span, Spanned};
 use crate::subject::Entry;
 
 /// The label at a DataType.
-pub(crate) const DECLARED: &str = "{type} is declared here";
+pub(crate) const DECLARED: &str = "declared as {type} here";
 
 /// What a value says that is not valid for its type.
 pub(crate) const NOT_VALID: &str = "{key} `{given}` is not a valid {type}";
 
-/// What a type says that only a whole object has.
-pub(crate) const WHOLE: &str = "{type} is the type of a whole object";
+/// The help for a value that odkit reads, though not every tool does.
+pub(super) const WRITE: &str = "write `{key={right}}`{fix}";
 
-/// What a value says that is written as a formula and is none.
+/// What a type says that only a whole object has.
+pub(crate) const WHOLE: Form = Form {
+    says: "{type} is the type of a whole object",
+    help: "write the type of a single value, such as `{DataType={right}}` ({right})",
+};
+
+/// What a value says that is written as a formula and is not a valid one.
 pub(super) const FORMULA: Form = Form {
-    says: "{key} `{given}` is no {type}",
-    help: "write `$NODEID+` and a number",
+    help: "write `$NODEID` and a number, such as `$NODEID+0x180`",
+    ..Form::OWN
 };
 
 /// The type of an entry's value, if it is one that a value can have.
@@ -49,7 +55,7 @@ pub(super) fn values<'a>(
     values.filter_map(|(key, value)| Some((key, value.as_ref()?)))
 }
 
-/// The finding that a value is none of its type, as it is given.
+/// The finding that a value, as it is given, is not valid for its type.
 pub(crate) fn unfit(
     rule: &'static Rule,
     key: Key,
@@ -65,7 +71,7 @@ pub(crate) fn unfit(
         .related(data_type.span, DECLARED)
 }
 
-/// The finding that a formula is none.
+/// The finding that a formula is not valid.
 pub(crate) fn unfit_formula(
     rule: &'static Rule,
     key: Key,
@@ -79,7 +85,7 @@ pub(crate) fn unfit_formula(
     finding.related(data_type.span, DECLARED)
 }
 
-/// Reports the values under these keys that are none of their type; formulas have other rules.
+/// Reports the values under these keys that are not valid for their type; formulas have other rules.
 pub(super) fn report_unfit(
     rule: &'static Rule,
     entry: &Entry<'_>,
@@ -121,10 +127,16 @@ pub(super) struct Outside<'a> {
     pub(super) side: Key,
 }
 
-/// What a value above its limit says; below is what the rules say otherwise.
+/// What a value below its limit says.
+pub(super) const BELOW: &str = "{key} `{value}` is less than {LowLimit} `{limit}`";
+
+/// The help for a value outside its limits.
+pub(super) const WITHIN: &str = "write {key} within the limits, or correct the limit";
+
+/// What a value above its limit says.
 pub(super) const ABOVE: Form = Form {
-    says: "{key} {value} is above {HighLimit} {limit}",
-    help: "write a {key} within the limits, or mend the limit",
+    says: "{key} `{value}` is greater than {HighLimit} `{limit}`",
+    ..Form::OWN
 };
 
 impl Outside<'_> {
@@ -135,7 +147,7 @@ impl Outside<'_> {
             .key(self.key)
             .fact("value", self.value.value.clone())
             .fact("limit", self.limit.value.clone())
-            .related(self.limit.span, "the limit is here");
+            .related(self.limit.span, "limit set here");
         match self.side {
             Key::HighLimit => finding.form(&ABOVE),
             _ => finding,

@@ -6,11 +6,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0404",
     severity: Warning,
     title: "AccessType is missing",
-    why: "Every value says who may write it. `ro` is taken.",
+    why: "Every value has an AccessType. odkit assumes `ro`.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    says: "there is no {AccessType}",
-    help: "write `{AccessType=ro}`, which is taken now, or what it is",
+    says: "{AccessType} is missing",
+    help: "add `{AccessType=ro}`{fix}, or another access type",
     ..Rule::NEW
 };
 

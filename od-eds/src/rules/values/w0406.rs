@@ -7,11 +7,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0406",
     severity: Warning,
     title: "PDOMapping is neither 0 nor 1",
-    why: "0 is taken.",
+    why: "PDOMapping gives if a PDO can map the object. odkit assumes 0 (not mappable).",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    says: "{PDOMapping} is 0 or 1, not `{given}`",
-    help: "write `{PDOMapping=0}`, which is taken now, or `{PDOMapping=1}`",
+    says: "{PDOMapping} `{given}` is neither 0 nor 1",
+    help: "write `{PDOMapping=0}`{fix} or `{PDOMapping=1}`",
     ..Rule::NEW
 };
 

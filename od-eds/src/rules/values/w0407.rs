@@ -6,12 +6,12 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0407",
     severity: Warning,
-    title: "ObjFlags is no number",
-    why: "0 is taken.",
+    title: "ObjFlags is not a number",
+    why: "ObjFlags tells a tool how to handle the object. odkit assumes 0.",
     source: "CiA 306-1, ObjFlags",
     fixability: Fixability::Unsafe,
-    says: "`{given}` are no {ObjFlags}",
-    help: "write `{ObjFlags=0}`, or leave the line out",
+    says: "`{given}` is not a valid {ObjFlags}",
+    help: "write `{ObjFlags=0}`{fix}, or remove the line",
     ..Rule::NEW
 };
 

@@ -1,13 +1,14 @@
 use crate::finding::{Fixability, Rule, Severity::Warning};
+use crate::rules::values::shared::WRITE;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0409",
     severity: Warning,
     title: "number with a leading 0 is not octal",
-    why: "`08` is no octal number. It is read as decimal; many readers refuse it.",
+    why: "`08` is not a valid octal number. odkit reads it as decimal; many EDS parsers reject it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    says: "`{given}` is read as decimal",
-    help: "write `{key={right}}`",
+    says: "odkit reads `{given}` as decimal",
+    help: WRITE,
     ..Rule::NEW
 };

@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
-use crate::rules::values::shared::{DECLARED, FORMULA, report_unfit};
+use crate::rules::values::shared::{DECLARED, FORMULA, NOT_VALID, report_unfit};
 use crate::scan::placed::Text;
 use crate::span::Spanned;
 use crate::subject::Entry;
@@ -12,12 +12,12 @@ use od_model::DataType;
 pub(crate) static RULE: Rule = Rule {
     code: "W0416",
     severity: Warning,
-    title: "limit is no value of its type",
-    why: "A limit that the type cannot reach limits nothing. It is left out of the dictionary.",
+    title: "limit is not valid for its DataType",
+    why: "The type cannot reach such a limit. odkit leaves the limit out of the dictionary.",
     source: "CiA 306-1, LowLimit and HighLimit",
     fixability: Fixability::Unsafe,
-    says: "{key} `{given}` is no {type}",
-    help: "write {form}, or leave it empty",
+    says: NOT_VALID,
+    help: "write {form}, or `{key=}`{fix}",
     also: &[FORMULA, NO_LIMITS],
     check: Check::Entry(check),
     ..Rule::NEW
@@ -25,8 +25,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// What a limit says whose type has no order.
 const NO_LIMITS: Form = Form {
-    says: "{key} `{given}`: a {type} has no limits",
-    help: "write `{key=}`, or leave the line out",
+    says: "{type} has no limits, but {key} is `{given}`",
+    help: "write `{key=}`{fix}, or remove the line",
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {

@@ -1,13 +1,14 @@
 use crate::finding::{Fixability, Rule, Severity::Warning};
+use crate::rules::values::shared::WRITE;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0423",
     severity: Warning,
     title: "decimal comma",
-    why: "It is read as a decimal point; many readers refuse it.",
+    why: "odkit reads the comma as a decimal point; many EDS parsers reject it.",
     source: "CiA 306-1, numbers",
     fixability: Fixability::Safe,
-    says: "`{given}` is read with a decimal point",
-    help: "write `{key={right}}`",
+    says: "odkit reads `{given}` with a decimal point",
+    help: WRITE,
     ..Rule::NEW
 };

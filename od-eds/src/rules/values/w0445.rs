@@ -8,12 +8,12 @@ use od_model::Access;
 pub(crate) static RULE: Rule = Rule {
     code: "W0445",
     severity: Warning,
-    title: "rwr or rww, but not mappable",
-    why: "rwr and rww say into which PDO an object may be mapped; of an object that is not mappable they say nothing.",
+    title: "AccessType `rwr` or `rww`, but not mappable",
+    why: "`rwr` and `rww` give the PDO direction of a mappable object. They have no effect on an object that is not mappable.",
     source: "CiA 306-1, AccessType",
     fixability: Fixability::Unsafe,
-    says: "`{access}` says which PDO may map it, but it is not mappable",
-    help: "write `{PDOMapping=1}`, or `{AccessType=rw}`",
+    says: "{AccessType} `{access}` gives a PDO direction, but the object is not mappable",
+    help: "write `{PDOMapping=1}`{fix}, or `{AccessType=rw}`",
     check: Check::Entry(check),
     ..Rule::NEW
 };

@@ -9,10 +9,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0446",
     severity: Warning,
     title: "text is not ASCII",
-    why: "A VISIBLE_STRING has the characters of ISO 646; on the bus others become whatever the reader takes them for.",
+    why: "A VISIBLE_STRING has the characters of ISO 646. A master may show other characters wrongly.",
     source: "CiA 301, data types",
-    says: "{odd} is no character of a VISIBLE_STRING",
-    help: "use the characters of ISO 646 (ASCII), from the blank to `~`",
+    says: "{odd} is not a valid character of a VISIBLE_STRING",
+    help: "write only characters of ISO 646 (ASCII), from the blank to `~`",
     check: Check::Entry(check),
     ..Rule::NEW
 };

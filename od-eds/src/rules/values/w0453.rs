@@ -10,10 +10,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0453",
     severity: Warning,
     title: "constant has no value",
-    why: "What is const never changes; without a DefaultValue nobody knows what it is. 0 is taken.",
+    why: "A `const` value never changes, so DefaultValue is its value. odkit assumes 0.",
     source: "CiA 306-1, AccessType",
-    says: "a constant has no {DefaultValue}",
-    help: "write the value, or `{AccessType=ro}` if it can change",
+    says: "`const` object has no {DefaultValue}",
+    help: "add {DefaultValue}, or write `{AccessType=ro}` if the value can change",
     check: Check::Entry(check),
     ..Rule::NEW
 };

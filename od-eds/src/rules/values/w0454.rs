@@ -8,12 +8,12 @@ use crate::subject::Entry;
 pub(crate) static RULE: Rule = Rule {
     code: "W0454",
     severity: Warning,
-    title: "mappable, but of no fixed length",
-    why: "A string or a DOMAIN has no place in a PDO.",
+    title: "mappable object has no fixed length",
+    why: "A PDO has room only for values of fixed length, not for strings and DOMAINs.",
     source: "CiA 301, data types and PDO mapping parameter",
     fixability: Fixability::Unsafe,
-    says: "a {type} has no fixed length, and no place in a PDO",
-    help: "write `{PDOMapping=0}`",
+    says: "{type} has no fixed length and cannot be mapped into a PDO",
+    help: "write `{PDOMapping=0}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };
