@@ -1,7 +1,7 @@
 //! `odkit explain`: the meaning of a rule, with an example and its fix.
 
 use od_eds::Severity;
-use od_eds::check::{RULES, Rule, pair, rule};
+use od_eds::check::{Fixability, RULES, Rule, pair, rule};
 
 use crate::failure::Failure;
 use crate::output;
@@ -70,11 +70,11 @@ fn text(rule: &Rule) -> String {
     if !rule.example.is_empty() {
         text.push_str(&format!("\nExample:\n    {}\n", rule.example));
     }
-    let fix = match rule.fixability.name() {
-        "by hand" => "none; correct the file yourself".to_owned(),
-        "safe" => "`odkit check --fix`".to_owned(),
-        "unsafe" => "`odkit check --unsafe-fixes`; review the result".to_owned(),
-        _ => "`odkit check --fix`, or `--unsafe-fixes` if content is lost".to_owned(),
+    let fix = match rule.fixability {
+        Fixability::None => "none; correct the file yourself",
+        Fixability::Safe => "`odkit check --fix`",
+        Fixability::Unsafe => "`odkit check --unsafe-fixes`; review the result",
+        Fixability::Either => "`odkit check --fix`, or `--unsafe-fixes` if content is lost",
     };
     text.push_str(&format!("\nFix:    {fix}\nSource: {}\n", rule.source));
     if !matches!(&rule.code[1..3], "07" | "08") {

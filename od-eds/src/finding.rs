@@ -1,6 +1,5 @@
 //! Rules and findings as plain data; nothing here is put into words.
 
-use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -145,8 +144,8 @@ impl Rule {
         source: "",
         fixability: Fixability::None,
         example: "",
-        says: TOLD.says,
-        help: TOLD.help,
+        says: "",
+        help: "",
         also: &[],
         check: Check::ByReader,
     };
@@ -199,20 +198,7 @@ impl Rule {
     pub(crate) fn on(&'static self, subject: &impl Subject, span: Span) -> Finding {
         self.at(span.or(subject.span())).about(subject.address())
     }
-
-    /// A finding with a sentence that was made where it was found.
-    pub(crate) fn told(&'static self, span: Span, message: impl Into<String>) -> Finding {
-        let mut finding = self.at(span).fact("message", message.into());
-        finding.form = Form { help: "", ..TOLD };
-        finding
-    }
 }
-
-/// For findings whose sentences are made where they are found.
-const TOLD: Form = Form {
-    says: "{message}",
-    help: "{help}",
-};
 
 /// Where a finding is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -346,13 +332,6 @@ impl Finding {
     pub(crate) fn fix(mut self, fix: Fix) -> Self {
         self.fix = fix.placed();
         self
-    }
-
-    /// Adds a help that was made where it was found.
-    #[must_use]
-    pub(crate) fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.form.help = TOLD.help;
-        self.fact("help", help.into())
     }
 }
 

@@ -100,7 +100,10 @@ fn without(edit: &Edit, finding: &Sentence) -> String {
     let about = finding.address.map(|address| address.index);
     match about == Some(target.index) {
         true => format!("remove the statement `remove {target}`"),
-        false => format!("{}, or remove `remove {target}`", finding.help),
+        false => format!(
+            "{}, or remove the statement `remove {target}`",
+            finding.help
+        ),
     }
 }
 
