@@ -88,7 +88,10 @@ fn every_sentence_is_said_and_filled() {
             faults.insert(format!("{}: no case says {form:?}", rule.code));
         }
         for form in said.iter().filter(|form| !forms.contains(form)) {
-            faults.insert(format!("{}: not a sentence of the rule: {form:?}", rule.code));
+            faults.insert(format!(
+                "{}: not a sentence of the rule: {form:?}",
+                rule.code
+            ));
         }
     }
     let faults: Vec<String> = faults.into_iter().collect();
