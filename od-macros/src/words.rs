@@ -172,15 +172,8 @@ fn data_type(word: &str) -> Option<DataType> {
 }
 
 fn access(word: &str) -> Option<Access> {
-    Some(match word {
-        "ro" => Access::Ro,
-        "wo" => Access::Wo,
-        "rw" => Access::Rw,
-        "rwr" => Access::Rwr,
-        "rww" => Access::Rww,
-        "const" => Access::Const,
-        _ => return None,
-    })
+    let mut all = Access::ALL.into_iter();
+    all.find(|access| access.name() == word)
 }
 
 fn group(word: &str) -> Option<Group> {

@@ -21,6 +21,16 @@ pub enum Access {
 }
 
 impl Access {
+    /// All access types.
+    pub const ALL: [Self; 6] = [
+        Self::Ro,
+        Self::Wo,
+        Self::Rw,
+        Self::Rwr,
+        Self::Rww,
+        Self::Const,
+    ];
+
     /// Returns the spelling in an EDS: `ro`, `wo`, `rw`, `rwr`, `rww`, `const`.
     pub const fn name(self) -> &'static str {
         match self {

@@ -98,101 +98,102 @@ impl Reader<'_> {
         (entry, unread)
     }
 
+    /// The value of a key, if the section has it; one that cannot be read is reported and
+    /// kept as text.
+    pub(crate) fn keyed<T>(
+        &mut self,
+        fields: &mut Fields<'_>,
+        unread: &mut Unread,
+        key: Key,
+        read: impl FnOnce(&mut Self, &Text<'_>) -> Option<T>,
+        not_read: impl FnOnce(&Text<'_>) -> Finding,
+    ) -> Option<Spanned<Option<T>>> {
+        let given = fields.take(key.name())?;
+        let value = read(self, &given);
+        if value.is_none() {
+            self.report(not_read(&given));
+            unread.push((key.name().into(), given.value.into_owned()));
+        }
+        Some(Spanned::new(value, given.span))
+    }
+
+    /// What is written as a number, or as a word that another format has for it.
+    fn coded<T>(
+        &mut self,
+        key: Key,
+        given: &Text<'_>,
+        of: impl FnOnce(i128) -> Option<T>,
+        of_word: impl FnOnce(&str) -> Option<T>,
+        right: impl FnOnce(&T) -> String,
+    ) -> Option<T> {
+        self.number(key, given).and_then(of).or_else(|| {
+            let value = of_word(given)?;
+            self.word(key, given, &right(&value));
+            Some(value)
+        })
+    }
+
     fn data_type(
         &mut self,
         fields: &mut Fields<'_>,
         unread: &mut Unread,
     ) -> Option<Spanned<DataType>> {
-        let given = fields.take("DataType")?;
-        let number = self.number(Key::DataType, &given);
-        let known = number
-            .and_then(|code| u16::try_from(code).ok())
-            .and_then(DataType::from_code);
-        let known = known.or_else(|| {
-            let data_type = words::data_type(&given)?;
-            self.word(
-                Key::DataType,
-                &given,
-                &format!("0x{:04X}", data_type.code()),
-            );
-            Some(data_type)
-        });
-        if known.is_none() {
-            self.report(e0402::finding(&given));
-            unread.push(("DataType".into(), given.value.into_owned()));
-        }
-        known.map(|data_type| Spanned::new(data_type, given.span))
+        let of = |code: i128| DataType::from_code(u16::try_from(code).ok()?);
+        let right = |data_type: &DataType| format!("0x{:04X}", data_type.code());
+        let key = Key::DataType;
+        let read = |reader: &mut Self, given: &Text<'_>| {
+            reader.coded(key, given, of, words::data_type, right)
+        };
+        let found = self.keyed(fields, unread, key, read, e0402::finding)?;
+        Some(Spanned::new(found.value?, found.span))
     }
 
     fn access(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<Access> {
-        let Some(given) = fields.take("AccessType") else {
+        let read = |reader: &mut Self, given: &Text<'_>| reader.access_word(given);
+        let key = Key::AccessType;
+        let Some(found) = self.keyed(fields, unread, key, read, e0405::finding) else {
             self.report(w0404::finding(fields.header));
             return Spanned::from(Access::Ro);
         };
+        Spanned::new(found.value.unwrap_or(Access::Ro), found.span)
+    }
+
+    fn access_word(&mut self, given: &Text<'_>) -> Option<Access> {
         let mut notes = Vec::new();
-        let word = number::without_comment(&given, &mut notes);
-        let known = [
-            Access::Ro,
-            Access::Wo,
-            Access::Rw,
-            Access::Rwr,
-            Access::Rww,
-            Access::Const,
-        ]
-        .into_iter()
-        .find(|access| word.eq_ignore_ascii_case(access.name()))
-        .or_else(|| {
-            let access = words::access(&given)?;
-            self.word(Key::AccessType, &given, access.name());
+        let word = number::without_comment(given, &mut notes);
+        let known = Access::ALL.into_iter();
+        let mut known = known.filter(|access| word.eq_ignore_ascii_case(access.name()));
+        let access = known.next().or_else(|| {
+            let access = words::access(given)?;
+            self.word(Key::AccessType, given, access.name());
             Some(access)
-        });
-        match known {
-            Some(access) => {
-                self.notes(&notes, Key::AccessType, &given, || access.name().into());
-                Spanned::new(access, given.span)
-            }
-            None => {
-                self.report(e0405::finding(&given));
-                let span = given.span;
-                unread.push(("AccessType".into(), given.value.into_owned()));
-                Spanned::new(Access::Ro, span)
-            }
-        }
+        })?;
+        self.notes(&notes, Key::AccessType, given, || access.name().into());
+        Some(access)
     }
 
     fn mappable(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> Spanned<bool> {
-        let Some(given) = fields.take("PDOMapping") else {
-            return Spanned::from(false);
+        let of = |number| match number {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
         };
-        let mappable = match self.number(Key::PdoMapping, &given) {
-            Some(0) => false,
-            Some(1) => true,
-            _ => self.mappable_word(&given).unwrap_or_else(|| {
-                self.report(w0406::finding(&given));
-                unread.push(("PDOMapping".into(), given.to_string()));
-                false
-            }),
+        let right = |mappable: &bool| u8::from(*mappable).to_string();
+        let key = Key::PdoMapping;
+        let read = |reader: &mut Self, given: &Text<'_>| {
+            reader.coded(key, given, of, words::mappable, right)
         };
-        Spanned::new(mappable, given.span)
-    }
-
-    fn mappable_word(&mut self, given: &Text<'_>) -> Option<bool> {
-        let mappable = words::mappable(given)?;
-        self.word(Key::PdoMapping, given, if mappable { "1" } else { "0" });
-        Some(mappable)
+        match self.keyed(fields, unread, key, read, w0406::finding) {
+            Some(found) => Spanned::new(found.value.unwrap_or(false), found.span),
+            None => Spanned::from(false),
+        }
     }
 
     /// ObjectType, as a number or as a word.
     pub(crate) fn object_code(&mut self, given: &Text<'_>) -> Option<ObjectCode> {
-        let number = self.number(Key::ObjectType, given);
-        let code = number
-            .and_then(|code| u8::try_from(code).ok())
-            .and_then(ObjectCode::from_code);
-        code.or_else(|| {
-            let code = words::object_code(given)?;
-            self.word(Key::ObjectType, given, &format!("0x{:X}", code.code()));
-            Some(code)
-        })
+        let of = |code: i128| ObjectCode::from_code(u8::try_from(code).ok()?);
+        let right = |code: &ObjectCode| format!("0x{:X}", code.code());
+        self.coded(Key::ObjectType, given, of, words::object_code, right)
     }
 
     /// Reports a word that is read as this value.
@@ -202,17 +203,11 @@ impl Reader<'_> {
 
     /// ObjFlags; 0 where it is missing.
     pub(crate) fn flags(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> u32 {
-        let Some(given) = fields.take("ObjFlags") else {
-            return 0;
-        };
-        let number = self.number(Key::ObjFlags, &given);
-        number
-            .and_then(|flags| u32::try_from(flags).ok())
-            .unwrap_or_else(|| {
-                self.report(w0407::finding(&given));
-                unread.push(("ObjFlags".into(), given.value.into_owned()));
-                0
-            })
+        let key = Key::ObjFlags;
+        let read =
+            |reader: &mut Self, given: &Text<'_>| u32::try_from(reader.number(key, given)?).ok();
+        let found = self.keyed(fields, unread, key, read, w0407::finding);
+        found.and_then(|found| found.value).unwrap_or(0)
     }
 
     fn value(

@@ -13,7 +13,7 @@ use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
 use crate::rules::lists::e0208;
 use crate::rules::structure::{e0301, e0305, w0302, w0316, w0317, w0322};
-use crate::scan::placed::Placed;
+use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
 use od_model::{Address, DataType, ObjectCode};
 
@@ -50,7 +50,8 @@ pub(crate) fn object(
         false => code,
     };
     if !code.has_members() {
-        return Some(var(reader, fields, name, code, sub_number.given(), unread));
+        let number = sub_number.and_then(|found| Some(Spanned::new(found.value?, found.span)));
+        return Some(var(reader, fields, name, code, number, unread));
     }
     let mut entries = BTreeMap::new();
     let mut flags = 0;
@@ -82,11 +83,14 @@ pub(crate) fn object(
     let sub_number = match (count, sub_number) {
         // CompactSubObj takes its place.
         (Some(count), _) => Spanned::new(counted, count.span),
-        (None, SubNumber::Given(given)) => given,
-        (None, SubNumber::Unread) => Spanned::from(counted),
-        (None, SubNumber::Missing) if counted == 0 => Spanned::from(counted),
-        (None, SubNumber::Missing) => {
-            reader.report(w0317::finding(fields.header, counted));
+        (None, Some(given)) => match given.value {
+            Some(number) => Spanned::new(number, given.span),
+            None => Spanned::from(counted),
+        },
+        (None, None) => {
+            if counted > 0 {
+                reader.report(w0317::finding(fields.header, counted));
+            }
             Spanned::from(counted)
         }
     };
@@ -182,19 +186,14 @@ fn object_code(
         true => ObjectCode::Record,
         false => ObjectCode::Var,
     };
-    let Some(given) = fields.take("ObjectType") else {
-        if has_members {
-            reader.report(w0302::finding(fields.header));
-        }
-        return Spanned::from(guess);
-    };
-    match reader.object_code(&given) {
-        Some(code) => Spanned::new(code, given.span),
+    let read = |reader: &mut Reader<'_>, given: &Text<'_>| reader.object_code(given);
+    match reader.keyed(fields, unread, Key::ObjectType, read, e0301::finding) {
+        Some(found) => Spanned::new(found.value.unwrap_or(guess), found.span),
         None => {
-            reader.report(e0301::finding(&given));
-            let span = given.span;
-            unread.push(("ObjectType".into(), given.value.into_owned()));
-            Spanned::new(guess, span)
+            if has_members {
+                reader.report(w0302::finding(fields.header));
+            }
+            Spanned::from(guess)
         }
     }
 }
@@ -221,35 +220,14 @@ fn contradiction(
     Spanned::new(meant, code.span)
 }
 
-/// SubNumber, and whether there is one.
-enum SubNumber {
-    Given(Spanned<u32>),
-    Unread,
-    Missing,
-}
-
-impl SubNumber {
-    fn given(self) -> Option<Spanned<u32>> {
-        match self {
-            Self::Given(number) => Some(number),
-            Self::Unread | Self::Missing => None,
-        }
-    }
-}
-
-fn sub_number(reader: &mut Reader<'_>, fields: &mut Fields<'_>, unread: &mut Unread) -> SubNumber {
-    let Some(given) = fields.take("SubNumber") else {
-        return SubNumber::Missing;
-    };
-    let number = reader
-        .number(Key::SubNumber, &given)
-        .and_then(|number| u32::try_from(number).ok());
-    match number {
-        Some(number) => SubNumber::Given(Spanned::new(number, given.span)),
-        None => {
-            reader.report(w0316::finding(&given));
-            unread.push(("SubNumber".into(), given.value.into_owned()));
-            SubNumber::Unread
-        }
-    }
+/// SubNumber; `None` inside if it cannot be read.
+fn sub_number(
+    reader: &mut Reader<'_>,
+    fields: &mut Fields<'_>,
+    unread: &mut Unread,
+) -> Option<Spanned<Option<u32>>> {
+    let key = Key::SubNumber;
+    let read =
+        |reader: &mut Reader<'_>, given: &Text<'_>| u32::try_from(reader.number(key, given)?).ok();
+    reader.keyed(fields, unread, key, read, w0316::finding)
 }

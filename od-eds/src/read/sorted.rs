@@ -62,46 +62,29 @@ struct Sorted<'a> {
 impl<'a> Sorted<'a> {
     fn add(&mut self, section: Placed<'a>) {
         let place = self.place(&section);
+        let (index, sub) = match place {
+            Place::Object(index) | Place::Compact(index, _) => (index, 0),
+            Place::Member(index, sub) => (index, sub),
+            Place::List(list) => return self.lists.entry(list).or_default().push(section),
+            Place::Other => return self.other(section),
+        };
+        let sections = self.objects.entry(index).or_default();
+        let first = match place {
+            Place::Member(..) => sections.members.get_mut(&sub),
+            Place::Compact(_, compact) => sections.compact.get_mut(&compact),
+            _ => sections.own.as_mut(),
+        };
+        if let Some(first) = first {
+            let finding = twice(first, section, Address::new(index, sub));
+            return self.log.push(finding);
+        }
         match place {
-            Place::Object(index) => {
-                let sections = self.objects.entry(index).or_default();
-                let address = Address::new(index, 0);
-                match &mut sections.own {
-                    None => sections.own = Some(section),
-                    Some(first) => self.log.push(twice(first, section, address)),
-                }
+            Place::Member(..) => drop(sections.members.insert(sub, section)),
+            Place::Compact(_, compact) => {
+                duplicates(&section.pairs, &mut self.log);
+                sections.compact.insert(compact, section);
             }
-            Place::Member(index, sub) => {
-                match self.objects.entry(index).or_default().members.entry(sub) {
-                    Entry::Vacant(entry) => {
-                        entry.insert(section);
-                    }
-                    Entry::Occupied(mut first) => {
-                        let finding = twice(first.get_mut(), section, Address::new(index, sub));
-                        self.log.push(finding);
-                    }
-                }
-            }
-            Place::Compact(index, compact) => {
-                match self
-                    .objects
-                    .entry(index)
-                    .or_default()
-                    .compact
-                    .entry(compact)
-                {
-                    Entry::Vacant(entry) => {
-                        duplicates(&section.pairs, &mut self.log);
-                        entry.insert(section);
-                    }
-                    Entry::Occupied(mut first) => {
-                        let finding = twice(first.get_mut(), section, Address::new(index, 0));
-                        self.log.push(finding);
-                    }
-                }
-            }
-            Place::List(list) => self.lists.entry(list).or_default().push(section),
-            Place::Other => self.other(section),
+            _ => sections.own = Some(section),
         }
     }
 

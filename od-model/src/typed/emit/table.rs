@@ -217,14 +217,6 @@ mod tests {
             Literal::Text(range),
             Literal::Bytes(range),
         ];
-        let accesses = [
-            Access::Ro,
-            Access::Wo,
-            Access::Rw,
-            Access::Rwr,
-            Access::Rww,
-            Access::Const,
-        ];
         let groups = [
             Group::None,
             Group::Communication,
@@ -236,7 +228,7 @@ mod tests {
             let entry = Entry {
                 address: Address::new(0xFEDC, 0xBA),
                 data_type,
-                access: accesses[i % accesses.len()],
+                access: Access::ALL[i % Access::ALL.len()],
                 mappable: i % 2 == 0,
                 group: groups[i % groups.len()],
                 name: range,
