@@ -8,10 +8,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::files::repository;
 use crate::mutate;
 use crate::random::Random;
-use crate::targets::Target;
-use crate::{PATIENCE, repository};
+use crate::target::{Enough, Target};
+
+/// How long an input may take before it counts as one that never ends.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// How much is tried.
 pub(crate) struct Plan {
@@ -58,9 +61,6 @@ pub(crate) fn quiet_panics() {
     }));
 }
 
-/// A run that a target gives up without a verdict: `panic_any(Enough)`.
-pub(crate) struct Enough;
-
 /// Runs one input: `Err` says how it failed.
 pub(crate) fn attempt(target: &Target, input: &[u8]) -> Result<(), String> {
     match panic::catch_unwind(AssertUnwindSafe(|| (target.run)(input))) {
@@ -102,7 +102,8 @@ pub(crate) fn run(target: &'static Target, plan: &Plan) -> Result<u64, Failure> 
             workers.push(scope.spawn(move || {
                 let mut random = Random::new(plan.seed ^ (number as u64) << 32);
                 let mut known = if number == 0 { &found[..] } else { &[] }.iter();
-                let budget = (target.frames)(plan.frames) / plan.workers as u64;
+                let frames = target.frames.map_or(0, |_| plan.frames);
+                let budget = frames / plan.workers as u64;
                 let mut spent = 0;
                 while !done.load(Ordering::Relaxed) {
                     let input = match known.next() {

@@ -13,18 +13,21 @@
 //! An input that fails is made smaller, written to a file, and printed with the command that
 //! runs it again. Put it under `tests/fuzz/found/<target>/`, and every run tries it first.
 
+mod files;
 mod harness;
 mod mutate;
 mod random;
+mod target;
 mod targets;
+mod trace;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use harness::{Failure, Plan};
-use targets::{ALL, Target};
+use crate::harness::{Failure, Plan};
+use crate::target::Target;
+use crate::targets::ALL;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -109,7 +112,7 @@ fn replay(path: Option<&Path>) -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    TRACE.store(true, Ordering::Relaxed);
+    trace::begin();
     let began = Instant::now();
     let result = harness::attempt(target, &input);
     match &result {
@@ -130,21 +133,3 @@ fn target_of(path: &Path) -> Option<&'static Target> {
         own || words[1] == target.name
     })
 }
-
-/// A folder of the repository.
-pub(crate) fn repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
-}
-
-/// Targets show what they do, step by step.
-pub(crate) static TRACE: AtomicBool = AtomicBool::new(false);
-
-/// Shows a step of an input that is replayed.
-pub(crate) fn trace(step: impl FnOnce() -> String) {
-    if TRACE.load(Ordering::Relaxed) {
-        println!("{}", step());
-    }
-}
-
-/// How long an input may take before it counts as one that never ends.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(20);

@@ -1,7 +1,7 @@
 //! From one input to the next.
 
 use crate::random::Random;
-use crate::targets::Target;
+use crate::target::Target;
 
 /// Numbers where things change.
 const NUMBERS: &[&str] = &[

@@ -11,6 +11,7 @@ use std::env;
 use std::path::Path;
 use std::process::ExitCode;
 
+use od_benches::discipline::disciplines;
 use od_benches::results::{Results, Unit};
 use od_benches::roster;
 use od_benches::{callgrind, stopwatch, table};
@@ -54,7 +55,7 @@ fn rounds() -> usize {
 }
 
 fn time(results: &mut Results, rounds: usize) {
-    for discipline in roster::disciplines() {
+    for discipline in disciplines() {
         eprintln!("timing {discipline}");
         let (names, mut subjects): (Vec<_>, Vec<_>) = roster::NAMES
             .into_iter()
@@ -72,7 +73,7 @@ fn count(results: &mut Results) {
         eprintln!("no valgrind, so no instruction counts (Debian: apt install valgrind)");
         return;
     }
-    for discipline in roster::disciplines() {
+    for discipline in disciplines() {
         eprintln!("counting {discipline}");
         for name in roster::NAMES {
             if roster::subject(name, discipline).is_some() {

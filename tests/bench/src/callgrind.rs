@@ -3,7 +3,7 @@
 use std::env;
 use std::process::Command;
 
-use crate::roster::Discipline;
+use crate::discipline::Discipline;
 
 /// Operations in the shorter of the two runs.
 const COUNT: u64 = 2_000;

@@ -7,6 +7,7 @@
 
 pub mod callgrind;
 pub mod contender;
+pub mod discipline;
 pub mod objects;
 pub mod odkit;
 pub mod peers;

@@ -6,8 +6,8 @@ use od_runtime::storage::Memory;
 use od_runtime::{Application, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile};
 
 use crate::contender::{Pdo, Subject, Upload};
+use crate::discipline::Simulated;
 use crate::objects;
-use crate::roster::Simulated;
 
 /// A node and its device, put together once, as the `main` of a firmware does it.
 #[allow(missing_debug_implementations)] // nobody looks into it

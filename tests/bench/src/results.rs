@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::roster::Discipline;
+use crate::discipline::Discipline;
 
 /// What a number counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

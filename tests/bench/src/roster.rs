@@ -1,72 +1,12 @@
 //! Who takes part, in which discipline and size.
 
-use std::fmt;
-use std::num::ParseIntError;
-use std::str::FromStr;
-
 use crate::contender::{Cycles, Nothing, Subject, Uploads};
-use crate::objects::{PDO_SIZE, SIZES, values};
+use crate::discipline::{Discipline, Simulated};
+use crate::objects::{PDO_SIZE, values};
 use crate::odkit::{Odkit, Seconds};
 use crate::peers::canopen_rs::{CanopenRs, room};
 use crate::peers::canopen_sdo::CanopenSdo;
 use crate::peers::zencan::Zencan;
-
-/// What is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Discipline {
-    /// One expedited SDO upload from a dictionary of this many objects.
-    Upload(usize),
-    /// One SYNC in, one TPDO out.
-    Pdo,
-    /// One second of virtual time of a device with a 1 ms PDO.
-    Simulation(Simulated),
-}
-
-/// A device in virtual time, and what its PDO carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Simulated {
-    /// The device's name, as `odkit sim` knows it.
-    pub device: &'static str,
-    /// Speed and acceleration behind the position?
-    pub is_moving: bool,
-}
-
-impl Simulated {
-    const fn new(device: &'static str, is_moving: bool) -> Self {
-        Self { device, is_moving }
-    }
-}
-
-/// One device of each manual, and those that have a speed once more with it.
-pub const SIMULATED: [Simulated; 5] = [
-    Simulated::new("gxmm", false),
-    Simulated::new("eam_mt", false),
-    Simulated::new("eam_mt", true),
-    Simulated::new("en580c", false),
-    Simulated::new("en580c", true),
-];
-
-impl fmt::Display for Discipline {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Upload(size) => write!(f, "{size}"),
-            Self::Pdo => f.write_str("pdo"),
-            Self::Simulation(Simulated { device, is_moving }) => {
-                let what = if *is_moving { "-moving" } else { "" };
-                write!(f, "{device}{what}")
-            }
-        }
-    }
-}
-
-impl FromStr for Discipline {
-    type Err = ParseIntError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let named = disciplines().find(|discipline| discipline.to_string() == text);
-        named.map_or_else(|| text.parse().map(Self::Upload), Ok)
-    }
-}
 
 /// The loop without a node.
 pub const NOTHING: &str = "(loop alone)";
@@ -80,13 +20,6 @@ pub const ZENCAN: &str = "zencan-node";
 pub const ZENCAN_STD: &str = "zencan-node (std)";
 /// We.
 pub const ODKIT: &str = "odkit";
-
-/// All disciplines, in the order of the table.
-pub fn disciplines() -> impl Iterator<Item = Discipline> {
-    let uploads = SIZES.into_iter().map(Discipline::Upload);
-    let simulations = SIMULATED.into_iter().map(Discipline::Simulation);
-    uploads.chain([Discipline::Pdo]).chain(simulations)
-}
 
 /// All contenders, in the order of the table.
 pub const NAMES: [&str; 6] = [ODKIT, CANOPEN_RS, ZENCAN, ZENCAN_STD, CANOPEN_SDO, NOTHING];

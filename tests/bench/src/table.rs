@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::discipline::{Discipline, SIMULATED, Simulated};
 use crate::objects::SIZES;
 use crate::results::{Results, Unit};
-use crate::roster::{
-    CANOPEN_RS, CANOPEN_SDO, Discipline, NAMES, ODKIT, SIMULATED, Simulated, ZENCAN,
-};
+use crate::roster::{CANOPEN_RS, CANOPEN_SDO, NAMES, ODKIT, ZENCAN};
 
 /// The dictionary size at which contenders are compared.
 const COMPARED: Discipline = Discipline::Upload(120);

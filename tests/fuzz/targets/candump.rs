@@ -4,7 +4,7 @@
 use od_bench::logs::candump::{format_line, parse_frame, parse_line};
 use od_runtime::Instant;
 
-use super::Target;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "candump",

@@ -4,9 +4,9 @@
 use od_bench::script::{Bench, Console};
 use od_bench::{Bus, VirtualDevice};
 
-use super::Target;
 use super::bench;
 use super::script::WORDS;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "console",

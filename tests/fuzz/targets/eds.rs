@@ -5,7 +5,8 @@ use od_bench::{Bus, EdsOptions, VirtualDevice};
 use od_eds::Tables;
 use od_runtime::{Frame, Instant};
 
-use super::{Target, files};
+use crate::files::files;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "eds",

@@ -8,8 +8,8 @@ use od_model::{Access, Address};
 use od_runtime::Frame;
 use od_runtime::storage::{Memory, Storage, StorageError};
 
-use super::Target;
 use super::bench;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "eeprom",

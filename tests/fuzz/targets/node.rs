@@ -6,10 +6,10 @@ use od_bench::{Bus, VirtualDevice};
 use od_runtime::{Frame, Instant};
 use od_wire::nmt::State;
 
-use super::Target;
 use super::bench::{self, Act, STEP};
 use crate::random::Random;
-use crate::trace;
+use crate::target::Target;
+use crate::trace::trace;
 
 pub(super) const TARGET: Target = Target {
     name: "node",

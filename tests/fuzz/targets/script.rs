@@ -7,8 +7,8 @@ use od_bench::VirtualDevice;
 use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
 use od_runtime::{Frame, Instant, NodeId};
 
-use super::{Target, files};
-use crate::harness::Enough;
+use crate::files::files;
+use crate::target::{Enough, Target};
 
 pub(super) const TARGET: Target = Target {
     name: "script",

@@ -3,7 +3,7 @@
 use od_bench::links::{Codec, Step, slcan};
 use od_runtime::Instant;
 
-use super::Target;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "slcan",

@@ -5,7 +5,7 @@ use od_bench::links::socketcand::Session;
 use od_bench::links::{Codec, Step};
 use od_runtime::{Frame, Instant};
 
-use super::Target;
+use crate::target::Target;
 
 pub(super) const TARGET: Target = Target {
     name: "socketcand",

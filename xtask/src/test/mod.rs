@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every check there is, one line each.
 
+mod context;
 mod counts;
 mod report;
 mod stages;
@@ -14,6 +15,7 @@ use std::time::{Duration, Instant};
 use crate::console::{Console, say};
 use crate::error::{Error, Result};
 use crate::repo::{Repo, is_ci};
+use context::Context;
 use counts::Counts;
 use report::{Outcome, Report};
 use stages::{Kind, STAGES, Stage};
@@ -68,15 +70,6 @@ fn known(name: &str) -> Result<String> {
     let names: Vec<&str> = STAGES.iter().map(|stage| stage.name).collect();
     let text = format!("no stage is named `{name}`; stages: {}", names.join(", "));
     Err(Error::Usage(text))
-}
-
-/// What a stage gets to work with.
-#[derive(Debug)]
-struct Context<'a> {
-    repo: &'a Repo,
-    console: &'a Console,
-    quick: bool,
-    long: bool,
 }
 
 /// Runs the selected stages, all of them, and says how it went.

@@ -4,7 +4,7 @@ mod page;
 mod release;
 mod rust;
 
-use super::Context;
+use super::context::Context;
 use crate::error::Result;
 
 /// What a stage consists of.

@@ -11,7 +11,7 @@ use crate::packages::{CLI, PAGE};
 use crate::repo::program;
 use crate::serve::Server;
 use crate::setup::{browser as chromium, node, python};
-use crate::test::Context;
+use crate::test::context::Context;
 
 /// The page's own checks, on the bundle that `play` would serve.
 pub(super) fn page(context: &Context<'_>) -> Result<()> {

@@ -7,7 +7,7 @@ use std::process::Command;
 use crate::console::cargo;
 use crate::error::{Error, Result};
 use crate::packages::UNPUBLISHED;
-use crate::test::Context;
+use crate::test::context::Context;
 
 /// What every package carries.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];

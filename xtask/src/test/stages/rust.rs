@@ -7,7 +7,7 @@ use crate::console::cargo;
 use crate::error::{Error, Result};
 use crate::packages::{BENCHES, CLI, NO_STD, TESTS};
 use crate::setup::target;
-use crate::test::Context;
+use crate::test::context::Context;
 
 /// All that is built for the host, but for the benchmarks with their heavy peers. Always these
 /// packages with these features: whatever else is asked for would be a build of its own.

@@ -1,0 +1,376 @@
+//! The shadow dictionary that goes along.
+//!
+//! It learns a value from an acknowledged download, and from a reset or a restore, which
+//! take values back; besides that, no frame may change anything but the objects that the
+//! manual couples with the one that was written.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use od_bench::Bus;
+use od_model::{Access, Address, Entry};
+use od_runtime::{Event, Frame, Instant};
+use od_wire::nmt::State;
+
+use super::super::bench;
+use super::input::{COUPLED, LIVE};
+use crate::target::Enough;
+use crate::trace::trace;
+
+/// An upload in segments that is under way.
+#[derive(Default)]
+struct Upload {
+    address: Option<Address>,
+    bytes: Vec<u8>,
+}
+
+/// A download in segments that is under way.
+struct Download {
+    address: Address,
+    bytes: Vec<u8>,
+}
+
+/// A write to 1010h.
+fn is_save(request: &[u8; 8]) -> bool {
+    request[1..3] == [0x10, 0x10] && request[0] >> 5 == 1
+}
+
+/// The device, and what it has to answer.
+pub(super) struct Model {
+    bus: Bus,
+    pub(super) entries: Vec<Entry>,
+    shadow: BTreeMap<Address, Vec<u8>>,
+    upload: Upload,
+    download: Option<Download>,
+    /// The download that a block transfer is about.
+    block: Option<Address>,
+    /// Requests that an answer may still come for, oldest first.
+    requests: VecDeque<[u8; 8]>,
+    /// A save takes its time; until then answers come later than their requests.
+    late_until: Option<Instant>,
+    /// Segments of a block that may still come.
+    segments: u32,
+    block_upload: bool,
+    min_dlc: u8,
+}
+
+impl Model {
+    pub(super) fn new(number: usize) -> Self {
+        let device = bench::device(number);
+        let entries = device.dictionary().entries().to_vec();
+        let mut bus = Bus::new();
+        bus.add(device);
+        bus.start(0);
+        let min_dlc = od_devices::DEVICES
+            .get(number)
+            .map_or(8, |kind| kind.profile.sdo.min_dlc);
+        let mut model = Self {
+            bus,
+            entries,
+            shadow: BTreeMap::new(),
+            upload: Upload::default(),
+            download: None,
+            block: None,
+            requests: VecDeque::new(),
+            late_until: None,
+            segments: 0,
+            block_upload: false,
+            min_dlc,
+        };
+        model.wait(1_000_000);
+        model.learn_all();
+        model
+    }
+
+    pub(super) fn node(&self) -> u8 {
+        self.bus.devices()[0].node_id().raw()
+    }
+
+    fn state(&self) -> State {
+        self.bus.devices()[0].state()
+    }
+
+    fn read(&mut self, address: Address) -> Vec<u8> {
+        let value = self.bus.with(0, |device, now| device.read(address, now));
+        value.unwrap_or_default()
+    }
+
+    fn learn_all(&mut self) {
+        self.shadow.clear();
+        for at in 0..self.entries.len() {
+            let entry = self.entries[at];
+            let is_kept = entry.access != Access::Ro && entry.access != Access::Wo;
+            if is_kept && !LIVE.contains(&entry.address.index) {
+                let value = self.read(entry.address);
+                self.shadow.insert(entry.address, value);
+            }
+        }
+    }
+
+    pub(super) fn send(&mut self, frame: &Frame) {
+        let own = Frame::standard(0x600 + u16::from(self.node()), &[]).id();
+        let talks = matches!(self.state(), State::PreOperational | State::Operational);
+        // While a block comes in, only 80h is none of its segments.
+        let is_abort = match self.block {
+            Some(_) => frame.bytes()[0] == 0x80,
+            None => frame.bytes()[0] >> 5 == 4,
+        };
+        let is_heard =
+            frame.id() == own && !frame.is_remote() && frame.dlc() >= self.min_dlc && talks;
+        let is_request = is_heard && !is_abort;
+        if is_request {
+            // While a device saves, the newest request waits in place of the one before.
+            let waits = usize::from(self.requests.front().is_some_and(is_save));
+            self.requests.truncate(waits);
+            self.requests.push_back(*frame.bytes());
+            self.segments = if frame.bytes()[0] >> 5 == 5 { 127 } else { 0 };
+        }
+        self.bus.receive(frame);
+        self.events();
+        self.answers(is_request, &format!("{frame}"));
+        if is_request && !self.requests.is_empty() && self.late_until.is_none() {
+            if is_save(frame.bytes()) {
+                self.late_until = Some(self.bus.now().plus_millis(2000));
+            } else {
+                self.requests.clear();
+            }
+        }
+        if is_heard && is_abort {
+            self.requests.clear();
+            self.forget();
+        }
+        if self.state() == State::Stopped {
+            self.forget();
+        }
+    }
+
+    /// No transfer is under way.
+    fn forget(&mut self) {
+        self.upload = Upload::default();
+        self.download = None;
+        self.block = None;
+        self.block_upload = false;
+    }
+
+    pub(super) fn wait(&mut self, micros: u64) {
+        let end = self.bus.now().plus_micros(micros);
+        self.bus.advance(end);
+        self.events();
+        self.answers(self.late_until.is_some(), "time");
+        if self.late_until.is_some_and(|until| until < self.bus.now()) {
+            self.late_until = None;
+            self.requests.clear();
+        }
+    }
+
+    /// Looks at everything that was sent.
+    fn answers(&mut self, may_answer: bool, cause: &str) {
+        if self.is_ambiguous() {
+            std::panic::panic_any(Enough);
+        }
+        let mut count = 0;
+        while let Some(sent) = self.bus.poll() {
+            trace(|| format!("< {:?} {}", sent.at, sent.frame));
+            count += 1;
+            assert!(count < 100_000, "{cause} makes it send without end");
+            let Some(id) = sent.frame.id().as_standard() else {
+                continue;
+            };
+            if id != 0x580 + u16::from(self.node()) || sent.frame.is_remote() {
+                continue;
+            }
+            assert!(may_answer, "{cause} is answered with {}", sent.frame);
+            assert_eq!(sent.frame.dlc(), 8, "an answer of {}", sent.frame);
+            self.answer(*sent.frame.bytes(), cause);
+        }
+    }
+
+    /// The request that this answers. Those before it were given up for it.
+    fn take_request(&mut self, answer: &[u8; 8], cause: &str) -> [u8; 8] {
+        let about = |request: &[u8; 8]| request[1..4] == answer[1..4];
+        let fits = |request: &[u8; 8]| match (answer[0], request[0] >> 5) {
+            (0x80, _) => true,
+            (0x40..=0x4F, 2) | (0x60, 1) => about(request),
+            (0x00..=0x1F, 3) | (0x20 | 0x30, 0) => true,
+            // A segment of a block may look like any request.
+            (0xA0..=0xDF, _) => true,
+            _ => false,
+        };
+        let Some(at) = self.requests.iter().position(fits) else {
+            panic!("{cause} is answered with {answer:02X?}, for which nobody asked");
+        };
+        let request = self.requests[at];
+        self.requests.drain(..=at);
+        request
+    }
+
+    /// A master may give a PDO or EMCY the identifier of the answers; from then on nobody can
+    /// tell them apart, and the input is over.
+    fn is_ambiguous(&self) -> bool {
+        let device = &self.bus.devices()[0];
+        let own = 0x580 + u64::from(device.node_id().raw());
+        let pdos = (0x1800..0x1810).map(|index| (index, 1));
+        let mut all = [(0x1014, 0), (0x1005, 0)].into_iter().chain(pdos);
+        all.any(|(index, sub)| {
+            // Valid, and 11 bits long.
+            let value = device.stored(index, sub).unwrap_or(0);
+            value & 0xA000_0000 == 0 && value & 0x7FF == own
+        })
+    }
+
+    fn answer(&mut self, data: [u8; 8], cause: &str) {
+        // Segments of a block may look like anything.
+        let asks_for_block = |request: &[u8; 8]| request[0] >> 5 == 5 && request[0] & 2 != 0;
+        if self.block_upload && self.requests.back().is_some_and(asks_for_block) {
+            assert!(
+                self.segments > 0,
+                "{cause}: a block of more than 127 segments"
+            );
+            self.segments -= 1;
+            return;
+        }
+        let request = self.take_request(&data, cause);
+        let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
+        if is_save(&request) {
+            self.late_until = None;
+        }
+        self.block_upload = request[0] >> 5 == 5;
+        match data[0] {
+            0x80 => self.forget(),
+            // Expedited upload: the value itself.
+            command @ (0x43 | 0x47 | 0x4B | 0x4F | 0x42) => {
+                self.upload = Upload::default();
+                self.download = None;
+                let len = if command == 0x42 {
+                    4
+                } else {
+                    4 - usize::from(command >> 2 & 3)
+                };
+                self.check_read(address, &data[4..4 + len]);
+            }
+            0x40 | 0x41 => {
+                self.download = None;
+                self.upload = Upload {
+                    address: Some(address),
+                    bytes: Vec::new(),
+                };
+            }
+            command @ 0x00..=0x1F => {
+                let len = 7 - usize::from(command >> 1 & 7);
+                self.upload.bytes.extend_from_slice(&data[1..=len]);
+                if command & 1 != 0 {
+                    let done = std::mem::take(&mut self.upload);
+                    if let Some(address) = done.address {
+                        self.check_read(address, &done.bytes);
+                    }
+                }
+            }
+            0x60 => {
+                self.upload = Upload::default();
+                self.block = None;
+                if request[0] & 2 != 0 {
+                    let len = match request[0] & 1 {
+                        1 => 4 - usize::from(request[0] >> 2 & 3),
+                        _ => 4,
+                    };
+                    self.wrote(address, Some(&request[4..4 + len]));
+                } else {
+                    self.download = Some(Download {
+                        address,
+                        bytes: Vec::new(),
+                    });
+                }
+            }
+            0x20 | 0x30 => {
+                let len = 7 - usize::from(request[0] >> 1 & 7);
+                if let Some(download) = &mut self.download {
+                    download.bytes.extend_from_slice(&request[1..=len]);
+                }
+                if request[0] & 1 != 0
+                    && let Some(done) = self.download.take()
+                {
+                    self.wrote(done.address, Some(&done.bytes));
+                }
+            }
+            0xA4 | 0xA0 => {
+                self.upload = Upload::default();
+                self.download = None;
+                self.block = Some(address);
+            }
+            0xA1 => {
+                if let Some(address) = self.block.take() {
+                    self.wrote(address, None);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn check_read(&mut self, address: Address, value: &[u8]) {
+        if let Some(known) = self.shadow.get(&address) {
+            assert_eq!(
+                value, known,
+                "{address} reads as something that nobody wrote"
+            );
+        }
+    }
+
+    /// A download was acknowledged: the object has that value now, and the others theirs.
+    fn wrote(&mut self, address: Address, bytes: Option<&[u8]>) {
+        let now = self.read(address);
+        // With the gear on, resolution and range follow from it: a write is taken without effect
+        // (DECISIONS U-14).
+        let gear = Address::new(0x2001, 1);
+        let default = self.entries.iter().find(|entry| entry.address == gear);
+        let default = default.and_then(|entry| entry.default.integer(0));
+        let is_geared = default.is_some_and(|off| self.read(gear) != [off as u8]);
+        let is_free = !(is_geared && matches!(address.index, 0x6001 | 0x6002));
+        if let (Some(bytes), true) = (bytes, is_free && self.shadow.contains_key(&address)) {
+            let len = now.len().min(bytes.len());
+            assert_eq!(
+                now[..len],
+                bytes[..len],
+                "{address} was acknowledged and is something else"
+            );
+        }
+        // What was held back while the device saved may have been done by now, too.
+        let held = self.requests.iter();
+        let held = held.map(|data| u16::from_le_bytes([data[1], data[2]]));
+        let written: Vec<u16> = held.chain([address.index]).collect();
+        let mut coupled = written.clone();
+        for group in COUPLED {
+            if written.iter().any(|index| group.contains(index)) {
+                coupled.extend_from_slice(group);
+            }
+        }
+        self.compare(&format!("by a write to {address}"), &coupled);
+    }
+
+    /// Nothing but these objects may have changed.
+    pub(super) fn compare(&mut self, cause: &str, but: &[u16]) {
+        let known: Vec<Address> = self.shadow.keys().copied().collect();
+        for address in known {
+            let now = self.read(address);
+            if but.contains(&address.index) {
+                self.shadow.insert(address, now);
+            } else {
+                assert_eq!(now, self.shadow[&address], "{address} has changed {cause}");
+            }
+        }
+    }
+
+    /// A reset and a restore take values back.
+    fn events(&mut self) {
+        let events = self.bus.with(0, |device, _| {
+            std::iter::from_fn(|| device.poll_event()).collect::<Vec<_>>()
+        });
+        let takes_back = |event: &Event| matches!(event, Event::Reset(..) | Event::Restored(_));
+        if events.unwrap_or_default().iter().any(takes_back) {
+            self.learn_all();
+        }
+        if self.state() == State::Initialising {
+            self.forget();
+            self.requests.clear();
+            self.late_until = None;
+        }
+    }
+}
