@@ -139,9 +139,9 @@ fn prepare(out: &Path) -> Result<()> {
 }
 
 fn optimise(repo: &Repo, console: &Console, module: &Path) -> Result<()> {
-    let bin = binaryen::get(repo, console)?;
+    binaryen::get(repo, console)?;
     let smaller = module.with_extension("opt.wasm");
-    let mut command = binaryen::command(&bin, module, &smaller);
+    let mut command = binaryen::command(repo, module, &smaller);
     console.run("making the module smaller (wasm-opt)", &mut command)?;
     let size = |path: &Path| fs::metadata(path).map_or(0, |data| data.len() / 1024);
     console.note(&format!(

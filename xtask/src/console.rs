@@ -10,6 +10,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
+use crate::repo::is_ci;
 
 /// Writes a line to standard output. A reader that went away is not an error.
 pub(crate) fn say(line: &str) {
@@ -149,6 +150,11 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
         if name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_") {
             command.env_remove(&*name);
         }
+    }
+    if is_ci() {
+        // Nobody edits here and builds again, and a build for that takes longer.
+        command.env("CARGO_INCREMENTAL", "0");
+        command.env("CARGO_PROFILE_DEV_DEBUG", "0");
     }
     command.args(args).current_dir(dir);
     command

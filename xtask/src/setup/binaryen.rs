@@ -20,6 +20,9 @@ pub(crate) const FLAGS: [&str; 7] = [
     "--enable-multivalue",
 ];
 
+/// A `wasm-opt` that optimises a module once: the page and the npm package have the same one.
+pub(crate) const REMEMBERS: &str = "xtask/tools/wasm-opt.cjs";
+
 /// The folder with `wasm-opt`, after installing the locked version into `.xtask/node`.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     let dir = repo.tools().join("node");
@@ -32,13 +35,12 @@ pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     Ok(dir.join("node_modules/.bin"))
 }
 
-/// The command that optimises `input` into `output`, with the `wasm-opt` of a folder.
-pub(crate) fn command(bin: &Path, input: &Path, output: &Path) -> Command {
+/// The command that optimises `input` into `output`.
+pub(crate) fn command(repo: &Repo, input: &Path, output: &Path) -> Command {
     // A JavaScript program: Windows does not start those by name.
     let mut command = Command::new("node");
-    command
-        .arg(bin.join("../binaryen/bin/wasm-opt"))
-        .args(FLAGS);
-    command.arg(input).arg("-o").arg(output);
+    command.arg(REMEMBERS).current_dir(&repo.root);
+    command.args(FLAGS).arg(input).arg("-o").arg(output);
+    command.env("ODKIT_TOOLS", repo.tools());
     command
 }

@@ -1,4 +1,4 @@
-//! wasm-bindgen, built from `xtask/bindgen` in the version that Cargo.lock has.
+//! wasm-bindgen and wasm-pack, built from `xtask/bindgen` in the versions that its lock file has.
 
 use std::path::PathBuf;
 
@@ -6,25 +6,30 @@ use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::repo::{Repo, program};
 
-/// Builds the command line tool, or lets cargo find that it is built; its path.
+/// Builds wasm-bindgen, or lets cargo find that it is built; its path.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     check_versions(repo)?;
+    build(repo, console, "odkit-wasm-bindgen", "wasm-bindgen")
+}
+
+/// Builds wasm-pack without its downloader; its path.
+pub(crate) fn wasm_pack(repo: &Repo, console: &Console) -> Result<PathBuf> {
+    build(repo, console, "odkit-wasm-pack", "wasm-pack")
+}
+
+fn build(repo: &Repo, console: &Console, package: &str, what: &str) -> Result<PathBuf> {
     let target = repo.tools().join("bindgen");
-    let tool = target.join("debug").join(program("odkit-wasm-bindgen"));
-    let what = if tool.is_file() {
-        "checking wasm-bindgen"
+    let tool = target.join("debug").join(program(package));
+    let doing = if tool.is_file() {
+        format!("checking {what}")
     } else {
-        "building wasm-bindgen (once, about half a minute)"
+        format!("building {what} (once, about half a minute)")
     };
     let mut build = cargo(&repo.root, &["build", "--quiet", "--locked"]);
-    build
-        .args([
-            "--manifest-path",
-            "xtask/bindgen/Cargo.toml",
-            "--target-dir",
-        ])
-        .arg(&target);
-    console.run(what, &mut build)?;
+    build.args(["--package", package, "--target-dir"]);
+    build.arg(&target);
+    build.args(["--manifest-path", "xtask/bindgen/Cargo.toml"]);
+    console.run(&doing, &mut build)?;
     Ok(tool)
 }
 

@@ -18,7 +18,7 @@ use crate::repo::{Repo, is_ci};
 use context::Context;
 use counts::Counts;
 use report::{Outcome, Report};
-use stages::{Kind, STAGES, Stage};
+use stages::{Kind, Lane, STAGES, Stage};
 
 /// No single program of a stage may run longer.
 const LIMIT: Duration = Duration::from_secs(30 * 60);
@@ -86,18 +86,23 @@ pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     let report = Mutex::new(Report::new());
     let work = |stage: &Stage| one(repo, options, stage, &logs, &report);
     thread::scope(|scope| {
-        let (queue, waiting) = mpsc::channel::<&Stage>();
-        let beside = scope.spawn(move || waiting.iter().try_for_each(work));
+        let work = &work;
+        let mut lanes = [Lane::Page, Lane::Bus].map(|lane| {
+            let (queue, waiting) = mpsc::channel::<&Stage>();
+            let worker = scope.spawn(move || waiting.iter().try_for_each(work));
+            (lane, queue, worker)
+        });
         for stage in STAGES.iter().filter(|stage| options.selects(stage)) {
-            // The other end is there until it is joined, or has failed and says why then.
-            if !stage.beside || queue.send(stage).is_err() {
-                work(stage)?;
+            match lanes.iter_mut().find(|(lane, ..)| *lane == stage.lane) {
+                // A worker that failed is joined below, and says why.
+                Some((_, queue, _)) => drop(queue.send(stage)),
+                None => work(stage)?,
             }
         }
-        drop(queue);
-        beside.join().unwrap_or_else(|_| {
-            let text = "a stage panicked";
-            Err(Error::Failed(String::from(text)))
+        lanes.into_iter().try_for_each(|(_, queue, worker)| {
+            drop(queue);
+            let panicked = |_| Err(Error::Failed(String::from("a stage panicked")));
+            worker.join().unwrap_or_else(panicked)
         })
     })?;
     let report = report.into_inner().unwrap_or_else(PoisonError::into_inner);

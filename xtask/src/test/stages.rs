@@ -1,4 +1,4 @@
-//! The stages, in the order they run: what is quick and fails often comes first.
+//! The stages, in the order they run: those that are quick and fail often come first.
 
 mod page;
 mod release;
@@ -17,6 +17,17 @@ pub(super) enum Kind {
 }
 use Kind::{Check, Tests};
 
+/// Stages of one lane run one after another, the lanes beside each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lane {
+    /// cargo, which uses all processors.
+    Cargo,
+    /// The page, from its build to the tests in a browser.
+    Page,
+    /// A bus, whose tests mostly wait.
+    Bus,
+}
+
 /// One check with a name.
 #[derive(Debug)]
 pub(super) struct Stage {
@@ -30,8 +41,8 @@ pub(super) struct Stage {
     pub(super) run: fn(&Context<'_>) -> Result<()>,
     /// Part of `--quick`?
     pub(super) quick: bool,
-    /// Does it mostly wait, so that it runs beside the stages that follow?
-    pub(super) beside: bool,
+    /// A stage outside [`Lane::Cargo`] starts when those of that lane before it have ended.
+    pub(super) lane: Lane,
 }
 
 type Run = fn(&Context<'_>) -> Result<()>;
@@ -43,7 +54,7 @@ const fn stage(name: &'static str, kind: Kind, about: &'static str, run: Run) ->
         kind,
         run,
         quick: false,
-        beside: false,
+        lane: Lane::Cargo,
     }
 }
 
@@ -53,8 +64,8 @@ impl Stage {
         self
     }
 
-    const fn beside(mut self) -> Stage {
-        self.beside = true;
+    const fn beside(mut self, lane: Lane) -> Stage {
+        self.lane = lane;
         self
     }
 }
@@ -63,21 +74,21 @@ impl Stage {
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
     stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick(),
+    stage("page", Check, "types, tests and size of the TypeScript page", page::page).beside(Lane::Page),
+    stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
-    stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(),
+    stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, "conformance")).quick(),
     stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, "ui")).quick(),
     stage("tests", Tests, "all other tests from outside", rust::other_outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
-    stage("page", Check, "types, tests and size of the TypeScript page", page::page),
-    stage("browser", Tests, "the page in Chromium", page::browser).beside(),
-    stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm),
-    stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack),
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3", rust::no_std),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench),
+    stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm),
+    stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack),
 ];

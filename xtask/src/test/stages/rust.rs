@@ -5,13 +5,15 @@ use std::process::Command;
 
 use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{BENCHES, CLI, NO_STD, TESTS};
+use crate::packages::{BENCHES, CLI, NO_STD, PEER, TESTS};
 use crate::setup::target;
 use crate::test::context::Context;
 
-/// All that is built for the host, but for the benchmarks with their heavy peers. Always these
-/// packages with these features: whatever else is asked for would be a build of its own.
-pub(super) const ALL: [&str; 4] = ["--workspace", "--exclude", BENCHES, "--all-features"];
+/// All that is built for the host, except the benchmarks with their heavy peers. Always these
+/// packages with these features: another choice would be a build of its own.
+#[rustfmt::skip]
+pub(super) const ALL: [&str; 6] =
+    ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--all-features"];
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
     let check = ["--check", "--", "--color=never"];
