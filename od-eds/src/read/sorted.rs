@@ -233,6 +233,42 @@ mod tests {
     }
 
     #[test]
+    fn a_second_section_adds_what_the_first_lacks_and_changes_nothing() {
+        let parsed = parse(
+            "[2000]\nParameterName=First\nDataType=5\nAccessType=rw\n\
+             [2000]\nparametername=Second\nAccessType=rw\nDefaultValue=7\n\
+             [2001]\nParameterName=a\nObjectType=9\nSubNumber=1\n\
+             [2001sub1]\nParameterName=First\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+             [2001sub1]\nDefaultValue=2\nLowLimit=0\n\
+             [2002]\nParameterName=a\nObjectType=8\nDataType=5\nAccessType=rw\nCompactSubObj=2\n\
+             [2002Value]\nNrOfEntries=2\n1=3\n[2002Value]\n1=4\n2=5\n\
+             [2003]\nParameterName=a\nDataType=5\nAccessType=rw\n[2003]\nDefaultValue=7\n",
+        );
+        let entry = |index, sub| parsed.description.entry(Address::new(index, sub)).unwrap();
+        let number = |value: &Option<crate::span::Spanned<Value>>| match value.as_deref() {
+            Some(Value::Unsigned(number)) => Some(*number),
+            _ => None,
+        };
+        let whole = entry(0x2000, 0);
+        assert_eq!(
+            (&*whole.name.value, number(&whole.default)),
+            ("First", Some(7))
+        );
+        let member = entry(0x2001, 1);
+        assert_eq!(
+            (number(&member.default), number(&member.low)),
+            (Some(1), Some(0))
+        );
+        let compact = [1, 2].map(|sub| number(&entry(0x2002, sub).parameter));
+        assert_eq!(compact, [Some(3), Some(5)]);
+        assert_eq!(number(&entry(0x2003, 0).default), Some(7));
+        // Those that contradict the first, and the one that does not; no key is there twice.
+        let mut twice = codes(&parsed);
+        twice.retain(|code| ["E0303", "W0304", "W0107"].contains(code));
+        assert_eq!(twice, ["E0303", "E0303", "E0303", "W0304"]);
+    }
+
+    #[test]
     fn members_are_stored_where_their_object_is() {
         let parsed = parse(
             "[2000]\n;StorageLocation=PERSIST_APP\nObjectType=8\n[2000sub0]\nDataType=5\n\
