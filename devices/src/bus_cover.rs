@@ -204,31 +204,34 @@ pub static PROFILE: Profile = Profile {
         // 2110h bit 10: reset node begins the NMT state anew.
         reset_node_light: Some((0x2110, 1 << 10)),
     },
-    // Chapter 4.3.5 and object 1029h; bits of 1001h: U-08.
-    errors: ErrorProfile {
-        lost: Notice {
-            code: 0x8130,
-            register: 0x11,
-        },
-        // The list of codes has none for the CAN controller's states; 1001h names overrun (U-38).
-        bus_warning: None,
-        bus_passive: None,
-        bus_off: 0x11,
-        bus_recovered: None,
-        overrun: Some(Notice {
-            code: 0x1000,
-            register: 0x11,
-        }),
-        reset: ErrorReset::EachError,
-        behaviour: &[(1 << 4, 1)],
-        // U-32.
-        operational_only: false,
-        // 2110h bit 3 (U-22).
-        off: BusOffProfile {
-            restart: Some((0x2110, 1 << 3)),
-            boots: false,
-            behaviour_if_off: false,
-        },
+    errors: ERRORS,
+};
+
+/// Errors that the node finds itself: chapter 4.3.5 and object 1029h; bits of 1001h: U-08.
+pub(crate) const ERRORS: ErrorProfile = ErrorProfile {
+    lost: Notice {
+        code: 0x8130,
+        register: 0x11,
+    },
+    // The list of codes has none for the CAN controller's states; 1001h names overrun
+    // (U-38).
+    bus_warning: None,
+    bus_passive: None,
+    bus_off: 0x11,
+    bus_recovered: None,
+    overrun: Some(Notice {
+        code: 0x1000,
+        register: 0x11,
+    }),
+    reset: ErrorReset::EachError,
+    behaviour: &[(1 << 4, 1)],
+    // U-32.
+    operational_only: false,
+    // 2110h bit 3 (U-22).
+    off: BusOffProfile {
+        restart: Some((0x2110, 1 << 3)),
+        boots: false,
+        behaviour_if_off: false,
     },
 };
 
@@ -268,7 +271,6 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             code: 0x7320,
             register: 0x81,
             alarm: 0x0001,
-            warning: 0,
             counter: Some(Address::new(0x2201, 1)),
             ..Report::BASE
         },
@@ -276,25 +278,18 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             fault: Fault::Internal,
             code: 0x7510,
             register: 0x81,
-            alarm: 0,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Memory,
             code: 0x5530,
             register: 0x01,
-            alarm: 0,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Watchdog,
             code: 0x6010,
             register: 0x01,
-            alarm: 0,
             warning: 0x0004,
             counter: Some(Address::new(0x2201, 3)),
             ..Report::BASE
@@ -303,9 +298,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             fault: Fault::Battery,
             code: 0xFF00,
             register: 0x81,
-            alarm: 0,
             warning: 0x0010,
-            counter: None,
             ..Report::BASE
         },
     ],

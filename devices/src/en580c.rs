@@ -10,9 +10,8 @@ use odkit::encoder::{
     Sensor, Source, Total,
 };
 use odkit::{
-    AbortCode, BusOffProfile, CommunicationReset, CutSave, ErrorProfile, ErrorReset, LengthRule,
-    LssProfile, NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds,
-    SdoProfile, StoreProfile,
+    AbortCode, CommunicationReset, CutSave, LengthRule, LssProfile, NmtProfile, PdoProfile,
+    Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile, StoreProfile,
 };
 
 use odkit::DeviceKind;
@@ -118,32 +117,8 @@ pub static PROFILE: Profile = Profile {
         self_start: Some((0x1F80, 1 << 3)),
         reset_node_light: None,
     },
-    // Chapter 5.2; codes and bits as the bus cover's (U-08, U-09).
-    errors: ErrorProfile {
-        lost: Notice {
-            code: 0x8130,
-            register: 0x11,
-        },
-        bus_warning: None,
-        bus_passive: None,
-        bus_off: 0x11,
-        bus_recovered: None,
-        // U-38.
-        overrun: Some(Notice {
-            code: 0x1000,
-            register: 0x11,
-        }),
-        reset: ErrorReset::EachError,
-        behaviour: &[(1 << 4, 1)],
-        // U-32.
-        operational_only: false,
-        // 2110h bit 3 (U-22).
-        off: BusOffProfile {
-            restart: Some((0x2110, 1 << 3)),
-            boots: false,
-            behaviour_if_off: false,
-        },
-    },
+    // Chapter 5.2; codes and bits as the bus cover's (U-08, U-09, U-38).
+    errors: crate::bus_cover::ERRORS,
 };
 
 /// How the encoder works: chapters 5.1.12, 5.2 and 6.
@@ -215,44 +190,31 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
             code: 0x7320,
             register: 0x81,
             alarm: 0x0001,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Internal,
             code: 0x7510,
             register: 0x81,
-            alarm: 0,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Memory,
             code: 0x5530,
             register: 0x01,
-            alarm: 0,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Watchdog,
             code: 0x6010,
             register: 0x01,
-            alarm: 0,
-            warning: 0,
-            counter: None,
             ..Report::BASE
         },
         Report {
             fault: Fault::Battery,
             code: 0xFF00,
             register: 0x81,
-            alarm: 0,
             warning: 0x0010,
-            counter: None,
             ..Report::BASE
         },
     ],

@@ -4,40 +4,25 @@ use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
-#[cfg(feature = "eds")]
-use od_eds::{Finding, Tables};
 use od_model::{Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault, Role};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
-    AnyDevice, Application, BusEvent, Event, Frame, Instant, Lent, NoApplication, Node, NodeId,
-    Profile, Reset, Store,
+    AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, NoApplication, Node,
+    NodeId, Profile, Reset, Store,
 };
 use od_wire::nmt::State;
 
 use crate::eeprom::Eeprom;
 use crate::shaft::{self, Shaft};
+use crate::slave::{Input, Slave};
+use crate::source::Source;
 use od_runtime::DeviceKind;
 
-/// A node with room for what EDS files have: all PDOs that CiA 301 knows, and the longest value
-/// that a store can hold.
-type RoomyNode = Node<AnyDevice, 512, 0x1_0000>;
-
-/// Where a dictionary comes from.
-pub(super) enum Source {
-    Compiled(Dictionary<'static>),
-    #[cfg(feature = "eds")]
-    Loaded(Box<Tables>),
-}
-
-impl Source {
-    pub(super) fn dictionary(&self) -> Dictionary<'_> {
-        match self {
-            Self::Compiled(dictionary) => *dictionary,
-            #[cfg(feature = "eds")]
-            Self::Loaded(tables) => tables.dictionary(),
-        }
-    }
+/// Returns a node with room for what EDS files have: all PDOs that CiA 301 knows, and the longest
+/// value that a store can hold.
+pub(super) fn roomy(node_id: NodeId) -> Box<dyn Slave> {
+    Box::new(Node::<AnyDevice, 512, 0x1_0000>::new(node_id))
 }
 
 /// What is behind the dictionary.
@@ -48,7 +33,7 @@ pub(super) enum Behaviour {
 
 impl Behaviour {
     /// An encoder where there is a position (6004h), else nothing.
-    fn of(dictionary: Dictionary<'_>) -> Self {
+    pub(super) fn of(dictionary: Dictionary<'_>) -> Self {
         match shaft::encoder_of(dictionary) {
             Some(encoder) => Self::Encoder(Box::new(encoder)),
             None => Self::Other(Box::new(NoApplication)),
@@ -63,16 +48,6 @@ impl Behaviour {
     }
 }
 
-/// What an EDS file leaves open.
-#[cfg(feature = "eds")]
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct EdsOptions {
-    /// The node ID; `None`: the one of the DCF, else 1.
-    pub node_id: Option<NodeId>,
-    /// Runs what can be run of a text with errors.
-    pub lenient: bool,
-}
-
 /// A CANopen device that lives in virtual time.
 ///
 /// Drain [`poll_transmit`](Self::poll_transmit) after every call that takes a moment;
@@ -81,7 +56,7 @@ pub struct VirtualDevice {
     title: String,
     pub(super) source: Source,
     pub(super) values: Vec<u8>,
-    pub(super) node: Box<RoomyNode>,
+    pub(super) node: Box<dyn Slave>,
     pub(super) behaviour: Behaviour,
     pub(super) storage: Eeprom,
     pub(super) profile: &'static Profile,
@@ -106,7 +81,8 @@ impl VirtualDevice {
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
         let behaviour = Behaviour::Encoder(Box::new(shaft::encoder(kind)));
         let source = Source::Compiled(kind.dictionary);
-        let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node_id);
+        let node = roomy(node_id);
+        let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node);
         Self {
             channels: kind.channels,
             has_leds: kind.leds,
@@ -116,23 +92,29 @@ impl VirtualDevice {
 
     /// A device of one's own with nothing but its dictionary: CiA 301 to the letter, and an
     /// encoder behind it where there is a position (6004h).
-    pub fn of(title: &str, dictionary: Dictionary<'static>, node_id: NodeId) -> Self {
-        let source = Source::Compiled(dictionary);
-        let behaviour = Behaviour::of(dictionary);
-        Self::build(title.into(), source, behaviour, &Profile::CIA301, node_id)
+    ///
+    /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
+    /// A node that does not know its dictionary does not compile.
+    pub fn of<D: Device + 'static, const PDO: usize, const SDO: usize>(
+        title: &str,
+        node: Node<D, PDO, SDO>,
+    ) -> Self {
+        let source = Source::of::<D>();
+        let behaviour = Behaviour::of(source.dictionary());
+        let profile = &Profile::CIA301;
+        Self::build(title.into(), source, behaviour, profile, Box::new(node))
     }
 
-    /// The same with behaviour of one's own, and what the services do differently.
-    pub fn with_application(
+    /// As [`of`](Self::of), with behaviour of one's own, and what the services do differently.
+    pub fn with_application<D: Device + 'static, const PDO: usize, const SDO: usize>(
         title: &str,
-        dictionary: Dictionary<'static>,
+        node: Node<D, PDO, SDO>,
         profile: &'static Profile,
         application: Box<dyn Application>,
-        node_id: NodeId,
     ) -> Self {
-        let source = Source::Compiled(dictionary);
         let behaviour = Behaviour::Other(application);
-        Self::build(title.into(), source, behaviour, profile, node_id)
+        let source = Source::of::<D>();
+        Self::build(title.into(), source, behaviour, profile, Box::new(node))
     }
 
     /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
@@ -142,47 +124,12 @@ impl VirtualDevice {
         self.channels
     }
 
-    /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
-    /// there is a position (6004h).
-    ///
-    /// # Errors
-    /// The diagnostics, if one of them is an error and `options` is not lenient.
-    #[cfg(feature = "eds")]
-    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Finding>> {
-        let (device, findings) = Self::read_eds(text, options);
-        device.ok_or(findings)
-    }
-
-    /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
-    #[cfg(feature = "eds")]
-    pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
-        let parsed = od_eds::load(text);
-        if !options.lenient && parsed.diagnostics.iter().any(Finding::is_error) {
-            return (None, parsed.diagnostics);
-        }
-        let description = &parsed.description;
-        let commissioned = description.commissioned_node_id().and_then(NodeId::new);
-        let node_id = options.node_id.or(commissioned).unwrap_or(NodeId::ONE);
-        let product = description
-            .section("DeviceInfo")
-            .and_then(|info| info.get("ProductName"));
-        let title = product.map(|name| name.value.trim().to_owned());
-        let tables = Tables::new(description);
-        let behaviour = Behaviour::of(tables.dictionary());
-        let title = title
-            .filter(|title| !title.is_empty())
-            .unwrap_or_else(|| "EDS device".into());
-        let source = Source::Loaded(Box::new(tables));
-        let device = Self::build(title, source, behaviour, &Profile::CIA301, node_id);
-        (Some(device), parsed.diagnostics)
-    }
-
-    fn build(
+    pub(super) fn build(
         title: String,
         source: Source,
         behaviour: Behaviour,
         profile: &'static Profile,
-        node_id: NodeId,
+        node: Box<dyn Slave>,
     ) -> Self {
         let dictionary = source.dictionary();
         let values = vec![0; dictionary.store_len()];
@@ -191,11 +138,11 @@ impl VirtualDevice {
             title,
             source,
             values,
-            node: Box::new(Node::new(node_id)),
+            wanted_id: node.node_id(),
+            node,
             behaviour,
             storage: Eeprom::own(erased),
             profile,
-            wanted_id: node_id,
             wanted_rate: None,
             look_at: None,
             activated: None,
@@ -248,18 +195,15 @@ impl VirtualDevice {
         }
         self.configure_node_id();
         let (node, mut device) = self.parts();
-        // `build` made room for the values. A file may ask for more than the node serves: a
-        // second SDO server, say.
-        let powered = node.power_on_partly(&mut device, now);
+        // `build` made room for the values.
+        let powered = node.power_on(&mut device, now);
         debug_assert!(powered.is_ok());
         self.take_events();
     }
 
     /// Boots up now, where the initialisation after power-on takes its time.
     pub(super) fn boot_at_once(&mut self, now: Instant) {
-        let (node, mut device) = self.parts();
-        node.boot_at_once(&mut device, now);
-        self.take_events();
+        self.handle(now, Input::Boot);
     }
 
     /// Power goes. Time goes on, and the shaft with it.
@@ -282,17 +226,13 @@ impl VirtualDevice {
 
     /// A frame was received.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
-        let (node, mut device) = self.parts();
-        node.handle_frame(&mut device, now, frame);
-        self.take_events();
+        self.handle(now, Input::Frame(frame));
         self.falls_dark(now);
     }
 
     /// Time has passed.
     pub fn handle_timeout(&mut self, now: Instant) {
-        let (node, mut device) = self.parts();
-        node.handle_timeout(&mut device, now);
-        self.take_events();
+        self.handle(now, Input::Timeout);
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
         }
@@ -308,16 +248,12 @@ impl VirtualDevice {
 
     /// The CAN controller has news: error counters, bus-off, a lost frame.
     pub fn handle_bus(&mut self, event: BusEvent, now: Instant) {
-        let (node, mut device) = self.parts();
-        node.handle_bus(&mut device, now, event);
-        self.take_events();
+        self.handle(now, Input::Bus(event));
     }
 
     /// Something outside the bus changed.
     pub(super) fn noticed(&mut self, now: Instant) {
-        let (node, mut device) = self.parts();
-        node.handle_change(&mut device, now);
-        self.take_events();
+        self.handle(now, Input::Change);
         self.look_at = self.watches_shaft().then(|| now.plus_millis(1));
     }
 
@@ -329,13 +265,12 @@ impl VirtualDevice {
 
     /// When [`handle_timeout`](Self::handle_timeout) is due.
     pub fn poll_timeout(&self) -> Option<Instant> {
-        let look_at = self
-            .look_at
-            .filter(|_| self.node.state() == State::Operational);
-        match (self.node.poll_timeout(), look_at) {
-            (Some(node), Some(look)) => Some(node.min(look)),
-            (node, look) => node.or(look),
-        }
+        let is_operational = self.node.state() == State::Operational;
+        let look_at = self.look_at.filter(|_| is_operational);
+        [self.node.poll_timeout(), look_at]
+            .into_iter()
+            .flatten()
+            .min()
     }
 
     /// What happened, oldest first.
@@ -343,8 +278,15 @@ impl VirtualDevice {
         self.events.pop_front()
     }
 
-    /// Keeps what happened for whoever asks, and takes what the world outside the node has to
-    /// know of it.
+    /// Hands an input on to the node.
+    fn handle(&mut self, now: Instant, input: Input<'_>) {
+        let (node, mut device) = self.parts();
+        node.handle(&mut device, now, input);
+        self.take_events();
+    }
+
+    /// Keeps the events of the node for [`poll_event`](Self::poll_event), and acts on those that
+    /// the world outside the node has to know.
     fn take_events(&mut self) {
         while let Some(event) = self.node.poll_event() {
             match event {
@@ -416,7 +358,7 @@ impl VirtualDevice {
         }
     }
 
-    fn parts(&mut self) -> (&mut RoomyNode, Lent<'_>) {
+    fn parts(&mut self) -> (&mut dyn Slave, Lent<'_>) {
         let Self {
             source,
             values,
@@ -436,6 +378,6 @@ impl VirtualDevice {
             storage,
             profile,
         };
-        (node, device)
+        (&mut **node, device)
     }
 }

@@ -19,6 +19,8 @@ pub mod grammar;
 mod leds;
 pub mod lesson;
 pub mod links;
+#[cfg(feature = "eds")]
+mod loaded;
 pub mod logs;
 pub mod pdos;
 pub mod rig;
@@ -27,6 +29,8 @@ pub mod script;
 #[cfg(feature = "serve")]
 pub mod serve;
 pub mod shaft;
+mod slave;
+mod source;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
 mod view;
@@ -36,10 +40,10 @@ pub mod words;
 mod world;
 
 pub use bus::Bus;
-#[cfg(feature = "eds")]
-pub use device::EdsOptions;
 pub use device::VirtualDevice;
 pub use leds::Led;
+#[cfg(feature = "eds")]
+pub use loaded::EdsOptions;
 pub use saved::{Saved, is_saved};
 pub use wire::Line;
 pub use world::ShaftView;

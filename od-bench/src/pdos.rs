@@ -2,9 +2,9 @@
 
 use std::prelude::v1::*;
 
+use od_model::typed::MapEntry;
 use od_model::{Address, Entry};
 use od_wire::AbortCode;
-use od_wire::pdo::MapRepr;
 use od_wire::sdo::Request;
 use od_wire::{CobId, Frame, NodeId};
 
@@ -31,7 +31,7 @@ pub struct Pdo {
     /// The mapping cannot be written.
     pub is_fixed: bool,
     /// The mapping, first entry first.
-    pub entries: Vec<MapRepr>,
+    pub entries: Vec<MapEntry>,
 }
 
 /// Direction of the PDO whose mapping parameter this is (`true`: TPDO) and its number from 1;
@@ -75,7 +75,7 @@ fn pdo(device: &VirtualDevice, mapping: u16) -> Option<Pdo> {
     };
     let room = (1..=MOST_BITS).filter(|sub| dictionary.entry(mapping, *sub).is_some());
     let entries = (1..=stored(mapping, 0).unwrap_or(0).min(MOST_BITS.into()) as u8)
-        .map(|sub| MapRepr::parse(stored(mapping, sub).unwrap_or(0)));
+        .map(|sub| MapEntry::parse(stored(mapping, sub).unwrap_or(0)));
     Some(Pdo {
         mapping,
         parameter,
@@ -147,12 +147,12 @@ impl Step {
 
 /// The downloads that change a mapping (CiA 301, chapter 7.5.2.36). With a COB-ID they make the
 /// PDO not valid first, and give it that COB-ID in the end.
-pub fn steps(mapping: u16, entries: &[MapRepr], cob_id: Option<CobId>) -> Vec<Step> {
+pub fn steps(mapping: u16, entries: &[MapEntry], cob_id: Option<CobId>) -> Vec<Step> {
     const INVALID: u32 = 1 << 31;
     let count = |part, count| Step::new(part, Address::new(mapping, 0), count, 1);
     let id = |part, raw| Step::new(part, Address::new(communication(mapping), 1), raw, 4);
-    let write = |(sub, entry): (u8, &MapRepr)| {
-        Step::new(Part::Entry, Address::new(mapping, sub), entry.emit(), 4)
+    let write = |(sub, entry): (u8, &MapEntry)| {
+        Step::new(Part::Entry, Address::new(mapping, sub), entry.raw(), 4)
     };
     let mut steps = Vec::new();
     steps.extend(cob_id.map(|cob_id| id(Part::DisablePdo, cob_id.raw() | INVALID)));
@@ -182,11 +182,11 @@ pub fn wants_pdo_disabled(code: u32) -> bool {
 mod tests {
     use super::*;
 
-    const POSITION: MapRepr = MapRepr {
+    const POSITION: MapEntry = MapEntry {
         address: Address::new(0x6004, 0),
         bits: 32,
     };
-    const SPEED: MapRepr = MapRepr {
+    const SPEED: MapEntry = MapEntry {
         address: Address::new(0x6030, 1),
         bits: 16,
     };

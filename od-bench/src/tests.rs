@@ -8,8 +8,9 @@ use od_runtime::{Frame, Instant, NodeId};
 use od_wire::nmt::State;
 
 use crate::bus::Bus;
-use crate::device::{EdsOptions, VirtualDevice};
+use crate::device::VirtualDevice;
 use crate::leds::Led;
+use crate::loaded::EdsOptions;
 use crate::logs::candump;
 use crate::words::Decoder;
 
@@ -66,6 +67,28 @@ fn deadlines_are_met_at_their_own_moment() {
     assert_eq!(bus.now(), Instant::from_millis(310));
     assert!(bus.advance_until_sent(Instant::from_millis(1000)));
     assert_eq!(bus.now(), Instant::from_millis(400));
+}
+
+#[test]
+fn a_compiled_device_runs_on_its_own_node() {
+    use od_devices::bus_cover::gxmm;
+    let room = |device| {
+        let mut bus = bench(vec![device]);
+        heard(&mut bus);
+        bus.receive(&frame("601#C217100002000000"));
+        let frame = bus.poll().expect("an answer").frame;
+        assert_eq!(frame.data()[..4], [0xA4, 0x17, 0x10, 0x00]);
+        frame.data()[4]
+    };
+    let own = VirtualDevice::of("own", gxmm::Node::new(NodeId::ONE));
+    let segments = gxmm::DICTIONARY.longest() / 7;
+    assert_eq!(usize::from(room(own)), segments.max(1));
+    let options = EdsOptions {
+        node_id: Some(NodeId::ONE),
+        lenient: false,
+    };
+    let loaded = VirtualDevice::from_eds(STRINGS, options);
+    assert_eq!(room(loaded.expect("a device")), 127);
 }
 
 #[test]

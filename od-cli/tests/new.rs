@@ -96,6 +96,23 @@ fn a_broken_file_is_fixed_and_each_change_is_listed() {
 }
 
 #[test]
+fn what_the_node_does_not_serve_is_removed_in_the_call() {
+    let text = "[DeviceInfo]\nProductName=Master\n[1005]\nParameterName=COB-ID SYNC\nDataType=7\n\
+                AccessType=rw\nDefaultValue=0x40000080\n[1201]\nParameterName=SDO server\n\
+                ObjectType=9\nSubNumber=1\n[1201sub0]\nParameterName=Highest sub-index\n\
+                DataType=5\nAccessType=ro\nDefaultValue=2\n";
+    let eds = file("new-unserved.eds", text).display().to_string();
+    let folder = fresh("new-unserved");
+    let path = folder.display().to_string();
+    let made = odkit(&["new", &eds, "--name", "unserved", "--path", &path], "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    let library = read(&folder, "src/lib.rs");
+    let sync = "        modify 0x1005 { default = 0x00000080 }\n";
+    assert!(library.contains(sync), "{library}");
+    assert!(library.contains("        remove 0x1201;\n"), "{library}");
+}
+
+#[test]
 fn what_cannot_be_is_said() {
     let eds = repository("devices/eds/GXMM.eds");
     for name in ["5x", "fn", "a b", "od-model"] {
@@ -203,6 +220,16 @@ fn target() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target")
 }
 
+/// The text of an EDS that wants of a node what it does not serve: SYNC, and a second SDO server.
+fn producer(eds: &Path) -> String {
+    let text = fs::read_to_string(eds).expect("the file");
+    let produces = text.replacen("DefaultValue=0x80\n", "DefaultValue=0x40000080\n", 1);
+    assert_ne!(produces, text);
+    produces
+        + "\n[1201]\nParameterName=SDO server\nObjectType=9\nSubNumber=1\n\
+           [1201sub0]\nParameterName=Highest sub-index\nDataType=5\nAccessType=ro\nDefaultValue=2\n"
+}
+
 /// `cargo test` passes in a new crate: for our own file, and in a long run for one of each of
 /// twenty vendors.
 #[test]
@@ -211,7 +238,8 @@ fn a_new_crate_builds_and_its_tests_pass() {
         println!("skipped: it builds odkit anew; set CI=true or ODKIT_LONG=1");
         return;
     }
-    let mut sources = vec![PathBuf::from(repository("devices/eds/GXMM.eds"))];
+    let gxmm = PathBuf::from(repository("devices/eds/GXMM.eds"));
+    let mut sources = vec![file("new-producer.eds", &producer(&gxmm)), gxmm];
     if is_long() {
         let vendor = |path: &PathBuf| path.parent().map(Path::to_path_buf);
         let mut vendors = Vec::new();

@@ -2,7 +2,7 @@
 
 use od_wire::{Frame, NodeId};
 
-pub use od_wire::emcy::Repr as Emcy;
+pub use od_wire::emcy::Emcy;
 
 /// Returns the EMCY message in a frame with the default CAN-ID, 80h plus the node ID.
 ///

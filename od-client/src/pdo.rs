@@ -2,8 +2,8 @@
 
 use core::fmt;
 
+use od_model::typed::MapEntry;
 use od_model::{Address, DataType, Dictionary, Entry, Literal};
-use od_wire::pdo::MapRepr;
 
 /// The data of a PDO is shorter than its mapping.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -137,7 +137,7 @@ impl<'d> Iterator for Fields<'d, '_> {
     type Item = Field<'d>;
 
     fn next(&mut self) -> Option<Field<'d>> {
-        let MapRepr { address, bits } = MapRepr::parse(*self.mapping.next()?);
+        let MapEntry { address, bits } = MapEntry::parse(*self.mapping.next()?);
         let first = self.first;
         let rest = self.data.checked_shr(first.into()).unwrap_or(0);
         let mask = u64::MAX.checked_shr(64 - u32::from(bits.min(64)));

@@ -244,16 +244,25 @@ impl<A> Text<A> {
     }
 }
 
-/// One line of a PDO mapping (CiA 301, objects 1600h and 1A00h).
+/// One entry of a PDO mapping (CiA 301, objects 1600h–17FFh and 1A00h–1BFFh).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct MapEntry {
     /// Address of the mapped value.
     pub address: Address,
-    /// Length in bits, 1 to 64: the whole value.
+    /// Length in bits: that of the whole value, 1 to 64, unless a mapping object says otherwise.
     pub bits: u8,
 }
 
 impl MapEntry {
+    /// Returns the meaning of a mapping object's value; every number has one.
+    pub const fn parse(raw: u32) -> Self {
+        let [bits, sub, low, high] = raw.to_le_bytes();
+        Self {
+            address: Address::new(u16::from_le_bytes([low, high]), sub),
+            bits,
+        }
+    }
+
     /// The value of the mapping object: `index << 16 | sub << 8 | bits`.
     pub const fn raw(self) -> u32 {
         (self.address.index as u32) << 16 | (self.address.sub as u32) << 8 | self.bits as u32
@@ -319,5 +328,6 @@ mod tests {
             Var::new(Address::new(0x6004, 0), Slot { offset: 0, len: 4 }, 32);
         const TPDO1: Mapping<2> = pdo([POSITION.map(), POSITION.map()]);
         assert_eq!(TPDO1.entries()[0].raw(), 0x6004_0020);
+        assert_eq!(MapEntry::parse(0x6004_0020), POSITION.map());
     }
 }

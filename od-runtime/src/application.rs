@@ -5,6 +5,7 @@ use od_model::Address;
 use crate::emcy;
 use crate::fifo::Fifo;
 use crate::store::Store;
+use od_wire::emcy::Emcy;
 use od_wire::{AbortCode, Instant, NodeId};
 
 /// What a reset takes back (CiA 301, chapter 7.3.2).
@@ -69,7 +70,7 @@ impl Signals {
     /// An error came: an EMCY is sent, 1001h and 1003h follow.
     ///
     /// An error that is there already, with the same bits of 1001h, is not reported again.
-    pub fn raise(&mut self, error: emcy::Emcy) {
+    pub fn raise(&mut self, error: Emcy) {
         self.errors.push(emcy::Change::Raised(error));
     }
 

@@ -5,6 +5,7 @@ use crate::profile::ErrorReset;
 use crate::store::Store;
 use od_model::Address;
 
+use od_wire::emcy::Emcy;
 use od_wire::{CobId, Frame, Instant};
 
 /// Most errors that can be active at once, that can come or go in one call, and that can wait
@@ -15,17 +16,6 @@ const QUEUE: usize = 16;
 
 /// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(crate) const PDO_LENGTH: u16 = 0x8210;
-
-/// An error: what the EMCY frame says of it.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Emcy {
-    /// Emergency error code, for example 8130h.
-    pub code: u16,
-    /// The bits of 1001h that it sets while it lasts.
-    pub register: u8,
-    /// Manufacturer-specific bytes 3–7 of the frame.
-    pub info: [u8; 5],
-}
 
 /// An error came or went.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -53,6 +43,12 @@ pub(crate) const NO_CHANGE: Change = Change::Cleared {
     info: [0; 5],
 };
 
+const NO_ERROR: Emcy = Emcy {
+    code: 0,
+    register: 0,
+    info: [0; 5],
+};
+
 /// Nothing came or went.
 const NO_NEWS: Outcome = Outcome {
     is_news: false,
@@ -63,7 +59,7 @@ const NO_NEWS: Outcome = Outcome {
 #[derive(Debug)]
 pub(crate) struct Producer {
     active: Fifo<Emcy, ACTIVE>,
-    waiting: Fifo<od_wire::emcy::Repr, QUEUE>,
+    waiting: Fifo<Emcy, QUEUE>,
     blocked_until: Instant,
     /// Bits of 1001h that no EMCY stands for.
     silent: u8,
@@ -81,16 +77,8 @@ pub(crate) struct Outcome {
 impl Producer {
     pub(crate) const fn new() -> Self {
         Self {
-            active: Fifo::new(Emcy {
-                code: 0,
-                register: 0,
-                info: [0; 5],
-            }),
-            waiting: Fifo::new(od_wire::emcy::Repr {
-                code: 0,
-                register: 0,
-                info: [0; 5],
-            }),
+            active: Fifo::new(NO_ERROR),
+            waiting: Fifo::new(NO_ERROR),
             blocked_until: Instant::ZERO,
             silent: 0,
         }
@@ -142,7 +130,7 @@ impl Producer {
         let register = self.show(store);
         let is_last = reset == ErrorReset::EachError || self.active.is_empty();
         if send && (code != 0 || is_last) {
-            self.waiting.push(od_wire::emcy::Repr {
+            self.waiting.push(Emcy {
                 code,
                 register,
                 info,
@@ -186,10 +174,10 @@ impl Producer {
             return None;
         }
         let cob_id = cob_id(store);
-        let repr = self.waiting.pop()?;
+        let emcy = self.waiting.pop()?;
         let inhibit = store.unsigned(0x1015, 0) * 100;
         self.blocked_until = now.plus_micros(inhibit);
-        cob_id.map(|cob_id| Frame::full(cob_id.can_id(), repr.emit()))
+        cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))
     }
 
     /// When [`poll`](Self::poll) is due, if something waits.

@@ -89,11 +89,11 @@ pub mod storage;
 mod store;
 
 // What frames and times of the node's own functions are made of.
+pub use od_wire::emcy::Emcy;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{Application, Context, NoApplication, Reset, Signals};
 pub use device::{AnyDevice, Device};
-pub use emcy::Emcy;
 pub use kind::DeviceKind;
 pub use lent::Lent;
 pub use node::{BusEvent, Event, Node, Unfit};

@@ -1,17 +1,18 @@
 //! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five bytes of the manufacturer's.
 
-/// What an EMCY frame says.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Repr {
-    /// Emergency error code; 0000h: error reset or no error.
+/// An EMCY message: an error that comes, or with code 0000h one that goes.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Emcy {
+    /// Emergency error code, for example 8130h; 0000h: error reset or no error.
     pub code: u16,
-    /// 1001h.
+    /// Error register: the bits of 1001h. In an error that a device raises, those that it sets
+    /// while it lasts.
     pub register: u8,
-    /// Manufacturer-specific.
+    /// Manufacturer-specific bytes 3 to 7 of the frame.
     pub info: [u8; 5],
 }
 
-impl Repr {
+impl Emcy {
     /// The meaning of a frame's bytes; `None` unless there are eight.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[low, high, register, a, b, c, d, e] = data else {
@@ -38,13 +39,13 @@ mod tests {
 
     #[test]
     fn a_heartbeat_error_reads_30_81() {
-        let repr = Repr {
+        let emcy = Emcy {
             code: 0x8130,
             register: 0x11,
             info: [1, 0, 0x14, 0, 0],
         };
-        assert_eq!(repr.emit(), [0x30, 0x81, 0x11, 1, 0, 0x14, 0, 0]);
-        assert_eq!(Repr::parse(&repr.emit()), Some(repr));
-        assert_eq!(Repr::parse(&[0; 7]), None);
+        assert_eq!(emcy.emit(), [0x30, 0x81, 0x11, 1, 0, 0x14, 0, 0]);
+        assert_eq!(Emcy::parse(&emcy.emit()), Some(emcy));
+        assert_eq!(Emcy::parse(&[0; 7]), None);
     }
 }

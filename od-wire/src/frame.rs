@@ -64,11 +64,8 @@ impl From<CanId> for Id {
 impl fmt::Display for CanId {
     /// As candump prints it: three digits, or eight for an extended one.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_extended() {
-            write!(f, "{:08X}", self.raw())
-        } else {
-            write!(f, "{:03X}", self.raw())
-        }
+        let width = if self.is_extended() { 8 } else { 3 };
+        write!(f, "{:0width$X}", self.raw())
     }
 }
 
@@ -195,12 +192,8 @@ impl Frame {
     /// The data; empty for a remote frame.
     #[inline]
     pub fn data(&self) -> &[u8] {
-        let len = if self.remote {
-            0
-        } else {
-            usize::from(self.dlc).min(8)
-        };
-        &self.data[..len]
+        let len = if self.remote { 0 } else { self.dlc.min(8) };
+        &self.data[..usize::from(len)]
     }
 
     /// All eight bytes; those past the DLC are 0.

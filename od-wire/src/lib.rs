@@ -26,7 +26,6 @@ mod frame;
 mod ids;
 pub mod lss;
 pub mod nmt;
-pub mod pdo;
 pub mod sdo;
 mod time;
 

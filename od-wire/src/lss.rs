@@ -23,12 +23,8 @@ impl Part {
     /// All four, in order.
     pub const ALL: [Self; 4] = [Self::Vendor, Self::Product, Self::Revision, Self::Serial];
 
-    const fn from_code(code: u8) -> Option<Self> {
-        if code < 4 {
-            Some(Self::ALL[code as usize])
-        } else {
-            None
-        }
+    fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code)).copied()
     }
 }
 
@@ -110,10 +106,6 @@ impl Request {
 
     /// The frame's bytes, as a master sends them.
     pub fn emit(self) -> [u8; 8] {
-        let with = |command, value: u32| {
-            let [a, b, c, d] = value.to_le_bytes();
-            [command, a, b, c, d, 0, 0, 0]
-        };
         match self {
             Self::SwitchGlobal { configuration } => with(0x04, configuration.into()),
             Self::ConfigureNodeId { node_id } => with(0x11, node_id.into()),
@@ -131,8 +123,8 @@ impl Request {
                 part,
                 next,
             } => {
-                let [a, b, c, d] = number.to_le_bytes();
-                [0x51, a, b, c, d, bit, part, next]
+                let [command, a, b, c, d, ..] = with(0x51, number);
+                [command, a, b, c, d, bit, part, next]
             }
             Self::Inquire { part } => with(0x5A + part as u8, 0),
             Self::InquireNodeId => with(0x5E, 0),
@@ -162,12 +154,9 @@ pub enum Response {
 impl Response {
     /// The meaning of a frame's bytes; `None` unless there are eight and the first is known.
     pub fn parse(data: &[u8]) -> Option<Self> {
-        let &[command, a, b, c, d, ..] = data else {
+        let &[command, a, b, c, d, _, _, _] = data else {
             return None;
         };
-        if data.len() != 8 {
-            return None;
-        }
         Some(match command {
             0x44 => Self::Selected { state: a },
             0x11 | 0x13 | 0x17 => Self::Configured { command, error: a },
@@ -184,10 +173,6 @@ impl Response {
 
     /// The frame's bytes, as a slave sends them.
     pub fn emit(self) -> [u8; 8] {
-        let with = |command, value: u32| {
-            let [a, b, c, d] = value.to_le_bytes();
-            [command, a, b, c, d, 0, 0, 0]
-        };
         match self {
             Self::Selected { state } => with(0x44, state.into()),
             Self::Configured { command, error } => with(command, error.into()),
@@ -197,6 +182,12 @@ impl Response {
             Self::NodeId { node_id } => with(0x5E, node_id.into()),
         }
     }
+}
+
+/// A command with a number.
+fn with(command: u8, number: u32) -> [u8; 8] {
+    let [a, b, c, d] = number.to_le_bytes();
+    [command, a, b, c, d, 0, 0, 0]
 }
 
 #[cfg(test)]

@@ -58,7 +58,7 @@ pub use od_runtime::{
     PdoProfile, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile, Signals, Store,
     StoreProfile, StoreTooSmall, TextTooLong, Unfit, encoder, storage,
 };
-pub use od_wire::{emcy, lss, nmt, pdo, sdo};
+pub use od_wire::{emcy, lss, nmt, sdo};
 
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// what is emitted, so that a macro and a crate that do not belong together fail at this name.

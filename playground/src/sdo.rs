@@ -4,7 +4,7 @@ use od_bench::rig::Outcome;
 use od_bench::{pdos, words};
 use od_client::sdo::{Channel, SdoError};
 use od_model::Address;
-use od_wire::pdo::MapRepr;
+use od_model::typed::MapEntry;
 use od_wire::sdo::Response;
 use od_wire::{CobId, Frame};
 use wasm_bindgen::prelude::*;
@@ -77,7 +77,7 @@ impl Bus {
         let (Some(device), Some(_)) = (devices.get(device), pdos::of_mapping(mapping)) else {
             return Vec::new();
         };
-        let entries: Vec<_> = entries.iter().copied().map(MapRepr::parse).collect();
+        let entries: Vec<_> = entries.iter().copied().map(MapEntry::parse).collect();
         let steps = pdos::steps(mapping, &entries, cob_id.map(CobId::new));
         let record = |step: &pdos::Step| {
             let frame = step.frame(device.node_id());

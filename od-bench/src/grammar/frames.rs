@@ -86,7 +86,7 @@ impl Frames {
             }
             Self::Emcy(code) => {
                 (0x081..=0x0FF).contains(&id)
-                    && emcy::Repr::parse(frame.data())
+                    && emcy::Emcy::parse(frame.data())
                         .is_some_and(|emcy| code.is_none_or(|code| code == emcy.code))
             }
             Self::Abort(code) => response(frame).is_some_and(|response| {

@@ -49,7 +49,7 @@ pub(super) fn explain(devices: &[VirtualDevice], frame: &Frame) -> Option<Words>
 }
 
 pub(super) fn words(node: u8, frame: &Frame) -> Words {
-    let Some(emcy) = od_wire::emcy::Repr::parse(frame.data()) else {
+    let Some(emcy) = od_wire::emcy::Emcy::parse(frame.data()) else {
         return Words::new(Service::Emcy, Some(node), "eight bytes are required").error();
     };
     let info = od_model::values::hex(&emcy.info);

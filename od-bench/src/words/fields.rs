@@ -76,7 +76,7 @@ pub fn fields(devices: &[VirtualDevice], frame: &Frame) -> Vec<Field> {
             fields.add(0, 1, "State", format!("{state}{toggle}"));
         }
         "EMCY" => {
-            if let Some(repr) = emcy::Repr::parse(data) {
+            if let Some(repr) = emcy::Emcy::parse(data) {
                 fields.add(0, 2, "Error code", format!("{:04X}h", repr.code));
                 let register = format!("{:02X}h", repr.register);
                 let object = Address::new(0x1001, 0);
@@ -172,32 +172,24 @@ fn mapped(
 /// Command, object and data of an SDO frame.
 fn sdo(fields: &mut Fields, device: Option<&VirtualDevice>, frame: &Frame) {
     let is_answer = frame.id().raw() < 0x600;
-    let (command, object, expedited, size) = match is_answer {
-        true => {
-            let response = Response::parse(frame.bytes());
-            let (expedited, size) = match response {
-                Response::InitiateUpload {
-                    expedited, size, ..
-                } => (expedited, size),
-                _ => (None, None),
-            };
-            (answer(&response), answered(&response), expedited, size)
-        }
-        false => {
-            let request = Request::parse(frame.bytes());
-            let (expedited, size) = match request {
-                Request::InitiateDownload {
-                    expedited, size, ..
-                } => (expedited, size),
-                _ => (None, None),
-            };
-            (
-                self::request(&request),
-                requested(&request),
-                expedited,
-                size,
-            )
-        }
+    let (command, object, expedited, size) = if is_answer {
+        let response = Response::parse(frame.bytes());
+        let (expedited, size) = match response {
+            Response::InitiateUpload {
+                expedited, size, ..
+            } => (expedited, size),
+            _ => (None, None),
+        };
+        (answer(&response), answered(&response), expedited, size)
+    } else {
+        let asked = Request::parse(frame.bytes());
+        let (expedited, size) = match asked {
+            Request::InitiateDownload {
+                expedited, size, ..
+            } => (expedited, size),
+            _ => (None, None),
+        };
+        (request(&asked), requested(&asked), expedited, size)
     };
     fields.add(0, 1, "Command", command);
     let Some(object) = object else {

@@ -191,12 +191,9 @@ fn answer(open: &mut Open, fold: &mut Fold, frame: &Frame) -> bool {
             };
         }
         Phase::Upload => {
-            if let Response::UploadSegment {
-                data, len, last, ..
-            } = response
-            {
-                keep(fold, &data[..usize::from(len.min(7))]);
-                if last {
+            if let Response::UploadSegment(segment) = response {
+                keep(fold, segment.bytes());
+                if segment.last {
                     fold.state = State::Done;
                 }
             }
@@ -228,12 +225,11 @@ fn request(open: &mut Open, fold: &mut Fold, frame: &Frame) -> bool {
     let request = Request::parse(frame.bytes());
     match open.phase {
         Phase::Download { .. } => {
-            if let Request::DownloadSegment {
-                data, len, last, ..
-            } = request
-            {
-                keep(fold, &data[..usize::from(len.min(7))]);
-                open.phase = Phase::Download { is_last: last };
+            if let Request::DownloadSegment(segment) = request {
+                keep(fold, segment.bytes());
+                open.phase = Phase::Download {
+                    is_last: segment.last,
+                };
             }
         }
         Phase::BlockDownload { is_last } => match request {

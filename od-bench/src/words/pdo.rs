@@ -4,9 +4,9 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_client::pdo::decode;
+use od_model::typed::MapEntry;
 use od_model::{Address, values};
 use od_runtime::{CobId, Frame};
-use od_wire::pdo::MapRepr;
 
 use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
@@ -26,7 +26,7 @@ pub fn layout(devices: &[VirtualDevice], frame: &Frame) -> Option<Vec<(Address, 
     let (device, _, _, index) = find(devices, frame)?;
     let mut first = 0;
     let place = |raw| {
-        let MapRepr { address, bits } = MapRepr::parse(raw);
+        let MapEntry { address, bits } = MapEntry::parse(raw);
         first += u32::from(bits);
         (address, first - u32::from(bits), bits.into())
     };

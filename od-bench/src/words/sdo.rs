@@ -144,9 +144,7 @@ impl Explainer<'_> {
                     (None, None) => self.words(format!("write {name} in segments")),
                 }
             }
-            Request::DownloadSegment {
-                data, len, last, ..
-            } => self.segment(&data[..usize::from(len.min(7))], last),
+            Request::DownloadSegment(segment) => self.segment(segment.bytes(), segment.last),
             Request::UploadSegment { .. } => {
                 self.words(format!("next segment of {}", self.current()))
             }
@@ -213,9 +211,7 @@ impl Explainer<'_> {
                 }
                 self.words(format!("write of {} confirmed", self.name(address)))
             }
-            Response::UploadSegment {
-                data, len, last, ..
-            } => self.segment(&data[..usize::from(len.min(7))], last),
+            Response::UploadSegment(segment) => self.segment(segment.bytes(), segment.last),
             Response::DownloadSegment { .. } => {
                 self.words(format!("segment of {} confirmed", self.current()))
             }

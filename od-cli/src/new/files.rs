@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use od_eds::{Description, Tables};
-use od_model::{Address, Kind, Literal};
+use od_model::{Address, Dictionary, Kind, Literal};
+use od_runtime::CobId;
 use od_runtime::encoder::EncoderProfile;
 
 /// The device description that the crate contains.
@@ -126,6 +127,7 @@ impl Project<'_> {
             .replace("{{absent}}", &format!("{:04X}h", absent.unwrap_or(0x0FFF)))
             .replace("{{name}}", self.name)
             .replace("{{crate}}", &self.name.replace('-', "_"))
+            .replace("{{edits}}", &edits(dictionary))
             .replace("{{eds}}", &self.eds_name())
             .replace("{{title}}", &title(description, self.name))
             .replace("{{node_id}}", &node_id.to_string())
@@ -173,6 +175,27 @@ impl Project<'_> {
             lines.concat()
         )
     }
+}
+
+/// Lines of the macro call that remove what a node does not serve: without them the crate does not
+/// compile.
+fn edits(dictionary: Dictionary<'_>) -> String {
+    let mut lines = String::new();
+    let sync = dictionary.entry(0x1005, 0);
+    if let Some(cob_id) = sync.and_then(|entry| entry.default.integer(0)) {
+        let cob_id = CobId::new(cob_id as u32);
+        if cob_id.produces_sync() {
+            let consumed = cob_id.raw() & !(1 << 30);
+            lines += "        // The node does not produce SYNC.\n";
+            lines += &format!("        modify 0x1005 {{ default = {consumed:#010X} }}\n");
+        }
+    }
+    let servers = dictionary.objects().iter().map(|object| object.index);
+    for index in servers.filter(|index| (0x1201..=0x127F).contains(index)) {
+        lines += "        // The node has one SDO server, the default SDO.\n";
+        lines += &format!("        remove 0x{index:04X};\n");
+    }
+    lines
 }
 
 fn toml(text: &str) -> String {

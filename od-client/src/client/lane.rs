@@ -54,22 +54,21 @@ impl Lane {
         self.has_no_block = false;
     }
 
-    pub(super) fn read(&mut self, job: Job, object: Address, options: Options) {
-        self.push(Waiting {
+    /// Adds a job to those that wait: writes `bytes`, or reads.
+    pub(super) fn push(
+        &mut self,
+        job: Job,
+        object: Address,
+        bytes: Option<Vec<u8>>,
+        options: Options,
+    ) {
+        self.waiting.push_back(Waiting {
             job,
             object,
-            bytes: None,
+            bytes,
             options,
         });
-    }
-
-    pub(super) fn write(&mut self, job: Job, object: Address, bytes: &[u8], options: Options) {
-        self.push(Waiting {
-            job,
-            object,
-            bytes: Some(bytes.to_vec()),
-            options,
-        });
+        self.begin();
     }
 
     /// Returns whether the job was here.
@@ -132,11 +131,6 @@ impl Lane {
             Some((_, Transfer::Download(download))) => download.poll_timeout(),
             None => None,
         }
-    }
-
-    fn push(&mut self, waiting: Waiting) {
-        self.waiting.push_back(waiting);
-        self.begin();
     }
 
     /// Begins the next job if none is under way.

@@ -5,6 +5,7 @@ mod lane;
 mod tasks;
 
 use alloc::collections::VecDeque;
+use alloc::vec::Vec;
 
 use od_model::Address;
 use od_wire::nmt::{Command, State};
@@ -37,7 +38,7 @@ pub struct Client {
     options: Options,
     jobs: u32,
     /// One a node that was ever asked, in the order of their first jobs.
-    lanes: alloc::vec::Vec<Lane>,
+    lanes: Vec<Lane>,
     /// The lane that sends next.
     turn: usize,
     tasks: Tasks,
@@ -63,7 +64,7 @@ impl Client {
         Self {
             options: sdo,
             jobs: 0,
-            lanes: alloc::vec::Vec::new(),
+            lanes: Vec::new(),
             turn: 0,
             tasks: Tasks::new(lss),
             watch: Watch::new(),
@@ -74,18 +75,12 @@ impl Client {
 
     /// Reads an object; ends with [`Event::Read`].
     pub fn read(&mut self, node: NodeId, object: Address) -> Job {
-        let job = self.job();
-        let options = self.options;
-        self.lane(node).read(job, object, options);
-        job
+        self.transfer(node, object, None)
     }
 
     /// Writes an object; ends with [`Event::Written`].
     pub fn write(&mut self, node: NodeId, object: Address, bytes: &[u8]) -> Job {
-        let job = self.job();
-        let options = self.options;
-        self.lane(node).write(job, object, bytes, options);
-        job
+        self.transfer(node, object, Some(bytes.to_vec()))
     }
 
     /// Runs an LSS service after those that wait; ends with [`Event::Lss`].
@@ -202,13 +197,15 @@ impl Client {
         Job::new(self.jobs)
     }
 
-    fn lane(&mut self, node: NodeId) -> &mut Lane {
+    fn transfer(&mut self, node: NodeId, object: Address, bytes: Option<Vec<u8>>) -> Job {
+        let job = self.job();
         let at = self.lanes.iter().position(|lane| lane.node() == node);
         let at = at.unwrap_or(self.lanes.len());
         if at == self.lanes.len() {
             self.lanes.push(Lane::new(node));
         }
-        &mut self.lanes[at]
+        self.lanes[at].push(job, object, bytes, self.options);
+        job
     }
 
     fn take_news(&mut self) {

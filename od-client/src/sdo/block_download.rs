@@ -1,7 +1,7 @@
 //! Block download: sends the segments, block by block (CiA 301, chapters 7.2.4.3.9 to 7.2.4.3.12).
 
 use od_wire::AbortCode;
-use od_wire::sdo::{Request, Response, crc16};
+use od_wire::sdo::{Request, Response, block_segment, block_segments, crc16, unused};
 
 use super::error::{Expected, SdoError};
 use super::line::Line;
@@ -50,9 +50,9 @@ impl Blocks {
         })
     }
 
-    /// Segments that are left at the start of this block; an empty value takes one.
+    /// Segments that are left at the start of this block.
     fn segments_left(&self, data: &[u8]) -> usize {
-        data.len().saturating_sub(self.done).div_ceil(7).max(1)
+        block_segments(data.len().saturating_sub(self.done))
     }
 
     /// The next segment of the block, if it has more.
@@ -63,13 +63,9 @@ impl Blocks {
         }
         let start = self.done + usize::from(self.sent) * 7;
         let rest = data.get(start..).unwrap_or_default();
-        let len = rest.len().min(7);
-        let mut frame = [0; 8];
-        frame[1..=len].copy_from_slice(&rest[..len]);
         self.sent += 1;
         let last = usize::from(self.sent) == left;
-        frame[0] = self.sent | u8::from(last) << 7;
-        Some(frame)
+        Some(block_segment(self.sent, rest, last))
     }
 
     /// An answer of the server.
@@ -98,10 +94,7 @@ impl Blocks {
     fn confirmed(&mut self, line: &mut Line, data: &[u8], ack: u8, block_size: u8) {
         if usize::from(ack) >= self.segments_left(data) {
             self.is_complete = true;
-            let unused = match data.len() % 7 {
-                0 if !data.is_empty() => 0,
-                tail => 7 - tail as u8,
-            };
+            let unused = unused(data.len());
             let crc = if self.crc { crc16(data) } else { 0 };
             return line.send(Request::EndBlockDownload { unused, crc });
         }

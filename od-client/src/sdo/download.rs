@@ -1,7 +1,7 @@
 //! Download: writes an object, expedited or in segments (CiA 301, chapters 7.2.4.3.3 and 7.2.4.3.4).
 
 use od_model::Address;
-use od_wire::sdo::{Request, Response};
+use od_wire::sdo::{Request, Response, Segment};
 use od_wire::{AbortCode, Frame, Instant};
 
 use super::block_download::Blocks;
@@ -168,17 +168,9 @@ impl<D: AsRef<[u8]>> Download<D> {
     /// Sends the segment that begins at `start`.
     fn segment(&mut self, toggle: bool, start: usize) {
         let bytes = self.data.as_ref();
-        let rest = bytes.get(start..).unwrap_or_default();
-        let len = rest.len().min(7);
-        let mut data = [0; 7];
-        data[..len].copy_from_slice(&rest[..len]);
-        let end = start + len;
-        self.line.send(Request::DownloadSegment {
-            toggle,
-            data,
-            len: len as u8,
-            last: end == bytes.len(),
-        });
+        let segment = Segment::first_of(bytes.get(start..).unwrap_or_default(), toggle);
+        let end = start + usize::from(segment.len);
+        self.line.send(Request::DownloadSegment(segment));
         self.state = State::Segment { toggle, end };
     }
 

@@ -166,20 +166,14 @@ impl<B: Buffer> Upload<B> {
     fn segment(&mut self, response: Response, toggle: bool, size: Option<u32>) {
         let expected = Expected::UploadSegment;
         match response {
-            Response::UploadSegment {
-                toggle: answered, ..
-            } if answered != toggle => {
+            Response::UploadSegment(segment) if segment.toggle != toggle => {
                 self.line.refuse(AbortCode::ToggleBit, expected, response);
             }
-            Response::UploadSegment {
-                len: 0,
-                last: false,
-                ..
-            } => self.line.fail(AbortCode::General, SdoError::NoProgress),
-            Response::UploadSegment {
-                data, len, last, ..
-            } => {
-                let bytes = &data[..usize::from(len.min(7))];
+            Response::UploadSegment(segment) if segment.len == 0 && !segment.last => {
+                self.line.fail(AbortCode::General, SdoError::NoProgress);
+            }
+            Response::UploadSegment(segment) => {
+                let (bytes, last) = (segment.bytes(), segment.last);
                 if !self.line.keep(&mut self.buffer, bytes, size) {
                     return;
                 }

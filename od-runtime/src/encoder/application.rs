@@ -160,11 +160,8 @@ impl<M: Motion> Application for Encoder<M> {
             self.sense(cx);
         }
         self.faults.report(cx, self.profile);
-        let record = self.keep_time(cx);
-        match (record, self.shaft.due()) {
-            (Some(record), Some(sample)) => Some(record.min(sample)),
-            (record, sample) => record.or(sample),
-        }
+        let deadlines = [self.keep_time(cx), self.shaft.due()];
+        deadlines.into_iter().flatten().min()
     }
 }
 

@@ -5,8 +5,8 @@ use od_model::Address;
 use super::fault::{Appears, Fault, Report, Until};
 use super::profile::EncoderProfile;
 use crate::application::Context;
-use crate::emcy::Emcy;
 use crate::store::Store;
+use od_wire::emcy::Emcy;
 
 const ALARMS: Address = Address::new(0x6503, 0);
 const WARNINGS: Address = Address::new(0x6505, 0);

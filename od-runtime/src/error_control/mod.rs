@@ -99,9 +99,7 @@ impl Monitor {
     /// When somebody is lost unless heard of.
     #[inline]
     pub(crate) fn deadline(&self) -> Option<Instant> {
-        match (self.guard.deadline(), self.consumer.deadline()) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        }
+        let deadlines = [self.guard.deadline(), self.consumer.deadline()];
+        deadlines.into_iter().flatten().min()
     }
 }

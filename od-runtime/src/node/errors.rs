@@ -2,10 +2,10 @@
 //! set (CiA 301, object 1029h).
 
 use super::{Event, Machines};
-use crate::emcy;
-use crate::emcy::{Change, Emcy};
+use crate::emcy::{self, Change};
 use crate::objects::Objects;
 use crate::profile::Notice;
+use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 /// What 1029h asks for, the gravest last.

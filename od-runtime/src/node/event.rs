@@ -3,8 +3,8 @@
 use od_model::Address;
 
 use crate::application::Reset;
-use crate::emcy::Emcy;
 use od_wire::NodeId;
+use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 /// Something happened in the node.

@@ -1,5 +1,6 @@
 //! What comes in: frames and the passing of time.
 
+use od_wire::emcy::Emcy;
 use od_wire::nmt::{self, Command, State};
 use od_wire::{CanId, Frame, Instant};
 
@@ -7,7 +8,7 @@ use super::controller::Mute;
 use super::{Machines, Node};
 use crate::application::Reset;
 use crate::device::Device;
-use crate::emcy::{Emcy, PDO_LENGTH};
+use crate::emcy::PDO_LENGTH;
 use crate::lent::Lent;
 use crate::lss::Action;
 use crate::objects::Objects;

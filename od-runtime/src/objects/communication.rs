@@ -1,10 +1,10 @@
 //! What CiA 301 says of writing the communication objects.
 
+use od_model::typed::MapEntry;
 use od_model::{Address, Entry};
 
 use crate::profile::Profile;
 use crate::store::{Store, little_endian};
-use od_wire::pdo::MapRepr;
 use od_wire::{AbortCode, CobId};
 
 /// The signature that a write to 1010h or 1011h has to carry, as it stands on the wire.
@@ -131,8 +131,8 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u64) -> Result<(), 
 
 /// One entry of the mapping object at `index`: what it names exists, can be mapped in this
 /// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
-pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<MapRepr, AbortCode> {
-    let mapped = MapRepr::parse(raw);
+pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<MapEntry, AbortCode> {
+    let mapped = MapEntry::parse(raw);
     let transmits = index >= 0x1A00;
     if let Address {
         index: dummy @ 0x0001..=0x0007,

@@ -121,12 +121,7 @@ impl Mapping {
             // A PDO has no way to say that a value could not be had; it takes the last one.
             let _ = objects.refresh(entry.address);
             let value = objects.store.number(entry);
-            let mask = if bits >= 64 {
-                u64::MAX
-            } else {
-                (1 << bits) - 1
-            };
-            data |= (value & mask) << first.min(63);
+            data |= (value & mask(bits)) << first.min(63);
         });
         data.to_le_bytes()
     }
@@ -137,14 +132,19 @@ impl Mapping {
         let data = u64::from_le_bytes(data);
         self.each(objects, |objects, entry, first, bits| {
             let Some(entry) = entry else { return };
-            let mask = if bits >= 64 {
-                u64::MAX
-            } else {
-                (1 << bits) - 1
-            };
-            let value = data >> first.min(63) & mask;
+            let value = data >> first.min(63) & mask(bits);
             let size = bits.div_ceil(8).min(8);
             let _ = objects.write(entry.address, &value.to_le_bytes()[..size]);
         });
+    }
+}
+
+/// The low `bits` bits.
+#[inline]
+const fn mask(bits: usize) -> u64 {
+    if bits >= 64 {
+        u64::MAX
+    } else {
+        (1 << bits) - 1
     }
 }

@@ -2,7 +2,7 @@
 //! which each call borrows.
 
 use od_wire::AbortCode;
-use od_wire::sdo::{Response, crc16};
+use od_wire::sdo::{Response, block_segment, block_segments, crc16, unused};
 
 /// A block upload under way.
 #[derive(Clone, Copy, Debug)]
@@ -56,9 +56,9 @@ impl BlockUpload {
         self.phase == Phase::Complete
     }
 
-    /// Segments that are left at the start of this block; an empty value needs one.
+    /// Segments that are left at the start of this block.
     fn segments_left(&self) -> usize {
-        (self.len - self.done).div_ceil(7).max(1)
+        block_segments(self.len - self.done)
     }
 
     fn expect(&self, phase: Phase) -> Result<(), AbortCode> {
@@ -81,16 +81,12 @@ impl BlockUpload {
         self.expect(Phase::Sending).ok()?;
         let start = self.done + usize::from(self.sent) * 7;
         let rest = buffer.get(start..self.len).unwrap_or(&[]);
-        let len = rest.len().min(7);
-        let mut frame = [0; 8];
-        frame[1..1 + len].copy_from_slice(&rest[..len]);
         self.sent += 1;
         let last = usize::from(self.sent) >= self.segments_left();
-        frame[0] = self.sent | u8::from(last) << 7;
         if last || self.sent >= self.block_size {
             self.phase = Phase::Sent;
         }
-        Some(frame)
+        Some(block_segment(self.sent, rest, last))
     }
 
     /// The client acknowledges `ack` segments of the block: the next block follows, or the end.
@@ -116,10 +112,7 @@ impl BlockUpload {
         self.done = self.len;
         self.phase = Phase::Complete;
         Ok(Some(Response::EndBlockUpload {
-            unused: match self.len % 7 {
-                0 if self.len > 0 => 0,
-                tail => 7 - tail as u8,
-            },
+            unused: unused(self.len),
             crc: if self.crc { crc16(value) } else { 0 },
         }))
     }

@@ -173,19 +173,11 @@ impl<const N: usize> Server<N> {
                 }
                 Ok(Some(segment))
             }
-            (
-                Request::DownloadSegment {
-                    toggle,
-                    data,
-                    len,
-                    last,
-                },
-                Transfer::Download(download),
-            ) => {
-                let data = &data[..usize::from(len.min(7))];
-                if let Some(len) = download.segment(&mut self.buffer, toggle, data, last)? {
+            (Request::DownloadSegment(segment), Transfer::Download(download)) => {
+                if let Some(len) = download.segment(&mut self.buffer, &segment)? {
                     self.write(objects, len)?;
                 }
+                let toggle = segment.toggle;
                 Ok(Some(Response::DownloadSegment { toggle }))
             }
             (Request::Abort { .. }, _) => {

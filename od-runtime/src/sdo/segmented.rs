@@ -2,7 +2,7 @@
 //! buffer, which each call borrows.
 
 use od_wire::AbortCode;
-use od_wire::sdo::Response;
+use od_wire::sdo::{Response, Segment};
 
 /// An upload under way.
 #[derive(Clone, Copy, Debug)]
@@ -33,17 +33,10 @@ impl Upload {
             return Err(AbortCode::ToggleBit);
         }
         let rest = buffer.get(self.sent..self.len).unwrap_or(&[]);
-        let len = rest.len().min(7);
-        let mut data = [0; 7];
-        data[..len].copy_from_slice(&rest[..len]);
-        self.sent += len;
+        let segment = Segment::first_of(rest, toggle);
+        self.sent += usize::from(segment.len);
         self.toggle = !toggle;
-        Ok(Response::UploadSegment {
-            toggle,
-            data,
-            len: len as u8,
-            last: self.is_over(),
-        })
+        Ok(Response::UploadSegment(segment))
     }
 }
 
@@ -69,13 +62,12 @@ impl Download {
     pub(super) fn segment(
         &mut self,
         buffer: &mut [u8],
-        toggle: bool,
-        data: &[u8],
-        last: bool,
+        segment: &Segment,
     ) -> Result<Option<usize>, AbortCode> {
-        if toggle != self.toggle {
+        if segment.toggle != self.toggle {
             return Err(AbortCode::ToggleBit);
         }
+        let (data, last) = (segment.bytes(), segment.last);
         let end = self.received + data.len();
         if self.size.is_some_and(|size| end > size as usize) {
             return Err(AbortCode::TooLong);
@@ -83,7 +75,7 @@ impl Download {
         let room = buffer.get_mut(self.received..end);
         room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(data);
         self.received = end;
-        self.toggle = !toggle;
+        self.toggle = !self.toggle;
         if last && self.size.is_some_and(|size| end < size as usize) {
             return Err(AbortCode::TooShort);
         }

@@ -1,25 +1,20 @@
 //! SDO frames, client to server and back (CiA 301, chapter 7.2.4.3).
 
 mod crc;
+mod fields;
 mod request;
 mod response;
-
-use od_model::Address;
+mod segment;
 
 pub use crc::crc16;
 pub use request::Request;
 pub use response::{Response, expedited_upload};
-
-/// Command, multiplexer, and four bytes more.
-#[inline]
-const fn head(command: u8, address: Address, rest: u32) -> [u8; 8] {
-    let [low, high] = address.index.to_le_bytes();
-    let [a, b, c, d] = rest.to_le_bytes();
-    [command, low, high, address.sub, a, b, c, d]
-}
+pub use segment::{Segment, block_segment, block_segments, unused};
 
 #[cfg(test)]
 mod tests {
+    use od_model::Address;
+
     use super::*;
 
     #[test]

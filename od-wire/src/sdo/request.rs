@@ -2,114 +2,69 @@
 
 use od_model::Address;
 
-use super::head;
+use super::fields::{self, head, short};
+use super::segment::Segment;
 
-/// What a client's frame says.
+/// Frame of an SDO client.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)] // the fields are the protocol's own
 pub enum Request {
-    /// Initiate download; `data` where expedited.
+    /// Initiate download: writes to `address`. `size` in bytes, if it is indicated; `expedited`:
+    /// up to four bytes, if the value is in the frame.
     InitiateDownload {
-        /// What is written.
         address: Address,
-        /// Size of the data in bytes, where indicated.
         size: Option<u32>,
-        /// The data, for an expedited transfer: up to four bytes.
         expedited: Option<[u8; 4]>,
     },
     /// Download segment.
-    DownloadSegment {
-        /// Toggle bit.
-        toggle: bool,
-        /// The bytes; `len` of them count.
-        data: [u8; 7],
-        /// Number of bytes, 0–7.
-        len: u8,
-        /// No more segments follow.
-        last: bool,
-    },
-    /// Initiate upload.
-    InitiateUpload {
-        /// What is read.
-        address: Address,
-    },
-    /// Upload segment.
-    UploadSegment {
-        /// Toggle bit.
-        toggle: bool,
-    },
-    /// Abort transfer.
-    Abort {
-        /// What the transfer was about.
-        address: Address,
-        /// Abort code.
-        code: u32,
-    },
-    /// Initiate block upload.
+    DownloadSegment(Segment),
+    /// Initiate upload: reads `address`.
+    InitiateUpload { address: Address },
+    /// Upload segment: asks for the next one.
+    UploadSegment { toggle: bool },
+    /// Abort transfer; [`AbortCode`](crate::AbortCode) knows the codes of CiA 301.
+    Abort { address: Address, code: u32 },
+    /// Initiate block upload: reads `address`. `crc`: the client can check a CRC; `block_size`:
+    /// segments in a block, 1 to 127 where valid; `threshold`: a value of up to so many bytes may
+    /// come by another protocol, 0: never.
     InitiateBlockUpload {
-        /// What is read.
         address: Address,
-        /// The client can check a CRC.
         crc: bool,
-        /// Segments a block, 1–127 if it is legal.
         block_size: u8,
-        /// Data of up to this many bytes may come by another protocol; 0: never.
         threshold: u8,
     },
     /// Start block upload.
     StartBlockUpload,
-    /// Answer to a block.
-    BlockUploadResponse {
-        /// Last segment in sequence.
-        ack: u8,
-        /// Segments of the next block.
-        block_size: u8,
-    },
-    /// End of block upload.
+    /// Response to a block: `ack` is the last segment in sequence, `block_size` the number of
+    /// segments in the next block.
+    BlockUploadResponse { ack: u8, block_size: u8 },
+    /// End block upload.
     EndBlockUpload,
-    /// Initiate block download.
+    /// Initiate block download: writes to `address`. `crc`: the client makes a CRC; `size` in
+    /// bytes, if it is indicated.
     InitiateBlockDownload {
-        /// What is written.
         address: Address,
-        /// The client makes a CRC.
         crc: bool,
-        /// Size of the data in bytes, where indicated.
         size: Option<u32>,
     },
-    /// End of block download.
-    EndBlockDownload {
-        /// Bytes of the last segment that are no data, 0–7.
-        unused: u8,
-        /// CRC over the data, 0 if none was agreed on.
-        crc: u16,
-    },
+    /// End block download: `unused` bytes of the last segment are no data, 0 to 7; `crc` is 0 if
+    /// none was agreed on.
+    EndBlockDownload { unused: u8, crc: u16 },
     /// A command specifier that no request has.
     Unknown,
 }
 
 impl Request {
-    /// The meaning of eight bytes. Block segments are not told apart here: they
-    /// have no command specifier, the server's state says that they are due.
+    /// Returns the meaning of eight bytes. Segments of a block have no command specifier: the
+    /// state of the server says that they are due.
     #[inline]
     pub const fn parse(data: &[u8; 8]) -> Self {
-        let [command, low, high, sub, a, b, c, d] = *data;
-        let address = Address::new(u16::from_le_bytes([low, high]), sub);
-        let four = u32::from_le_bytes([a, b, c, d]);
-        let toggle = command & 0x10 != 0;
-        match command >> 5 {
-            0 => Self::DownloadSegment {
-                toggle,
-                data: [low, high, sub, a, b, c, d],
-                len: 7 - (command >> 1 & 7),
-                last: command & 1 != 0,
-            },
+        let address = fields::address(data);
+        let toggle = fields::toggle(data);
+        match data[0] >> 5 {
+            0 => Self::DownloadSegment(Segment::parse(data)),
             1 => {
-                let (expedited, sized) = (command & 2 != 0, command & 1 != 0);
-                let size = match (expedited, sized) {
-                    (true, true) => Some(4 - (command >> 2 & 3) as u32),
-                    (false, true) => Some(four),
-                    _ => None,
-                };
-                let expedited = if expedited { Some([a, b, c, d]) } else { None };
+                let (size, expedited) = fields::value(data);
                 Self::InitiateDownload {
                     address,
                     size,
@@ -120,66 +75,45 @@ impl Request {
             3 => Self::UploadSegment { toggle },
             4 => Self::Abort {
                 address,
-                code: four,
+                code: fields::number(data),
             },
-            5 => match command & 3 {
+            5 => match data[0] & 3 {
                 0 => Self::InitiateBlockUpload {
                     address,
-                    crc: command & 4 != 0,
-                    block_size: a,
-                    threshold: b,
+                    crc: data[0] & 4 != 0,
+                    block_size: data[4],
+                    threshold: data[5],
                 },
                 1 => Self::EndBlockUpload,
                 2 => Self::BlockUploadResponse {
-                    ack: low,
-                    block_size: high,
+                    ack: data[1],
+                    block_size: data[2],
                 },
                 _ => Self::StartBlockUpload,
             },
-            6 if command & 1 == 0 => Self::InitiateBlockDownload {
-                address,
-                crc: command & 4 != 0,
-                size: if command & 2 != 0 { Some(four) } else { None },
-            },
-            6 => Self::EndBlockDownload {
-                unused: command >> 2 & 7,
-                crc: u16::from_le_bytes([low, high]),
-            },
+            6 if data[0] & 1 == 0 => {
+                let (crc, size) = fields::block(data);
+                Self::InitiateBlockDownload { address, crc, size }
+            }
+            6 => {
+                let (unused, crc) = fields::end(data);
+                Self::EndBlockDownload { unused, crc }
+            }
             _ => Self::Unknown,
         }
     }
 
-    /// The frame's bytes, as a client sends them.
+    /// Returns the frame's bytes, as a client sends them.
     pub fn emit(self) -> [u8; 8] {
         match self {
             Self::InitiateDownload {
                 address,
                 size,
-                expedited: Some(data),
-            } => {
-                let n = size.map_or(0, |size| 4 - size.min(4) as u8);
-                head(
-                    0x22 | n << 2 | u8::from(size.is_some()),
-                    address,
-                    u32::from_le_bytes(data),
-                )
-            }
-            Self::InitiateDownload {
-                address,
-                size,
-                expedited: None,
-            } => head(0x20 | u8::from(size.is_some()), address, size.unwrap_or(0)),
-            Self::DownloadSegment {
-                toggle,
-                data: [a, b, c, d, e, f, g],
-                len,
-                last,
-            } => {
-                let command = u8::from(toggle) << 4 | (7 - len.min(7)) << 1 | u8::from(last);
-                [command, a, b, c, d, e, f, g]
-            }
+                expedited,
+            } => fields::value_frame(0x20, address, size, expedited),
+            Self::DownloadSegment(segment) => segment.emit(),
             Self::InitiateUpload { address } => head(0x40, address, 0),
-            Self::UploadSegment { toggle } => [0x60 | u8::from(toggle) << 4, 0, 0, 0, 0, 0, 0, 0],
+            Self::UploadSegment { toggle } => short(0x60 | fields::toggled(toggle), [0, 0]),
             Self::Abort { address, code } => head(0x80, address, code),
             Self::InitiateBlockUpload {
                 address,
@@ -190,18 +124,14 @@ impl Request {
                 let rest = u32::from_le_bytes([block_size, threshold, 0, 0]);
                 head(0xA0 | u8::from(crc) << 2, address, rest)
             }
-            Self::StartBlockUpload => [0xA3, 0, 0, 0, 0, 0, 0, 0],
-            Self::BlockUploadResponse { ack, block_size } => [0xA2, ack, block_size, 0, 0, 0, 0, 0],
-            Self::EndBlockUpload => [0xA1, 0, 0, 0, 0, 0, 0, 0],
+            Self::StartBlockUpload => short(0xA3, [0, 0]),
+            Self::BlockUploadResponse { ack, block_size } => short(0xA2, [ack, block_size]),
+            Self::EndBlockUpload => short(0xA1, [0, 0]),
             Self::InitiateBlockDownload { address, crc, size } => {
-                let command = 0xC0 | u8::from(crc) << 2 | u8::from(size.is_some()) << 1;
-                head(command, address, size.unwrap_or(0))
+                fields::block_frame(address, crc, size)
             }
-            Self::EndBlockDownload { unused, crc } => {
-                let [low, high] = crc.to_le_bytes();
-                [0xC1 | (unused & 7) << 2, low, high, 0, 0, 0, 0, 0]
-            }
-            Self::Unknown => [0xE0, 0, 0, 0, 0, 0, 0, 0],
+            Self::EndBlockDownload { unused, crc } => fields::end_frame(unused, crc),
+            Self::Unknown => short(0xE0, [0, 0]),
         }
     }
 }

@@ -26,7 +26,7 @@ fn faults_raise_errors_with_alarms_and_warnings_and_are_counted() {
     bench.encoder.set_fault(Fault::Watchdog, true);
     bench.with(|encoder, cx| encoder.tick(cx));
     let error = |code, register, info| {
-        Change::Raised(crate::emcy::Emcy {
+        Change::Raised(od_wire::emcy::Emcy {
             code,
             register,
             info,

@@ -1,0 +1,54 @@
+//! A device of an EDS or DCF text.
+
+use std::prelude::v1::*;
+
+use od_eds::{Finding, Tables};
+use od_runtime::{NodeId, Profile};
+
+use crate::device::{Behaviour, VirtualDevice, roomy};
+use crate::source::Source;
+
+/// Choices that an EDS file leaves open.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct EdsOptions {
+    /// The node ID; `None`: the one of the DCF, else 1.
+    pub node_id: Option<NodeId>,
+    /// Runs what can be run of a text with errors.
+    pub lenient: bool,
+}
+
+impl VirtualDevice {
+    /// A device of an EDS or DCF text: CiA 301 to the letter, and an encoder behind it where
+    /// there is a position (6004h).
+    ///
+    /// # Errors
+    /// The diagnostics, if one of them is an error and `options` is not lenient.
+    pub fn from_eds(text: &str, options: EdsOptions) -> Result<Self, Vec<Finding>> {
+        let (device, findings) = Self::read_eds(text, options);
+        device.ok_or(findings)
+    }
+
+    /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
+    pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
+        let parsed = od_eds::load(text);
+        if !options.lenient && parsed.diagnostics.iter().any(Finding::is_error) {
+            return (None, parsed.diagnostics);
+        }
+        let description = &parsed.description;
+        let commissioned = description.commissioned_node_id().and_then(NodeId::new);
+        let node_id = options.node_id.or(commissioned).unwrap_or(NodeId::ONE);
+        let product = description
+            .section("DeviceInfo")
+            .and_then(|info| info.get("ProductName"));
+        let title = product.map(|name| name.value.trim().to_owned());
+        let tables = Tables::new(description);
+        let behaviour = Behaviour::of(tables.dictionary());
+        let title = title
+            .filter(|title| !title.is_empty())
+            .unwrap_or_else(|| "EDS device".into());
+        let source = Source::Loaded(Box::new(tables));
+        let node = roomy(node_id);
+        let device = Self::build(title, source, behaviour, &Profile::CIA301, node);
+        (Some(device), parsed.diagnostics)
+    }
+}

@@ -1,0 +1,78 @@
+//! A node whatever its type: the bench runs those of compiled devices with their own sizes.
+
+use od_runtime::{BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, StoreTooSmall};
+use od_wire::nmt::State;
+
+/// Something that a node handles.
+pub(crate) enum Input<'f> {
+    Frame(&'f Frame),
+    Timeout,
+    Bus(BusEvent),
+    Change,
+    /// The initialisation ends at once.
+    Boot,
+}
+
+/// The functions of [`Node`] that a bench calls; see there.
+pub(crate) trait Slave {
+    fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall>;
+    fn power_off(&mut self);
+    fn handle(&mut self, device: &mut Lent<'_>, now: Instant, input: Input<'_>);
+    fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame>;
+    fn poll_timeout(&self) -> Option<Instant>;
+    fn poll_event(&mut self) -> Option<Event>;
+    fn state(&self) -> State;
+    fn node_id(&self) -> NodeId;
+    fn is_powered(&self) -> bool;
+    fn is_bus_off(&self) -> bool;
+}
+
+impl<D: Device, const PDO: usize, const SDO: usize> Slave for Node<D, PDO, SDO> {
+    /// A file may ask for more than the node serves: a second SDO server, say. What a compiled
+    /// device has fits its node, or it would not compile.
+    fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall> {
+        self.power_on_partly(device, now)
+    }
+
+    fn power_off(&mut self) {
+        self.power_off();
+    }
+
+    fn handle(&mut self, device: &mut Lent<'_>, now: Instant, input: Input<'_>) {
+        match input {
+            Input::Frame(frame) => self.handle_frame(device, now, frame),
+            Input::Timeout => self.handle_timeout(device, now),
+            Input::Bus(event) => self.handle_bus(device, now, event),
+            Input::Change => self.handle_change(device, now),
+            Input::Boot => self.boot_at_once(device, now),
+        }
+    }
+
+    fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
+        self.poll_transmit(device, now)
+    }
+
+    fn poll_timeout(&self) -> Option<Instant> {
+        self.poll_timeout()
+    }
+
+    fn poll_event(&mut self) -> Option<Event> {
+        self.poll_event()
+    }
+
+    fn state(&self) -> State {
+        self.state()
+    }
+
+    fn node_id(&self) -> NodeId {
+        self.node_id()
+    }
+
+    fn is_powered(&self) -> bool {
+        self.is_powered()
+    }
+
+    fn is_bus_off(&self) -> bool {
+        self.is_bus_off()
+    }
+}

@@ -1,0 +1,90 @@
+//! Up to seven bytes of a value: what segments of both directions carry.
+
+use super::fields::{toggle, toggled};
+
+/// A segment of a segmented transfer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Segment {
+    /// Toggle bit.
+    pub toggle: bool,
+    /// The bytes; `len` of them count.
+    pub data: [u8; 7],
+    /// Number of bytes, 0 to 7.
+    pub len: u8,
+    /// No more segments follow.
+    pub last: bool,
+}
+
+impl Segment {
+    /// The segment at the head of `rest`, the bytes of the value that are left.
+    pub fn first_of(rest: &[u8], toggle: bool) -> Self {
+        let len = rest.len().min(7);
+        let mut data = [0; 7];
+        data[..len].copy_from_slice(&rest[..len]);
+        Self {
+            toggle,
+            data,
+            len: len as u8,
+            last: len == rest.len(),
+        }
+    }
+
+    /// Returns the bytes that count.
+    pub fn bytes(&self) -> &[u8] {
+        &self.data[..usize::from(self.len.min(7))]
+    }
+
+    pub(super) const fn parse(frame: &[u8; 8]) -> Self {
+        let [command, data @ ..] = *frame;
+        Self {
+            toggle: toggle(frame),
+            data,
+            len: 7 - (command >> 1 & 7),
+            last: command & 1 != 0,
+        }
+    }
+
+    pub(super) fn emit(self) -> [u8; 8] {
+        let [a, b, c, d, e, f, g] = self.data;
+        let command = toggled(self.toggle) | (7 - self.len.min(7)) << 1 | u8::from(self.last);
+        [command, a, b, c, d, e, f, g]
+    }
+}
+
+/// The frame of segment `sequence` of a block, 1 to 127, with the head of `rest`, the bytes of the
+/// value that are left. The last segment of all has bit 7 set.
+pub fn block_segment(sequence: u8, rest: &[u8], last: bool) -> [u8; 8] {
+    let [_, a, b, c, d, e, f, g] = Segment::first_of(rest, false).emit();
+    [sequence | u8::from(last) << 7, a, b, c, d, e, f, g]
+}
+
+/// Segments of a block transfer that carry `len` bytes; an empty value needs one.
+pub const fn block_segments(len: usize) -> usize {
+    if len == 0 { 1 } else { len.div_ceil(7) }
+}
+
+/// Bytes of the last segment of a block transfer that are no data, 0 to 7, for a value of `len`
+/// bytes.
+pub const fn unused(len: usize) -> u8 {
+    (block_segments(len) * 7 - len) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_segment_has_what_the_others_leave() {
+        for (len, segments, rest) in [(0, 1, 7), (1, 1, 6), (7, 1, 0), (8, 2, 6), (14, 2, 0)] {
+            assert_eq!(
+                (block_segments(len), unused(len)),
+                (segments, rest),
+                "{len}"
+            );
+        }
+        let segment = Segment::first_of(&[1, 2, 3, 4, 5, 6, 7, 8], true);
+        assert!(!segment.last && segment.bytes() == [1, 2, 3, 4, 5, 6, 7]);
+        assert!(Segment::first_of(&[1], true).last);
+        assert_eq!(block_segment(2, &[9, 8], true), [0x82, 9, 8, 0, 0, 0, 0, 0]);
+    }
+}
