@@ -4,7 +4,7 @@
 //! `DECISIONS.md`, parts A and E, where it contradicts itself or is silent. The
 //! dictionary says what the objects are; the two profiles here say what the manual has
 //! the family do differently from CiA 301 and CiA 406. What the eight devices do
-//! differently from each other is in their dictionaries alone.
+//! differently from each other is in their dictionaries only.
 
 use odkit::encoder::{EncoderProfile, Fault, Options, Report, Role, Total};
 use odkit::{
@@ -125,7 +125,7 @@ pub(crate) const fn kind(
     }
 }
 
-/// What the services do differently: chapters 4.3.3 to 4.3.6, objects 1010h to 2801h.
+/// Deviations of the services from CiA 301: chapters 4.3.3 to 4.3.6, objects 1010h to 2801h.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // Requests without their unused bytes are answered too (C-GX-15).
@@ -136,7 +136,7 @@ pub static PROFILE: Profile = Profile {
             too_long: None,
             too_short: AbortCode::General,
         },
-        // The list of commands has the expedited ones alone.
+        // The list of commands has the expedited ones only.
         segmented_upload: false,
         segmented_download: false,
         block: false,
@@ -201,7 +201,7 @@ pub static PROFILE: Profile = Profile {
         reset_communication_us: 0,
         reset_communication: CommunicationReset::Communication,
         self_start: None,
-        // 2110h bit 10: reset node begins the NMT state anew.
+        // 2110h bit 10: reset node restarts the NMT state only.
         reset_node_light: Some((0x2110, 1 << 10)),
     },
     errors: ERRORS,
@@ -235,7 +235,7 @@ pub(crate) const ERRORS: ErrorProfile = ErrorProfile {
     },
 };
 
-/// How the encoder works: chapters 4.3.5, 4.4.2 and 7.2.
+/// Encoder profile: chapters 4.3.5, 4.4.2 and 7.2.
 pub static ENCODER: EncoderProfile = EncoderProfile {
     // 6501h and 6502h describe the sensor; 6502h is in steps, not revolutions.
     sensor: None,
@@ -262,7 +262,7 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
         ..Options::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
-    // Chapter 7.2.2: not the codes of 2100h, there is no 100 kbit/s (C-GX-35).
+    // Chapter 7.2.2: not the codes of 2100h; 100 kbit/s is not supported (C-GX-35).
     switch_rates: &[10, 20, 50, 125, 250, 500, 800, 1000],
     // Bits of 1001h: U-08.
     reports: &[

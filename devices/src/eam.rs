@@ -69,7 +69,7 @@ pub(crate) const fn kind(
     }
 }
 
-/// What the services do differently: chapters 5 to 11.
+/// Deviations of the services from CiA 301: chapters 5 to 11.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // U-37.
@@ -192,14 +192,14 @@ const BASE: EncoderProfile = EncoderProfile {
     sensor: Some(SENSOR),
     // U-34.
     unscaled_steps: Some(0x4000),
-    // With 4 steps a revolution the range has 2^30 revolutions; half of them are the limit
+    // With 4 steps per revolution the range has 2^30 revolutions; half of them are the limit
     // that chapter 4.4.6 names for turning without power.
     counter: Counter::Kept { turns: 1 << 30 },
     // 6502h follows 6001h and 6002h (C-EAM-17), and 6002h goes by powers of two (C-EAM-18).
     total: Total::Shown,
     range_rule: RangeRule::PowerOfTwo,
     signed_offset: true,
-    // 6002h = 0 stands for 2^32 steps.
+    // 6002h = 0 means 2^32 steps.
     zero_is_full: true,
     operating_bits: 0x0005,
     // Chapter 4.4.6; C-X-06.
@@ -252,7 +252,7 @@ const BASE: EncoderProfile = EncoderProfile {
         ..Options::NONE
     }),
     bit_rates: &[10, 20, 50, 100, 125, 250, 500, 800, 1000],
-    // There are no switches.
+    // The device has no switches.
     switch_rates: &[],
     reports: eam_diagnosis::SINGLE,
     // 6504h and 6506h do not have all the bits that chapter 9.5 sets (C-EAM-09, C-EAM-10).
@@ -270,10 +270,10 @@ const fn speed(sources: &'static [(u8, Source)]) -> Role {
     })
 }
 
-/// How the multiturn encoder works: chapters 4.4, 9 and 12.3.
+/// Encoder profile of the multiturn encoder: chapters 4.4, 9 and 12.3.
 pub static ENCODER: EncoderProfile = BASE;
 
-/// How the singleturn encoder works: it counts revolutions as long as it has power, and the
+/// Encoder profile of the singleturn encoder: it counts revolutions as long as it has power, and the
 /// gear with them (chapter 4.4.6).
 pub static SINGLETURN: EncoderProfile = EncoderProfile {
     sensor: Some(Sensor { turns: 1, ..SENSOR }),
@@ -281,7 +281,7 @@ pub static SINGLETURN: EncoderProfile = EncoderProfile {
     ..BASE
 };
 
-/// How one channel of the redundant encoder works (chapter 9.2).
+/// Encoder profile of one channel of the redundant encoder (chapter 9.2).
 pub static REDUNDANT: EncoderProfile = EncoderProfile {
     gear: None,
     reports: eam_diagnosis::REDUNDANT,

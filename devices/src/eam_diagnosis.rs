@@ -1,8 +1,8 @@
-//! What an EAM notices of itself and how it says so: manual 001, chapter 9.5.
+//! Self-diagnosis of the EAM: manual 001, chapter 9.5.
 //!
 //! The two designs see different things: a redundant channel watches its multiturn sensor
 //! more closely, and looks at its battery only while power is off (chapter 4.5). The codes
-//! are those of object 2116h:01; the rows stand in the order of the manual's table.
+//! are those of object 2116h:01; the rows are in the order of the manual's table.
 
 use odkit::encoder::{Appears, Fault, Mirror, Report, Role, Until};
 
@@ -28,7 +28,7 @@ const fn shows(from: u16, bit: u8, shown: u8) -> Mirror {
     Mirror { from, bit, shown }
 }
 
-/// What is found at the start: an alarm, and with it an error.
+/// A fault that is detected at the start: an alarm, and an error.
 const fn alarm(fault: Fault, code: u16, alarm: u16, until: Until, injection: u32) -> Report {
     Report {
         fault,
@@ -42,7 +42,7 @@ const fn alarm(fault: Fault, code: u16, alarm: u16, until: Until, injection: u32
     }
 }
 
-/// What is found while the encoder runs: a warning.
+/// A fault that is detected at run time: a warning.
 const fn warning(fault: Fault, code: u16, warning: u16, until: Until, injection: u32) -> Report {
     Report {
         fault,
@@ -62,7 +62,7 @@ const TEMPERATURE: Report = Report {
 const MEMORY_AT_START: Report = alarm(Fault::Memory, 0x5100, 0x0003, Until::Reboot, 0x0001_0024);
 /// C-EAM-26.
 const MEMORY: Report = warning(Fault::Memory, 0x5100, 0x0008, Until::Reboot, 0x0008_0024);
-/// Known after the restart alone (C-EAM-35).
+/// Known only after the restart (C-EAM-35).
 const WATCHDOG: Report = Report {
     appears: Appears::Always,
     ..warning(Fault::Watchdog, 0x6100, 0x0004, Until::Reboot, 0x0008_0025)

@@ -42,7 +42,7 @@ pub(crate) const fn kind(name: &'static str, title: &'static str) -> DeviceKind 
     }
 }
 
-/// What the services do differently: chapter 5.1.
+/// Deviations of the services from CiA 301: chapter 5.1.
 pub static PROFILE: Profile = Profile {
     sdo: SdoProfile {
         // U-37.
@@ -121,7 +121,7 @@ pub static PROFILE: Profile = Profile {
     errors: crate::bus_cover::ERRORS,
 };
 
-/// How the encoder works: chapters 5.1.12, 5.2 and 6.
+/// Encoder profile: chapters 5.1.12, 5.2 and 6.
 pub static ENCODER: EncoderProfile = EncoderProfile {
     // 6501h says 2^24, of which 21 bits are used (C-EN-06, C-EN-07).
     sensor: Some(Sensor {
@@ -221,5 +221,5 @@ pub static ENCODER: EncoderProfile = EncoderProfile {
     ..EncoderProfile::CIA406
 };
 
-/// What 6031h:01 and 6041h:01 select.
+/// Sources that 6031h:01 and 6041h:01 select.
 const SOURCES: &[(u8, Source)] = &[(1, Source::Position), (2, Source::Raw)];

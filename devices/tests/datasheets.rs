@@ -61,7 +61,7 @@ fn a_page_has_every_value_and_what_is_particular_to_the_device() {
                 "rotary for the node ID",
                 !kind.encoder.switch_rates.is_empty(),
             ),
-            ("2 nodes on one shaft", kind.name == "eam_red"),
+            ("2 nodes with one shaft", kind.name == "eam_red"),
             ("| injected by |", kind.family == "eam"),
             (
                 "`battery-low`",

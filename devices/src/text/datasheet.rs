@@ -28,7 +28,7 @@ pub fn page(kind: &DeviceKind) -> String {
     section(&mut page, "Services", &["", ""], &services::facts(kind));
     let faults = encoder::faults(kind);
     let head = encoder::fault_head(kind);
-    section(&mut page, "What can break", &head, &faults);
+    section(&mut page, "Faults", &head, &faults);
     page.push_str("\n## Objects\n\n");
     page.push_str(&objects(kind.dictionary, |address| {
         notes::note(kind, address)

@@ -1,4 +1,4 @@
-//! What the encoder does, by its profile.
+//! Facts about the encoder, from its profile.
 
 use std::format;
 use std::prelude::v1::*;
@@ -13,7 +13,13 @@ use odkit::{Address, DeviceKind};
 /// The columns of [`faults`].
 pub(super) fn fault_head(kind: &DeviceKind) -> Vec<&'static str> {
     let mut head = [
-        "`fault`", "EMCY", "1001h", "6503h", "6505h", "seen", "until",
+        "`fault`",
+        "EMCY",
+        "1001h",
+        "6503h",
+        "6505h",
+        "detected",
+        "active until",
     ]
     .to_vec();
     if kind.encoder.object(Role::InjectedError).is_some() {
@@ -32,23 +38,26 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     };
     facts.push(fact(
         "Sensor",
-        format!("{} steps a revolution, {turns}", sensor.steps),
+        format!("{} steps per revolution, {turns}", sensor.steps),
     ));
     if let Some(steps) = profile.unscaled_steps {
         facts.push(fact(
             "With scaling off",
-            format!("{steps} steps a revolution"),
+            format!("{steps} steps per revolution"),
         ));
     }
     if kind.channels > 1 {
         facts.push(fact(
             "Channels",
-            format!("{} nodes on one shaft and one supply", kind.channels),
+            format!(
+                "{} nodes with one shaft and one power supply",
+                kind.channels
+            ),
         ));
     }
     let range = match profile.range_rule {
-        RangeRule::Sensor => "1 to what the sensor tells apart",
-        RangeRule::PowerOfTwo => "6001h times a power of two; 0 is 2^32",
+        RangeRule::Sensor => "1 to the resolution of the sensor",
+        RangeRule::PowerOfTwo => "6001h times a power of two; 0 means 2^32",
         RangeRule::Turns => "at most 6001h times the revolutions of the sensor",
     };
     facts.push(fact("Total range (6002h)", range));
@@ -59,12 +68,15 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
     };
     facts.push(fact("6502h", total));
     let counter = match profile.counter {
-        _ if sensor.turns == 1 => "the angle is known, revolutions are not counted".to_owned(),
-        Counter::Sensor => "whole ranges of the sensor are not noticed".to_owned(),
+        _ if sensor.turns == 1 => "the angle is kept, revolutions are not counted".to_owned(),
+        Counter::Sensor => "whole ranges of the sensor are not counted".to_owned(),
         Counter::Kept { turns } => {
-            format!("up to {} revolutions either way are noticed", turns / 2)
+            format!(
+                "up to {} revolutions in either direction are counted",
+                turns / 2
+            )
         }
-        Counter::Volatile => "revolutions are not noticed".to_owned(),
+        Counter::Volatile => "revolutions are not counted".to_owned(),
     };
     facts.push(fact("Without power", counter));
     let offset = if profile.signed_offset {
@@ -77,13 +89,10 @@ pub(super) fn facts(kind: &DeviceKind) -> Vec<Vec<String>> {
         && kind.dictionary.entry(gear.index, 1).is_some()
     {
         let what = match gear.kind {
-            GearKind::Position => "divides the position; acts after save and restart",
-            GearKind::Output => "6002h is one revolution of its output; acts at once",
+            GearKind::Position => "divides the position value; takes effect after save and restart",
+            GearKind::Output => "6002h is one revolution of its output; takes effect immediately",
         };
-        let text = format!(
-            "{:04X}h:01 = {} switches it on; {what}",
-            gear.index, gear.on
-        );
+        let text = format!("{:04X}h:01 = {} enables it; {what}", gear.index, gear.on);
         facts.push(fact("Electronic gear", text));
     }
     for (address, movement) in profile.movements() {
@@ -128,14 +137,14 @@ fn row(report: &Report, columns: usize) -> Vec<String> {
         bits => format!("{bits:04X}h"),
     };
     let seen = match (report.appears, report.off_ms) {
-        (Appears::Always, _) => "as it comes".to_owned(),
+        (Appears::Always, _) => "immediately".to_owned(),
         (Appears::Startup, 0) => "at the start".to_owned(),
         (Appears::Startup, ms) => format!("at a start after {} s without power", ms / 1000),
         (Appears::Runtime, _) => "at run time".to_owned(),
         (Appears::Injected, _) => "injected".to_owned(),
     };
     let until = match report.until {
-        Until::Repaired => "mended",
+        Until::Repaired => "fault cleared",
         Until::Reboot => "next start",
         Until::Ever => "never",
     };

@@ -35,7 +35,7 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
     match (address.index, address.sub) {
         (0x1010, 1..) => "\"save\": 65766173h".into(),
         (0x1011, 1..) => "\"load\": 64616F6Ch".into(),
-        (0x1800 | 0x1801, 2) => format!("takes {}", services::types(kind.profile.pdo.tpdo_types)),
+        (0x1800 | 0x1801, 2) => format!("accepts {}", services::types(kind.profile.pdo.tpdo_types)),
         (0x1800, 5) | (0x6200, 0) if kind.dictionary.entry(0x6200, 0).is_some() => {
             let twin = if address.sub == 5 {
                 "6200h"
@@ -52,17 +52,17 @@ pub(super) fn note(kind: &DeviceKind, address: Address) -> String {
 fn note_of(role: &Role, encoder: &EncoderProfile) -> Option<String> {
     Some(match role {
         Role::OneOf(list) => takes(list.iter()),
-        Role::NodeId => "acts at the next start".into(),
+        Role::NodeId => "takes effect at the next start".into(),
         Role::BitRate => {
             let codes = encoder.bit_rates.iter().enumerate();
             let known = codes.filter(|(_, rate)| **rate != 0);
             let takes = takes(known.map(|(code, _)| code));
-            format!("{takes}; acts at the next start")
+            format!("{takes}; takes effect at the next start")
         }
-        Role::InjectedError => "takes the codes of the table above; 0 ends them".into(),
+        Role::InjectedError => "accepts the codes of the table above; 0 clears them".into(),
         Role::Seconds => "seconds over the device's life".into(),
         Role::SecondsSinceStart => "seconds since the last start".into(),
-        Role::Cycles => "how often power came".into(),
+        Role::Cycles => "number of power-ons".into(),
         Role::TimeStamp => "microseconds, modulo 65536".into(),
         Role::RawPosition => "of the sensor, modulo 2^32".into(),
         _ => return None,
@@ -72,5 +72,5 @@ fn note_of(role: &Role, encoder: &EncoderProfile) -> Option<String> {
 /// The values that an object takes.
 fn takes(numbers: impl Iterator<Item = impl ToString>) -> String {
     let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
-    format!("takes {}", numbers.join(", "))
+    format!("accepts {}", numbers.join(", "))
 }

@@ -1,4 +1,4 @@
-//! What the services do, by the profile.
+//! Facts about the services, from the profile.
 
 use std::format;
 use std::prelude::v1::*;
@@ -31,17 +31,18 @@ fn sdo(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         (true, true, true) => "expedited, segmented, block",
     };
     let lengths = match sdo.min_dlc {
-        8 => "requests have eight bytes".to_owned(),
-        least => format!("requests have {least} to 8 bytes"),
+        8 => "requests need eight bytes".to_owned(),
+        least => format!("requests need {least} to 8 bytes"),
     };
     facts.push(fact("SDO server", format!("{transfers}; {lengths}")));
     let wrong = match sdo.length.too_long {
-        None => "too much data counts with its low bytes".to_owned(),
-        Some(code) => format!("wrong lengths are {:08X}h", code.code()),
+        None => "of too many bytes the low ones are used".to_owned(),
+        Some(code) => format!("a wrong length gives {:08X}h", code.code()),
     };
     let below = sdo.below_limit.code();
-    let refusals = format!("{wrong}; above a limit is 06090031h, below it {below:08X}h");
-    facts.push(fact("Refusals", refusals));
+    let refusals =
+        format!("{wrong}; a value above the limit gives 06090031h, below it {below:08X}h");
+    facts.push(fact("Abort codes", refusals));
 }
 
 fn pdo(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
@@ -74,7 +75,7 @@ pub(super) fn types(ranges: &[(u8, u8)]) -> String {
 fn nmt(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     let nmt = &kind.profile.nmt;
     let millis = |micros: u32| match micros {
-        0 => "at once".to_owned(),
+        0 => "immediately".to_owned(),
         micros => format!("boot-up after {} ms", micros / 1000),
     };
     facts.push(fact(
@@ -82,8 +83,10 @@ fn nmt(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         millis(nmt.reset_node_us),
     ));
     let lost = match nmt.reset_communication {
-        CommunicationReset::Communication => "takes back 1000h–1FFFh, node ID and bit rate",
-        CommunicationReset::Everything => "takes back all that was not saved",
+        CommunicationReset::Communication => {
+            "discards unsaved values of 1000h–1FFFh, node ID and bit rate"
+        }
+        CommunicationReset::Everything => "discards all unsaved values",
     };
     let duration = millis(nmt.reset_communication_us);
     facts.push(fact(
@@ -91,7 +94,7 @@ fn nmt(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         format!("{duration}; {lost}"),
     ));
     if let Some((index, _)) = nmt.self_start {
-        facts.push(fact("Starts by itself", format!("as {index:04X}h says")));
+        facts.push(fact("Self-start", format!("set by {index:04X}h")));
     }
     let control = match kind.profile.guarding_switch {
         Some((index, bits)) => format!(
@@ -110,18 +113,18 @@ fn nmt(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
 fn store(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     let store = &kind.profile.store;
     let answer = match (store.answer, store.duration_us / 1000) {
-        (_, 0) => "at once".to_owned(),
-        (SaveAnswer::AtOnce, ms) => format!("answered at once, stored within {ms} ms"),
-        (SaveAnswer::AfterStoring, ms) => format!("answered when stored, after {ms} ms"),
+        (_, 0) => "immediately".to_owned(),
+        (SaveAnswer::AtOnce, ms) => format!("confirmed immediately, saved within {ms} ms"),
+        (SaveAnswer::AfterStoring, ms) => format!("confirmed when saved, after {ms} ms"),
     };
     let cut = match store.cut {
-        CutSave::LastSet => "a cut save leaves the last set",
-        CutSave::Factory => "a cut save leaves the factory values",
+        CutSave::LastSet => "an interrupted save leaves the last saved values",
+        CutSave::Factory => "an interrupted save leaves the factory values",
     };
     facts.push(fact("Save (1010h)", format!("{answer}; {cut}")));
     let restore = match store.restore {
-        Restore::AtOnce => "acts at once",
-        Restore::AfterReset => "acts after a reset",
+        Restore::AtOnce => "takes effect immediately",
+        Restore::AfterReset => "takes effect after a reset",
     };
     facts.push(fact("Restore (1011h)", restore));
     let cob_ids = match store.cob_ids {
@@ -136,7 +139,7 @@ fn lss(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         return;
     };
     let mut services = String::from(
-        "switch state (global, selective), inquire identity, configure node ID and bit timing, \
+        "switch state (global, selective), inquire LSS address, configure node ID and bit timing, \
          activate, store",
     );
     for (has, service) in [
@@ -151,7 +154,7 @@ fn lss(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         }
     }
     let when = if lss.stopped_only {
-        "; in Stopped alone"
+        "; in Stopped only"
     } else {
         ""
     };
@@ -175,7 +178,7 @@ fn bit_rates(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     if !encoder.switch_rates.is_empty() {
         let rates = list(encoder.switch_rates);
         let switches = format!(
-            "rotary for the node ID, 1–99; with 0 the objects rule. DIP for the bit rate, in \
+            "rotary for the node ID, 1–99; 0: the objects set it. DIP for the bit rate, in \
              kbit/s: {rates}"
         );
         facts.push(fact("Switches", switches));
@@ -193,10 +196,10 @@ fn errors(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         facts.push(fact("Error behaviour", rules.join(", ")));
     }
     let notices = [
-        ("lost master", Some(errors.lost)),
+        ("life guarding or heartbeat error", Some(errors.lost)),
         ("bus warning", errors.bus_warning),
         ("error passive", errors.bus_passive),
-        ("back from bus-off", errors.bus_recovered),
+        ("recovered from bus-off", errors.bus_recovered),
         ("lost frames", errors.overrun),
     ];
     let known = notices.iter().filter_map(|(name, notice)| {
@@ -209,7 +212,7 @@ fn errors(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     ));
 }
 
-/// What bits of the manufacturer's options do.
+/// Meaning of the bits of the manufacturer's options.
 fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
     let profile = kind.profile;
     let mut bits: Vec<(u16, u32, &str)> = Vec::new();
@@ -222,20 +225,17 @@ fn options(kind: &DeviceKind, facts: &mut Vec<Vec<String>>) {
         profile.guarding_switch,
         "node guarding in place of heartbeat",
     );
-    add(profile.pdo.sync_only, "synchronous PDOs alone");
-    add(profile.nmt.self_start, "starts by itself");
+    add(profile.pdo.sync_only, "synchronous PDOs only");
+    add(profile.nmt.self_start, "self-start");
     add(profile.nmt.reset_node_light, "reset node keeps the values");
-    add(
-        profile.errors.off.restart,
-        "the bus begins anew after bus-off",
-    );
+    add(profile.errors.off.restart, "restarts after bus-off");
     if let Some(options) = &kind.encoder.options {
         let at = |mask| Some((options.index, mask));
         add(at(options.keep_offset), "a new resolution keeps the offset");
-        add(at(options.delay_timer), "1800h:05 is later than 6200h");
+        add(at(options.delay_timer), "1800h:05 is 6200h plus a delay");
         add(
             at(options.ignore_sense),
-            "speed and acceleration without the sense of rotation",
+            "speed and acceleration without a sign",
         );
     }
     bits.sort_by_key(|(index, mask, _)| (*index, mask.trailing_zeros()));
