@@ -5,10 +5,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "E0208",
     severity: Error,
     title: "sub-index without its object",
-    why: "The section of the object itself says its code and name. The members are kept in an object without a name.",
+    why: "A tool that reads the object finds neither its name nor its object code. odkit keeps the sub-objects in an object without a name.",
     source: "CiA 306-1, object sections",
-    says: "there is no section [{object:04X}] for this member",
-    help: "write a section [{object:04X}] with `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
+    says: "section [{object:04X}] of this sub-object is missing",
+    help: "add a section [{object:04X}] with `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
     ..Rule::NEW
 };
 

@@ -4,11 +4,11 @@ use crate::scan::placed::Placed;
 pub(crate) static RULE: Rule = Rule {
     code: "I0211",
     severity: Info,
-    title: "section is none of CiA 306",
-    why: "It is kept, and nothing reads it. Tools put their own notes into sections; a slip in the name of an object hides the object.",
+    title: "section is not defined in CiA 306",
+    why: "A typo in the name of an object hides the object. odkit keeps the section and ignores it; some tools store notes in sections of their own.",
     source: "CiA 306-1, file format",
-    says: "[{name}] is no section of CiA 306",
-    help: "it is kept; if an object is meant, write `[2000]` or `[2000sub1]`",
+    says: "[{name}] is not a section of CiA 306",
+    help: "write `[2000]` or `[2000sub1]` if an object is meant",
     ..Rule::NEW
 };
 

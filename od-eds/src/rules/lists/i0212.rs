@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "I0212",
     severity: Info,
     title: "section name is not written as `1018` or `1018sub2`",
-    why: "Four hexadecimal digits, and behind `sub` as many as it takes. Other ways are read the same; many readers do not see the object.",
+    why: "Many tools do not find the object. odkit reads it. An index has four hexadecimal digits, a sub-index no leading 0.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    says: "[{name}] is read as [{right}]",
+    says: "odkit reads [{name}] as [{right}]",
     help: "write `[{right}]`",
     ..Rule::NEW
 };

@@ -6,11 +6,11 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0201",
     severity: Warning,
     title: "listed object has no section",
-    why: "A master that trusts the lists fails where the section is missing. The object is taken not to exist.",
+    why: "A master that trusts the lists fails at the missing section. odkit ignores the entry.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Unsafe,
-    says: "{object} is listed, but there is no section [{object:04X}]",
-    help: "write the section, or remove the entry",
+    says: "{object} is listed, but section [{object:04X}] is missing",
+    help: "add the section, or remove the entry",
     ..Rule::NEW
 };
 

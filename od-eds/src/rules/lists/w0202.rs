@@ -5,10 +5,10 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0202",
     severity: Warning,
-    title: "object is in no list",
-    why: "A reader that follows the lists does not see the object. It is taken to exist.",
+    title: "object is missing from the lists",
+    why: "A tool that follows the lists does not find the object. odkit keeps it.",
     source: "CiA 306-1, object lists",
-    says: "{object} is in no list",
+    says: "{object} is missing from the object lists",
     help: "add `0x{object:04X}` to [{list}]",
     ..Rule::NEW
 };

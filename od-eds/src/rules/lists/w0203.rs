@@ -3,10 +3,10 @@ use crate::finding::{Finding, Rule, Severity::Warning};
 pub(crate) static RULE: Rule = Rule {
     code: "W0203",
     severity: Warning,
-    title: "file has no object lists",
-    why: "A reader that follows the lists sees no objects. Every section is taken for an object.",
+    title: "object lists are missing or empty",
+    why: "A tool that follows the lists finds no objects. odkit reads the section of every object.",
     source: "CiA 306-1, object lists",
-    says: "no object is listed",
+    says: "the object lists are missing or empty",
     help: "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]",
     ..Rule::NEW
 };

@@ -9,19 +9,19 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0204",
     severity: Warning,
-    title: "SupportedObjects does not count its list",
-    why: "Many readers read as many entries as it says and no more. All entries are read.",
+    title: "SupportedObjects does not match its list",
+    why: "Many tools read only as many entries as SupportedObjects says. odkit reads all entries.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    says: "SupportedObjects is {given}, but the list has {found} entries",
+    says: "SupportedObjects is {given}, but the list has {found:entry|entries}",
     help: "write `SupportedObjects={found}`",
     also: &[MISSING],
     ..Rule::NEW
 };
 
-/// What a list without SupportedObjects says.
+/// Sentence for a list without SupportedObjects.
 const MISSING: Form = Form {
-    says: "there is no SupportedObjects",
+    says: "SupportedObjects is missing",
     ..Form::OWN
 };
 

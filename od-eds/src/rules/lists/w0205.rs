@@ -6,11 +6,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0205",
     severity: Warning,
-    title: "list entry is no index",
-    why: "An entry is a number and an index, as in `1=0x1000`. It is ignored.",
+    title: "list entry is not valid",
+    why: "A tool does not find the object, or stops. odkit ignores the entry. An entry is a number and an index, as in `1=0x1000`.",
     source: "CiA 306-1, object lists",
-    says: "`{entry}` lists no object",
-    help: "write a number and an index, for example `1=0x1000`",
+    says: "`{entry}` is not a valid list entry",
+    help: "write a number and an index, such as `1=0x1000`",
     ..Rule::NEW
 };
 

@@ -6,7 +6,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0206",
     severity: Warning,
     title: "object is in the wrong list",
-    why: "2000h–5FFFh belong to [ManufacturerObjects], the mandatory three to [MandatoryObjects], all others to [OptionalObjects].",
+    why: "A tool that reads only one list misses the object. 2000h to 5FFFh belong to [ManufacturerObjects], 1000h, 1001h and 1018h to [MandatoryObjects], all others to [OptionalObjects].",
     source: "CiA 306-1, object lists",
     says: "{object} belongs to [{right}], not to [{wrong}]",
     help: "move the entry to [{right}]",

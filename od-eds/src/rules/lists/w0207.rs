@@ -6,10 +6,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0207",
     severity: Warning,
     title: "object is listed twice",
-    why: "One entry is enough; some editors make two objects of two.",
+    why: "Some tools create two objects. odkit ignores the second entry.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    says: "{object} is listed twice",
+    says: "duplicate entry for {object}",
     help: "remove one of the entries",
     ..Rule::NEW
 };
@@ -18,6 +18,6 @@ pub(crate) static RULE: Rule = Rule {
 pub(crate) fn finding(entry: Span, index: u16, first: Span) -> Finding {
     RULE.at(entry)
         .index(index)
-        .related(first, "it is listed here")
+        .related(first, "first listed here")
         .fix(Fix::safe().remove_line(entry))
 }

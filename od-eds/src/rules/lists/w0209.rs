@@ -5,10 +5,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0209",
     severity: Warning,
     title: "compact section without CompactSubObj",
-    why: "[xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. The section is kept, and nothing reads it.",
+    why: "A tool ignores the names and values in the section. [xxxxName], [xxxxValue] and [xxxxDenotation] belong to an object with CompactSubObj. odkit keeps the section and ignores it.",
     source: "CiA 306-1, CompactSubObj",
-    says: "[{name}] belongs to an object with {CompactSubObj}",
-    help: "write `{CompactSubObj=}` and the number of members in [{object:04X}], or remove the section",
+    says: "[{name}] needs an object with {CompactSubObj}",
+    help: "write `{CompactSubObj=}` and the number of sub-objects in [{object:04X}], or remove the section",
     ..Rule::NEW
 };
 

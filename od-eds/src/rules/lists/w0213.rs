@@ -7,16 +7,16 @@ use crate::scan::placed::Placed;
 pub(crate) static RULE: Rule = Rule {
     code: "W0213",
     severity: Warning,
-    title: "section name is nearly one of CiA 306",
-    why: "It looks like a slip. The section is kept, and nothing reads it.",
+    title: "section name is probably misspelled",
+    why: "A tool ignores the section. odkit keeps it and ignores it.",
     source: "CiA 306-1, file format",
     fixability: Fixability::Unsafe,
-    says: "there is no section [{name}] in CiA 306",
-    help: "write `[{meant}]`, if that is meant",
+    says: "[{name}] is not a section of CiA 306",
+    help: "write `[{meant}]` if this section is meant",
     ..Rule::NEW
 };
 
-/// The finding about a section that is likely a slip for another.
+/// The finding about a section whose name is probably misspelled.
 pub(crate) fn finding(section: &Placed<'_>, meant: &str) -> Finding {
     RULE.at(section.header)
         .fact("name", &*section.name.value)

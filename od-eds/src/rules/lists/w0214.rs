@@ -6,12 +6,12 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0214",
     severity: Warning,
-    title: "number of a list stands twice",
-    why: "Readers that ask for each number miss one of the two. Both entries are read.",
+    title: "duplicate number in a list",
+    why: "A tool that asks for each number misses one of the two entries. odkit reads both.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    says: "the number {number} stands twice",
-    help: "number the entries from 1 without gaps",
+    says: "duplicate entry number {number}",
+    help: "number the entries 1, 2, 3 and so on",
     ..Rule::NEW
 };
 
@@ -19,6 +19,6 @@ pub(crate) static RULE: Rule = Rule {
 pub(crate) fn finding(list: &Placed<'_>, key: &Text<'_>, first: Span) -> Finding {
     RULE.at(key.span)
         .fact("number", &*key.value)
-        .related(first, "it stands here")
+        .related(first, "first used here")
         .fix(renumbered(list))
 }

@@ -6,17 +6,17 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0215",
     severity: Warning,
     title: "list of a module does not match its sections",
-    why: "A configuration tool makes the objects that the list names. Every section is read.",
+    why: "A configuration tool creates only the objects that the list names. odkit reads every section.",
     source: "CiA 306-1, modular devices",
-    says: "{object} is listed, but has no section in module {module}",
-    help: "write the section, or remove the entry",
+    says: "{object} is listed, but its section in module {module} is missing",
+    help: "add the section, or remove the entry",
     also: &[UNLISTED],
     ..Rule::NEW
 };
 
-/// What a section says that the list lacks.
+/// Sentence for a section that the list lacks.
 const UNLISTED: Form = Form {
-    says: "{object} is not in [{list}]",
+    says: "{object} is missing from [{list}]",
     help: "add `0x{object:04X}` to [{list}]",
 };
 

@@ -9,10 +9,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0242",
     severity: Warning,
     title: "list entries are not numbered 1, 2, 3",
-    why: "Many readers ask for entry 1, 2, 3 up to SupportedObjects, and miss an entry of another number. All entries are read.",
+    why: "Many tools ask for entries 1, 2, 3 up to SupportedObjects and miss an entry with another number. odkit reads all entries.",
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
-    says: "this is entry {place} of the list, and has number {number}",
+    says: "entry {place} of the list has number {number}",
     help: "number the entries 1, 2, 3 and so on",
     ..Rule::NEW
 };

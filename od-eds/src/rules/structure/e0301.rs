@@ -5,11 +5,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "E0301",
     severity: Error,
-    title: "ObjectType is no object code",
-    why: "The object code says what kind of object it is. It is guessed from what the object has.",
+    title: "ObjectType is not an object code",
+    why: "A tool cannot tell a VAR from an ARRAY or a RECORD. odkit assumes a RECORD if sub-objects exist, otherwise a VAR.",
     source: "CiA 301, object codes",
-    says: "`{given}` is no object code",
-    help: "write `0x7` for a VAR, `0x8` for an ARRAY, `0x9` for a RECORD",
+    says: "{ObjectType} `{given}` is not an object code",
+    help: "write `{ObjectType=0x7}` (VAR), `{ObjectType=0x8}` (ARRAY) or `{ObjectType=0x9}` (RECORD)",
     ..Rule::NEW
 };
 

@@ -5,10 +5,10 @@ use crate::scan::placed::Placed;
 pub(crate) static RULE: Rule = Rule {
     code: "E0303",
     severity: Error,
-    title: "object or sub-index stands twice with different content",
-    why: "Two sections for one object contradict each other; readers differ in which one they take. The first counts, with what only the other says.",
+    title: "duplicate object section with different values",
+    why: "Tools differ in which of the two sections they use. odkit uses the first, and adds what only the second says.",
     source: "CiA 306-1, object sections",
-    says: "[{name}] stands twice, and the two differ",
+    says: "duplicate section [{name}] with different values",
     help: "remove one of the sections",
     ..Rule::NEW
 };

@@ -6,17 +6,17 @@ use od_model::ObjectCode;
 pub(crate) static RULE: Rule = Rule {
     code: "E0305",
     severity: Error,
-    title: "VAR has sub-indices",
-    why: "Only an ARRAY or a RECORD has sub-indices. It is taken for a RECORD; a value of its own becomes sub-index 0 where there is none.",
+    title: "VAR or DOMAIN has sub-objects",
+    why: "A tool that trusts ObjectType misses the sub-objects. odkit assumes a RECORD, and uses the value of the VAR as sub-index 0 if that is missing.",
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
-    says: "a {code} has no sub-indices",
+    says: "{code} cannot have sub-objects",
     help: "write `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
     also: &[COMPACT],
     ..Rule::NEW
 };
 
-/// What an object with CompactSubObj says.
+/// Sentence for an object with CompactSubObj.
 const COMPACT: Form = Form {
     help: "write `{ObjectType=0x8}` (ARRAY)",
     ..Form::OWN
@@ -25,7 +25,7 @@ const COMPACT: Form = Form {
 /// The finding about members of an object that has none by its code, at the first of them.
 pub(crate) fn finding(member: Span, code: Spanned<ObjectCode>, compact: bool) -> Finding {
     let finding = RULE.at(member).fact("code", *code);
-    let finding = finding.related(code.span, "the object code is declared here");
+    let finding = finding.related(code.span, "declared as {code} here");
     let fix = |right| Fix::unsafe_fix().replace(code.span, right);
     match compact {
         true => finding.form(&COMPACT).fix(fix("0x8")),

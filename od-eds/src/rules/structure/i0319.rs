@@ -4,11 +4,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "I0319",
     severity: Info,
-    title: "key is none of CiA 306",
-    why: "It is kept, and nothing reads it.",
+    title: "key is not defined in CiA 306",
+    why: "A tool ignores the key. odkit keeps the key and ignores it.",
     source: "CiA 306-1, file format",
-    says: "`{name}` is no key of CiA 306 here",
-    help: "it is kept, and nothing reads it",
+    says: "`{name}` is not a key of CiA 306 for this section",
+    help: "correct the key, or remove the line if no tool needs it",
     ..Rule::NEW
 };
 

@@ -5,12 +5,12 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "I0320",
     severity: Info,
-    title: "field is empty",
-    why: "A number, a type or an access says nothing when it is empty. It is read as if the line were not there; many readers stop at it.",
+    title: "value is empty",
+    why: "Many tools stop at a number, a type or an access without a value. odkit treats the line as missing.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "`{name}` is empty",
-    help: "give `{name}` a value, or leave the line out",
+    help: "write a value for `{name}`, or remove the line",
     ..Rule::NEW
 };
 

@@ -5,11 +5,11 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0302",
     severity: Warning,
-    title: "object with members has no ObjectType",
-    why: "Without ObjectType an object is a VAR, and this one has members. It is taken for a RECORD.",
+    title: "object with sub-objects has no ObjectType",
+    why: "A tool assumes a VAR and misses the sub-objects. odkit assumes a RECORD.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    says: "there is no {ObjectType}, but there are members",
+    says: "{ObjectType} is missing, but sub-objects exist",
     help: "write `{ObjectType=0x9}` (RECORD) or `{ObjectType=0x8}` (ARRAY)",
     ..Rule::NEW
 };

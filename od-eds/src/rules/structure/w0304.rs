@@ -4,10 +4,10 @@ use crate::scan::placed::Placed;
 pub(crate) static RULE: Rule = Rule {
     code: "W0304",
     severity: Warning,
-    title: "object or sub-index stands twice",
-    why: "The sections do not contradict each other; one is enough. What only one of them says counts.",
+    title: "duplicate object section",
+    why: "Some tools stop at the second section. odkit uses both; they do not contradict each other.",
     source: "CiA 306-1, object sections",
-    says: "[{name}] stands twice",
+    says: "duplicate section [{name}]",
     help: "remove one of the sections",
     ..Rule::NEW
 };
@@ -20,5 +20,5 @@ pub(crate) fn finding(first: &Placed<'_>, second: &Placed<'_>) -> Finding {
 /// A finding about the second of two sections.
 pub(super) fn twice(rule: &'static Rule, first: &Placed<'_>, second: &Placed<'_>) -> Finding {
     let finding = rule.at(second.header).fact("name", &*second.name.value);
-    finding.related(first.header, "this one counts")
+    finding.related(first.header, "first defined here")
 }

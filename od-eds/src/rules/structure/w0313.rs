@@ -5,11 +5,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0313",
     severity: Warning,
-    title: "CompactSubObj is no number from 1 to 254",
-    why: "CompactSubObj is the number of members besides sub-index 0. What cannot be a sub-index is left out.",
+    title: "CompactSubObj is not valid",
+    why: "A tool creates the wrong number of sub-objects. CompactSubObj counts them without sub-index 0; odkit assumes 254 for a larger number.",
     source: "CiA 306-1, CompactSubObj",
-    says: "{CompactSubObj} is a number from 1 to 254, not `{given}`",
-    help: "write the number of members besides sub-index 0",
+    says: "{CompactSubObj} `{given}` is not a number from 1 to 254",
+    help: "write the number of sub-objects without sub-index 0",
     ..Rule::NEW
 };
 

@@ -5,11 +5,11 @@ use crate::span::Spanned;
 pub(crate) static RULE: Rule = Rule {
     code: "W0314",
     severity: Warning,
-    title: "compact section names a member that does not exist",
-    why: "The entry is left out.",
+    title: "compact section names a missing sub-index",
+    why: "A tool cannot apply the entry. odkit ignores it.",
     source: "CiA 306-1, CompactSubObj",
-    says: "there is no member `{given}` to give this to",
-    help: "the members are 1 to {count}",
+    says: "sub-index `{given}` does not exist",
+    help: "write a sub-index from 1 to {count}",
     ..Rule::NEW
 };
 
@@ -17,5 +17,5 @@ pub(crate) static RULE: Rule = Rule {
 pub(crate) fn finding(given: &Text<'_>, count: &Spanned<u8>) -> Finding {
     RULE.given(given)
         .fact("count", count.value)
-        .related(count.span, "members are counted here")
+        .related(count.span, "sub-objects counted here")
 }

@@ -5,9 +5,9 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0315",
     severity: Warning,
     title: "ParameterName is missing",
-    why: "Every object and every member has a name.",
+    why: "A tool shows the object without a name. Every object and every sub-object has one.",
     source: "CiA 306-1, object sections",
-    says: "there is no {ParameterName}",
+    says: "{ParameterName} is missing",
     help: "write `{ParameterName=}` and a name",
     ..Rule::NEW
 };

@@ -5,11 +5,11 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0316",
     severity: Warning,
-    title: "SubNumber is no number",
-    why: "SubNumber is the number of sub-index sections. They are counted instead.",
+    title: "SubNumber is not a number",
+    why: "A tool cannot tell how many sub-objects to read. odkit counts the sections.",
     source: "CiA 306-1, object sections",
-    says: "`{given}` is no number",
-    help: "write how many sub-index sections there are",
+    says: "{SubNumber} `{given}` is not a number",
+    help: "write the number of sub-index sections",
     ..Rule::NEW
 };
 

@@ -8,10 +8,10 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0317",
     severity: Warning,
     title: "SubNumber is missing",
-    why: "An object with members says how many. They are counted instead.",
+    why: "A tool cannot tell how many sub-objects to read. odkit counts the sections.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
-    says: "there is no {SubNumber}",
+    says: "{SubNumber} is missing",
     help: "write `{SubNumber={count}}`",
     ..Rule::NEW
 };

@@ -5,16 +5,16 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0318",
     severity: Warning,
-    title: "key is nearly one of CiA 306",
-    why: "It looks like a slip. The key is kept, and nothing reads it.",
+    title: "key is probably misspelled",
+    why: "A tool ignores the key. odkit keeps the key and ignores it.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    says: "there is no key `{name}` here",
-    help: "write `{meant}={given}`, if that is meant",
+    says: "`{name}` is not a key of CiA 306 for this section",
+    help: "write `{meant}={given}` if this key is meant",
     ..Rule::NEW
 };
 
-/// The finding about a key that is likely a slip for another.
+/// The finding about a key that is probably misspelled.
 pub(crate) fn finding(key: &Text<'_>, value: &str, meant: &str) -> Finding {
     RULE.at(key.span)
         .fact("name", &*key.value)

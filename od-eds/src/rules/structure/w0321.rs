@@ -9,19 +9,19 @@ use crate::span::Span;
 pub(crate) static RULE: Rule = Rule {
     code: "W0321",
     severity: Warning,
-    title: "NrOfEntries does not count its section",
-    why: "Many readers read as many entries as it says and no more. All entries are read.",
+    title: "NrOfEntries does not match its section",
+    why: "Many tools read only as many entries as NrOfEntries says. odkit reads all entries.",
     source: "CiA 306-1, CompactSubObj",
     fixability: Fixability::Safe,
-    says: "NrOfEntries is {given}, but the section has {found}",
+    says: "NrOfEntries is {given}, but the section has {found:entry|entries}",
     help: "write `NrOfEntries={found}`",
     also: &[MISSING],
     ..Rule::NEW
 };
 
-/// What a section without NrOfEntries says.
+/// Sentence for a section without NrOfEntries.
 const MISSING: Form = Form {
-    says: "there is no NrOfEntries",
+    says: "NrOfEntries is missing",
     ..Form::OWN
 };
 

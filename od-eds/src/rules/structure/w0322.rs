@@ -6,12 +6,12 @@ use crate::scan::placed::Text;
 pub(crate) static RULE: Rule = Rule {
     code: "W0322",
     severity: Warning,
-    title: "sub-index is no VAR",
-    why: "The object code of a sub-index is VAR, or DOMAIN. It is taken for a VAR.",
+    title: "sub-index is not a VAR",
+    why: "A tool may look for sub-objects of a sub-object. odkit assumes a VAR.",
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
-    says: "a sub-index is a VAR, not `{given}`",
-    help: "write `{ObjectType=0x7}`",
+    says: "{ObjectType} `{given}` is not valid for a sub-index",
+    help: "write `{ObjectType=0x7}` (VAR)",
     ..Rule::NEW
 };
 

@@ -6,18 +6,18 @@ use crate::span::{Span, Spanned};
 pub(crate) static RULE: Rule = Rule {
     code: "W0323",
     severity: Warning,
-    title: "Count of a module is none",
-    why: "Count says how many sub-indices a module adds: a number, or `0;` and the bits that share one. One is taken.",
+    title: "Count of a module is not valid",
+    why: "A configuration tool adds the wrong number of sub-objects. odkit assumes 1. Count is a number, or `0;` and the number of bits in one shared sub-object.",
     source: "CiA 306-1, modular devices",
-    says: "`{given}` is no Count",
-    help: "write how many sub-indices a module adds, or `0;` and its bits",
+    says: "Count `{given}` is not valid",
+    help: "write the number of sub-objects that a module adds, or `0;` and its bits",
     also: &[MISSING],
     ..Rule::NEW
 };
 
-/// What an extension without Count says.
+/// Sentence for an extension without Count.
 const MISSING: Form = Form {
-    says: "there is no Count",
+    says: "Count is missing",
     ..Form::OWN
 };
 
