@@ -9,7 +9,7 @@ fn an_exported_eds_gives_the_same_dictionary_and_nothing_to_report() {
     for kind in DEVICES {
         let text = od_devices::text::eds(kind);
         let loaded = od_eds::load(&text);
-        assert_eq!(loaded.diagnostics, [], "{}", kind.name);
+        assert_eq!(loaded.findings, [], "{}", kind.name);
         assert_eq!(check::check(&loaded.description), [], "{}", kind.name);
         let tables = Tables::new(&loaded.description);
         assert!(tables.dictionary() == kind.dictionary, "{}", kind.name);
@@ -59,7 +59,7 @@ fn the_files_of_the_project_say_what_an_export_says() {
         let exported =
             od_eds::parse(&od_devices::text::eds(od_devices::find(name).unwrap())).description;
         let written = od_eds::load(text);
-        assert_eq!(written.diagnostics, [], "{name}");
+        assert_eq!(written.findings, [], "{name}");
         for key in ["DeviceInfo", "DummyUsage"] {
             let pairs = |d: &od_eds::Description| {
                 let section = d.section(key).unwrap();

@@ -31,8 +31,8 @@ impl VirtualDevice {
     /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
     pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
         let parsed = od_eds::load(text);
-        if !options.lenient && parsed.diagnostics.iter().any(Finding::is_error) {
-            return (None, parsed.diagnostics);
+        if !options.lenient && parsed.findings.iter().any(Finding::is_error) {
+            return (None, parsed.findings);
         }
         let description = &parsed.description;
         let commissioned = description.commissioned_node_id().and_then(NodeId::new);
@@ -49,6 +49,6 @@ impl VirtualDevice {
         let source = Source::Loaded(Box::new(tables));
         let node = roomy(node_id);
         let device = Self::build(title, source, behaviour, &Profile::CIA301, node);
-        (Some(device), parsed.diagnostics)
+        (Some(device), parsed.findings)
     }
 }

@@ -3,7 +3,7 @@
 //! The library is the program; nothing else of it than [`main`] is meant to be called.
 //!
 //! One file for each subcommand. What they share: `source` finds a device, `output`
-//! writes to a pipe that may close, `report` shows diagnostics.
+//! writes to a pipe that may close, `report` shows findings.
 
 mod check;
 mod convert;

@@ -76,7 +76,7 @@ fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
     let source = Source::find(name)?;
     let Parsed {
         mut description,
-        diagnostics,
+        findings,
     } = source.load()?;
     let path = Path::new(&source.path);
     let is_dcf = path
@@ -84,7 +84,7 @@ fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
     let mut notes = repair::Notes::new();
-    let is_sound = !diagnostics.iter().any(Finding::is_error);
+    let is_sound = !findings.iter().any(Finding::is_error);
     if !is_sound {
         notes = repair::fix(&mut description).map_err(|left| {
             let text = od_eds::canonical(&description);

@@ -168,10 +168,10 @@ impl Source {
     pub(crate) fn description(&self) -> Result<Description, Failure> {
         let Parsed {
             description,
-            mut diagnostics,
+            mut findings,
         } = self.parse()?;
-        diagnostics.retain(Finding::is_error);
-        self.note(&diagnostics);
+        findings.retain(Finding::is_error);
+        self.note(&findings);
         Ok(description)
     }
 

@@ -192,7 +192,7 @@ mod tests {
     use super::*;
 
     fn codes(text: &str) -> Vec<&'static str> {
-        let findings = crate::load::load(text).diagnostics;
+        let findings = crate::load::load(text).findings;
         findings
             .iter()
             .map(|finding| finding.rule.code)

@@ -15,7 +15,7 @@ mod objects;
 /// Another text for a stretch of a document.
 ///
 /// `range` counts the bytes of [`Document::text`], as the [`Span`]s of the
-/// diagnostics of that text do. An empty range inserts, an empty text deletes.
+/// findings of that text do. An empty range inserts, an empty text deletes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Edit {
     /// What is replaced.

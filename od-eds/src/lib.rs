@@ -11,7 +11,7 @@
 //! use od_model::Address;
 //!
 //! let loaded = od_eds::load("[2300]\nParameterName=Reset\nDataType=0x0005\nAccessType=rw\nDefaultValue=300\n");
-//! let fault = &loaded.diagnostics.iter().find(|d| d.code() == "E0412").unwrap();
+//! let fault = &loaded.findings.iter().find(|d| d.code() == "E0412").unwrap();
 //! assert_eq!(fault.span().unwrap().line, 5);
 //! let reset = loaded.description.entry(Address::new(0x2300, 0)).unwrap();
 //! assert_eq!(reset.default.as_ref().unwrap().value, Value::Unsigned(300));

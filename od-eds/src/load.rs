@@ -48,7 +48,7 @@ impl Document {
 
     fn read(&self) -> Parsed {
         let mut parsed = read(self.text());
-        parsed.diagnostics.extend(encoded(self));
+        parsed.findings.extend(encoded(self));
         parsed
     }
 }
@@ -60,22 +60,22 @@ fn read(text: &str) -> Parsed {
         return xdd::parse(text);
     }
     let mut parsed = sorted::eds(text);
-    modules::check(&parsed.description.sections, &mut parsed.diagnostics);
+    modules::check(&parsed.description.sections, &mut parsed.findings);
     parsed
 }
 
 fn checked(mut parsed: Parsed, text: &str) -> Parsed {
-    parsed.diagnostics.extend(check(&parsed.description));
-    Allows::of(text).apply(&mut parsed.diagnostics);
+    parsed.findings.extend(check(&parsed.description));
+    Allows::of(text).apply(&mut parsed.findings);
     ordered(parsed, text)
 }
 
 /// Puts the findings in file order.
 fn ordered(mut parsed: Parsed, text: &str) -> Parsed {
-    sort(&mut parsed.diagnostics);
+    sort(&mut parsed.findings);
     if cfg!(feature = "xdd") && is_xml(text) {
         // A fix of an EDS would break an XML.
-        for finding in &mut parsed.diagnostics {
+        for finding in &mut parsed.findings {
             finding.fix = None;
         }
     }

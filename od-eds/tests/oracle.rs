@@ -135,7 +135,7 @@ fn compare(name: &str, text: &str, sums: &mut Sums) {
         let pairs = pairs.map(|(key, value)| (key.value, value.value)).collect();
         ours.insert(section.name.span.line, (section.name.value, pairs));
     }
-    let findings = parsed.diagnostics.iter();
+    let findings = parsed.findings.iter();
     let odd: BTreeSet<u32> = findings
         .filter(|finding| NOT_PLAIN.contains(&finding.code()))
         .filter_map(|finding| Some(finding.span()?.line))

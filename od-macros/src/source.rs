@@ -64,7 +64,7 @@ pub(crate) fn read(input: &Input, report: &mut Report) -> Source {
     Source {
         files: Some(files),
         paths,
-        findings: parsed.diagnostics,
+        findings: parsed.findings,
         allows: od_eds::check::Allows::of(&text),
         description: parsed.description,
     }

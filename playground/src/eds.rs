@@ -11,23 +11,23 @@ use crate::record::{self, Record};
 pub fn check_eds(text: &str) -> Vec<JsValue> {
     let places = Places::of(text);
     od_eds::load(text)
-        .diagnostics
+        .findings
         .iter()
         .map(|one| diagnostic(one, &places))
         .collect()
 }
 
-/// The text with what can be mended in it: safe fixes, or likely guesses as well.
+/// The text after its safe fixes, or after the unsafe ones too.
 #[wasm_bindgen(js_name = mendEds)]
 pub fn mend_eds(text: &str, guess: bool) -> String {
-    use od_eds::fix::{Applicability, mend};
+    use od_eds::fix::{Applicability, fix};
     let level = match guess {
         true => Applicability::Unsafe,
         false => Applicability::Safe,
     };
     let document = od_eds::Document::new(text);
-    let mended = mend(&document, level, |document| document.load().diagnostics);
-    mended.document.text().into()
+    let fixed = fix(&document, level, |document| document.load().findings);
+    fixed.document.text().into()
 }
 
 /// The text in the bytes of an EDS or DCF file: UTF-8, UTF-16 or Windows-1252.

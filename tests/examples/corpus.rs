@@ -108,7 +108,7 @@ impl File {
 
     fn codes(&self) -> BTreeMap<&'static str, usize> {
         let mut codes = BTreeMap::new();
-        for finding in &self.loaded.diagnostics {
+        for finding in &self.loaded.findings {
             *codes.entry(finding.code()).or_default() += 1;
         }
         codes
@@ -199,7 +199,7 @@ fn docs(files: &[File]) -> String {
     );
     let loading = files.iter().filter(|file| file.loads()).count();
     let clean = |file: &&File| {
-        let mut findings = file.loaded.diagnostics.iter();
+        let mut findings = file.loaded.findings.iter();
         !findings.any(od_eds::Finding::is_error)
     };
     let _ = writeln!(
@@ -218,7 +218,7 @@ fn docs(files: &[File]) -> String {
     }
     for (folder, files) in folders {
         let count = |severity| {
-            let findings = files.iter().flat_map(|file| &file.loaded.diagnostics);
+            let findings = files.iter().flat_map(|file| &file.loaded.findings);
             findings
                 .filter(|finding| finding.severity() == severity)
                 .count()
@@ -311,7 +311,7 @@ fn time(files: &[File]) -> String {
             let start = Instant::now();
             let loaded = Document::new(bytes.clone()).load();
             *best = best.min(start.elapsed().as_secs_f64());
-            assert!(!loaded.description.objects.is_empty() || !loaded.diagnostics.is_empty());
+            assert!(!loaded.description.objects.is_empty() || !loaded.findings.is_empty());
         }
         best = best.min(round.elapsed().as_secs_f64());
     }

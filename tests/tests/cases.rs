@@ -61,7 +61,7 @@ fn the_corpus_loads_and_comes_back() {
         let loaded = round_trip(&document).unwrap_or_else(|fault| panic!("{name}: {fault}"));
         assert!(!loaded.description.objects.is_empty(), "{name}: no objects");
         let mut codes = BTreeMap::new();
-        for finding in &loaded.diagnostics {
+        for finding in &loaded.findings {
             *codes.entry(finding.code()).or_insert(0) += 1;
         }
         if env::var_os("ODKIT_VERBOSE").is_some() {
@@ -189,7 +189,7 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
         }
     }
     let mut line = 0;
-    for finding in &loaded.diagnostics {
+    for finding in &loaded.findings {
         let finding = say(finding, &Eds);
         if check::rule(finding.code).is_none_or(|rule| rule.severity != finding.severity) {
             return Err(format!("{} is no rule", finding.code));
@@ -215,7 +215,7 @@ fn round_trip(document: &Document) -> Result<Parsed, String> {
 
 fn rendered(document: &Document) -> String {
     let mut out = String::new();
-    for finding in &document.load().diagnostics {
+    for finding in &document.load().findings {
         let finding = say(finding, &Eds);
         let place = match finding.span {
             Some(span) => format!("{}:{}", span.line, span.column),

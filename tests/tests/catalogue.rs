@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use od_eds::Document;
 use od_eds::check::{Fixability, RULES, Rule};
-use od_eds::fix::{Applicability, mend};
+use od_eds::fix::{Applicability, fix};
 use od_eds::{Description, Eds, Finding, say};
 
 fn folder() -> PathBuf {
@@ -42,12 +42,12 @@ fn all(faults: &[String]) {
 fn every_rule_has_a_pair() {
     let mut faults = Vec::new();
     for rule in of_files() {
-        let bad = file(rule, "bad").load().diagnostics;
+        let bad = file(rule, "bad").load().findings;
         if !bad.iter().any(|finding| finding.code() == rule.code) {
             let codes: Vec<_> = bad.iter().map(|finding| finding.code()).collect();
             faults.push(format!("{}: bad has only {codes:?}", rule.code));
         }
-        for left in file(rule, "fixed").load().diagnostics {
+        for left in file(rule, "fixed").load().findings {
             let (code, line) = (left.code(), left.span().map_or(0, |span| span.line));
             faults.push(format!(
                 "{}: fixed:{line} has {code}: {}",
@@ -89,7 +89,7 @@ fn rules_about_edits_are_shown_by_rustc() {
 }
 
 fn find(document: &Document) -> Vec<Finding> {
-    document.load().diagnostics
+    document.load().findings
 }
 
 /// A rule says what can be done about its findings, and that is what can be done.
@@ -119,15 +119,15 @@ fn fixes_do_what_they_say() {
             ));
         }
         let Some(level) = levels.last() else { continue };
-        let mended = mend(&bad, *level, find);
-        if mended
+        let fixed = fix(&bad, *level, find);
+        if fixed
             .findings
             .iter()
             .any(|finding| finding.code() == rule.code)
         {
             faults.push(format!("{}: it stays", rule.code));
         }
-        if mend(&mended.document, *level, find).edits > 0 {
+        if fix(&fixed.document, *level, find).edits > 0 {
             faults.push(format!("{}: there is more to mend", rule.code));
         }
     }
@@ -154,26 +154,26 @@ fn fixes_keep_what_was_read() {
             continue;
         }
         let document = Document::new(fs::read(&path).expect("readable"));
-        let safe = mend(&document, Applicability::Safe, find);
+        let safe = fix(&document, Applicability::Safe, find);
         let (before, after) = (document.parse(), safe.document.parse());
         same_values(&before.description, &after.description, &path);
-        let guessed = mend(&document, Applicability::Unsafe, find);
-        for (mended, level) in [
+        let guessed = fix(&document, Applicability::Unsafe, find);
+        for (fixed, level) in [
             (&safe, Applicability::Safe),
             (&guessed, Applicability::Unsafe),
         ] {
-            let again = mend(&mended.document, level, find);
+            let again = fix(&fixed.document, level, find);
             assert_eq!(
                 again.document.bytes(),
-                mended.document.bytes(),
+                fixed.document.bytes(),
                 "{name}: {level:?}"
             );
             let errors = |all: &[Finding]| all.iter().filter(|d| d.is_error()).count();
             assert!(
-                errors(&mended.findings) <= errors(&find(&document)),
+                errors(&fixed.findings) <= errors(&find(&document)),
                 "{name}: {level:?}"
             );
-            assert_eq!(mended.document.encoding(), document.encoding(), "{name}");
+            assert_eq!(fixed.document.encoding(), document.encoding(), "{name}");
         }
         if safe.edits == 0 {
             assert_eq!(safe.document.bytes(), document.bytes(), "{name}");

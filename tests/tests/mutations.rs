@@ -70,7 +70,7 @@ fn an_illegal_value_never_goes_unnamed() {
         changed[at] = &illegal;
         let loaded = od_eds::load(&changed.join("\n"));
         let line = at as u32 + 1;
-        let named = loaded.diagnostics.iter().any(|finding| {
+        let named = loaded.findings.iter().any(|finding| {
             finding.span().is_some_and(|span| span.line == line)
                 || finding.related.iter().any(|other| other.span.line == line)
         });

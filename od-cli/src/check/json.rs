@@ -1,4 +1,4 @@
-//! The report as one JSON object; `version` counts what breaks its readers.
+//! The report as one JSON object; `version` counts changes that break its readers.
 
 use od_eds::fix::{Applicability, TextEdit};
 use od_eds::{Eds, Finding, Label, Severity, Span, say};
@@ -19,12 +19,12 @@ struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
     fixed: usize,
-    diagnostics: Vec<Diagnostic>,
+    findings: Vec<Reported>,
 }
 
 /// Bytes are counted from 0 in the text as UTF-8, lines and columns from 1.
 #[derive(Serialize)]
-struct Diagnostic {
+struct Reported {
     code: &'static str,
     severity: Severity,
     message: String,
@@ -61,18 +61,18 @@ fn file(checked: &Checked) -> File<'_> {
         path: &checked.file.path,
         failed: checked.failed.as_deref(),
         fixed: checked.fixed,
-        diagnostics: checked
+        findings: checked
             .findings
             .iter()
-            .map(|d| diagnostic(d, text))
+            .map(|finding| reported(finding, text))
             .collect(),
     }
 }
 
-fn diagnostic(finding: &Finding, text: &str) -> Diagnostic {
+fn reported(finding: &Finding, text: &str) -> Reported {
     let finding = say(finding, &Eds);
     let fix = finding.fix.as_ref();
-    Diagnostic {
+    Reported {
         code: finding.code,
         severity: finding.severity,
         object: finding.address.map(|address| address.to_string()),

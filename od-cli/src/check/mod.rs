@@ -78,7 +78,7 @@ impl Args {
     }
 
     fn find(&self, document: &Document) -> Vec<Finding> {
-        let mut findings = document.load().diagnostics;
+        let mut findings = document.load().findings;
         findings.retain(|finding| {
             let index = finding.object.map(|address| address.index);
             let allows = |(code, object): &(&str, Option<u16>)| {
@@ -101,7 +101,7 @@ impl Args {
         match self.level().filter(|_| !is_overlaid) {
             None => checked.findings = self.find(file.document()),
             Some(level) => {
-                let done = fix::mend(file.document(), level, |file| self.find(file));
+                let done = fix::fix(file.document(), level, |file| self.find(file));
                 if self.diff {
                     checked.shown = fixed::difference(path, file.text(), done.document.text());
                 } else if done.edits > 0 {

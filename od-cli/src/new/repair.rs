@@ -20,7 +20,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
-        let found = od_eds::load(&od_eds::canonical(description)).diagnostics;
+        let found = od_eds::load(&od_eds::canonical(description)).findings;
         let errors: Vec<Finding> = found.into_iter().filter(Finding::is_error).collect();
         if errors.is_empty() {
             return Ok(notes);
@@ -38,7 +38,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
             return Err(errors);
         }
     }
-    let left = od_eds::load(&od_eds::canonical(description)).diagnostics;
+    let left = od_eds::load(&od_eds::canonical(description)).findings;
     Err(left.into_iter().filter(Finding::is_error).collect())
 }
 

@@ -71,7 +71,7 @@ fn every_sentence_is_said_and_filled() {
     let documents = paths
         .iter()
         .map(|path| Document::new(fs::read(path).unwrap()));
-    let findings = documents.flat_map(|document| document.load().diagnostics);
+    let findings = documents.flat_map(|document| document.load().findings);
     for finding in findings.chain(faults_of_edits()) {
         faults.extend(gaps(&finding));
         let forms = said.entry(finding.code()).or_default();

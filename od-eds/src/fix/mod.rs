@@ -1,7 +1,7 @@
-//! How a finding is mended: edits of the text that touch no other line.
+//! Fixes: edits of the text that touch no other line.
 //!
 //! A check says what to write and where ([`Fix`]); [`plan`] turns the fixes of a text
-//! into plain replacements that do not meet, and [`mend`] applies them to a
+//! into plain replacements that do not meet, and [`fix`] applies them to a
 //! document, round by round until there is nothing left to do. What no edit is about
 //! keeps its bytes, whatever the encoding and the line ends.
 //!
@@ -10,8 +10,8 @@
 //! use od_eds::fix::{self, Applicability};
 //!
 //! let file = Document::new(b"[2000]\r\nParameterName=a\r\nDataType:5\r\n");
-//! let mended = fix::mend(&file, Applicability::Safe, |file| file.load().diagnostics);
-//! assert_eq!(mended.document.bytes(), b"[2000]\r\nParameterName=a\r\nDataType=5\r\n");
+//! let fixed = fix::fix(&file, Applicability::Safe, |file| file.load().findings);
+//! assert_eq!(fixed.document.bytes(), b"[2000]\r\nParameterName=a\r\nDataType=5\r\n");
 //! ```
 
 use alloc::string::String;
@@ -19,10 +19,10 @@ use alloc::vec::Vec;
 
 use crate::span::{Span, token_of};
 
-mod mend;
+mod fixed;
 mod plan;
 
-pub use mend::{Mended, mend};
+pub use fixed::{Fixed, fix};
 pub use plan::{TextEdit, apply, plan};
 
 /// May a fix be applied without looking at it?

@@ -105,7 +105,7 @@ fn what_is_not_there_cannot_go() {
 fn findings_are_told_where_they_come_from() {
     let text = "; mine\n[2000]\nHighLimit=1\n\n[2002]\nParameterName=New\nAccessType=rw\n";
     let made = laid(text);
-    let findings = crate::load(&made.text).diagnostics;
+    let findings = crate::load(&made.text).findings;
     let placed: Vec<_> = findings
         .into_iter()
         .map(|finding| made.place(finding))

@@ -222,7 +222,7 @@ mod tests {
         assert_eq!(objects[&0x1A00].entries.len(), 65);
         // The one that has a section is as the section says.
         assert!(objects[&0x1401].entries.is_empty());
-        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
+        let codes: Vec<_> = parsed.findings.iter().map(|d| d.code()).collect();
         assert_eq!(codes.iter().filter(|code| **code == "I0515").count(), 2);
         let again = crate::parse(&crate::write(&parsed.description)).description;
         assert!(again.objects == parsed.description.objects);

@@ -201,7 +201,7 @@ fn read(sections: &[Section], log: &mut Vec<Finding>) -> Vec<Module> {
                 .into_iter()
                 .map(|(place, section)| placed(section, place, &[]));
             let parsed = sorted::objects(placed.collect(), Vec::new());
-            log.extend(parsed.diagnostics);
+            log.extend(parsed.findings);
             module.fixed = parsed.description.objects;
         }
     }
@@ -230,7 +230,7 @@ fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a
 fn extension(section: &Section, place: Place, log: &mut Vec<Finding>) -> Option<Extension> {
     let own = placed(section, place, &["Count", "ObjExtend"]);
     let parsed = sorted::objects(alloc::vec![own], Vec::new());
-    log.extend(parsed.diagnostics);
+    log.extend(parsed.findings);
     let object = parsed.description.objects.into_values().next()?;
     let entry = object.entries.into_values().next()?;
     let given = section.get("Count");
@@ -326,7 +326,7 @@ mod tests {
     #[test]
     fn modules_and_what_is_wrong_with_them() {
         let parsed = crate::parse(TEXT);
-        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
+        let codes: Vec<_> = parsed.findings.iter().map(|d| d.code()).collect();
         // The value of the fixed object is looked at by the checks; the second list is missing.
         assert_eq!(codes, ["W0215"]);
         let found = modules(&parsed.description);
@@ -345,7 +345,7 @@ mod tests {
         .map(|((from, to), code)| (TEXT.replacen(from, to, 1), code))
         {
             let codes: Vec<_> = crate::parse(&wrong)
-                .diagnostics
+                .findings
                 .iter()
                 .map(|d| d.code())
                 .collect();

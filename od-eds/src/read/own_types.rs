@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(entry.data_type.map(|t| t.value), Some(DataType::Integer8));
         assert_eq!(entry.low.as_deref(), Some(&Value::Signed(-10)));
         assert_eq!(entry.high.as_deref(), Some(&Value::Signed(5)));
-        let codes: Vec<_> = parsed.diagnostics.iter().map(|d| d.code()).collect();
+        let codes: Vec<_> = parsed.findings.iter().map(|d| d.code()).collect();
         assert!(codes.contains(&"I0425") && codes.contains(&"E0402"));
     }
 }

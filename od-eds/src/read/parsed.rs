@@ -1,15 +1,15 @@
-//! What comes of reading a text.
+//! The result of reading a text.
 
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::Finding;
 
-/// What a text says, and what is to be said about the text.
+/// A description, and the findings about its text.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Parsed {
-    /// Everything that was understood.
+    /// All that odkit understood.
     pub description: Description,
-    /// Everything else, in file order.
-    pub diagnostics: Vec<Finding>,
+    /// All that it did not, in file order.
+    pub findings: Vec<Finding>,
 }

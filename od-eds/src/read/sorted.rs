@@ -139,7 +139,7 @@ impl<'a> Sorted<'a> {
             lists::check(&self.lists, &parsed.description, &made, &mut self.log);
         }
         parsed.description.objects.append(&mut made);
-        parsed.diagnostics = self.log;
+        parsed.findings = self.log;
         parsed
     }
 }
@@ -195,7 +195,7 @@ mod tests {
     use od_model::{DataType, Group, ObjectCode};
 
     fn codes(parsed: &Parsed) -> Vec<&'static str> {
-        parsed.diagnostics.iter().map(|d| d.code()).collect()
+        parsed.findings.iter().map(|d| d.code()).collect()
     }
 
     #[test]

@@ -23,7 +23,7 @@ pub(crate) fn parse(text: &str) -> Parsed {
             let span = Places::new(text).at(place.row, place.col);
             let finding = e0113::finding(span, &error.to_string());
             return Parsed {
-                diagnostics: vec![finding],
+                findings: vec![finding],
                 ..Parsed::default()
             };
         }

@@ -20,7 +20,7 @@ fn file(device: &str, network: &str) -> String {
 }
 
 fn codes(parsed: &Parsed) -> Vec<&'static str> {
-    parsed.diagnostics.iter().map(|d| d.code()).collect()
+    parsed.findings.iter().map(|d| d.code()).collect()
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn what_objects_say_themselves() {
          </CANopenObject></CANopenObjectList>",
     );
     let parsed = parse(&text);
-    assert!(codes(&parsed).is_empty(), "{:?}", parsed.diagnostics);
+    assert!(codes(&parsed).is_empty(), "{:?}", parsed.findings);
     let description = &parsed.description;
     let heartbeat = &description.objects[&0x1017].entries[&0];
     assert_eq!(heartbeat.name.value, "Heartbeat & more");
@@ -175,7 +175,7 @@ fn what_is_wrong_has_a_place() {
     );
     let loaded = crate::load(&text);
     for code in ["E0114", "E0115", "E0401", "E0405", "E0412"] {
-        let found = loaded.diagnostics.iter().find(|d| d.code() == code);
+        let found = loaded.findings.iter().find(|d| d.code() == code);
         assert!(
             found.is_some_and(|d| d.span().is_some() && d.fix.is_none()),
             "{code}"
@@ -183,7 +183,7 @@ fn what_is_wrong_has_a_place() {
     }
     let broken = parse("<a>\n <b é></b>\n</a>");
     assert_eq!(codes(&broken), ["E0113"]);
-    let span = broken.diagnostics[0].span().expect("it has a place");
+    let span = broken.findings[0].span().expect("it has a place");
     assert_eq!(span.line, 2);
     for text in [
         "<",

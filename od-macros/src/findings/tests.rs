@@ -31,7 +31,7 @@ fn a_row_has_fields_and_not_keys() {
     let mut faults = Vec::new();
     for path in cases {
         let document = Document::new(std::fs::read(&path).unwrap());
-        for finding in document.load().diagnostics {
+        for finding in document.load().findings {
             let told = say(&finding, &Row);
             for text in [told.message, told.help] {
                 let keys = Key::ALL

@@ -90,7 +90,7 @@ fn run(input: &[u8]) {
     for entry in dictionary.entries() {
         assert_eq!(dictionary.find(entry.address), Ok(entry));
     }
-    for diagnostic in &parsed.diagnostics {
+    for diagnostic in &parsed.findings {
         assert!(!od_eds::say(diagnostic, &od_eds::Eds).message.is_empty());
     }
     let options = EdsOptions {

@@ -1,4 +1,4 @@
-//! A document, mended.
+//! A document with its fixes applied.
 
 use alloc::vec::Vec;
 
@@ -6,57 +6,57 @@ use super::{Applicability, plan};
 use crate::document::{Document, Edit};
 use crate::finding::Finding;
 
-/// So many rounds at most: a fix may make room for the next one, but not for ever.
+/// Limit of rounds: a fix may make room for the next one.
 const ROUNDS: usize = 16;
 
-/// What [`mend`] made of a document.
+/// A document after [`fix`].
 #[derive(Clone, PartialEq, Debug)]
-pub struct Mended {
-    /// The document; as it was where nothing was to be mended.
+pub struct Fixed {
+    /// The document; unchanged if there was nothing to fix.
     pub document: Document,
-    /// How many places were edited.
+    /// Number of places that were edited.
     pub edits: usize,
-    /// What is left to say about it.
+    /// Findings that are left.
     pub findings: Vec<Finding>,
 }
 
-/// Mends a document as far as fixes up to `level` go; `find` says what is wrong with it.
+/// Applies the fixes of a document up to `level`; `find` returns its findings.
 ///
 /// A second run finds nothing to do. Every line without an edit keeps its bytes. A round
-/// that would bring errors is not made.
-pub fn mend(
+/// that would add errors is not made.
+pub fn fix(
     document: &Document,
     level: Applicability,
     find: impl Fn(&Document) -> Vec<Finding>,
-) -> Mended {
-    let mut mended = Mended {
+) -> Fixed {
+    let mut fixed = Fixed {
         document: document.clone(),
         edits: 0,
         findings: find(document),
     };
     for _ in 0..ROUNDS {
-        let edits: Vec<Edit> = plan(mended.document.text(), &mended.findings, level)
+        let edits: Vec<Edit> = plan(fixed.document.text(), &fixed.findings, level)
             .into_iter()
             .map(|edit| Edit {
                 range: edit.start as usize..edit.end as usize,
                 text: edit.text,
             })
             .collect();
-        let mut document = mended.document.clone();
+        let mut document = fixed.document.clone();
         if edits.is_empty() || document.apply(&edits).is_err() {
             break;
         }
         let findings = find(&document);
-        if errors(&findings) > errors(&mended.findings) {
+        if errors(&findings) > errors(&fixed.findings) {
             break;
         }
-        mended = Mended {
+        fixed = Fixed {
             document,
-            edits: mended.edits + edits.len(),
+            edits: fixed.edits + edits.len(),
             findings,
         };
     }
-    mended
+    fixed
 }
 
 fn errors(findings: &[Finding]) -> usize {
