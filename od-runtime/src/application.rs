@@ -10,6 +10,7 @@ use od_wire::{AbortCode, Instant, NodeId};
 
 /// What a reset takes back (CiA 301, chapter 7.3.2).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum Reset {
     /// Power came, or came back: everything in RAM is lost.
     PowerOn,

@@ -9,6 +9,7 @@ macro_rules! abort_codes {
         /// SDO abort code (CiA 301, table 22). The discriminant is the value on the bus.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         #[repr(u32)]
+        #[non_exhaustive]
         pub enum AbortCode { $(#[doc = $text] $(#[$doc])* $name = $code,)* }
 
         impl AbortCode {

@@ -24,6 +24,16 @@ fn a_minute_at_one_revolution_per_minute_is_one_revolution() {
 }
 
 #[test]
+fn a_divider_of_0_counts_as_1() {
+    let gain = |divider| Gain {
+        divider,
+        ..Gain::steps(100)
+    };
+    let speed = |divider| exact::exact(3, 2, gain(divider));
+    assert_eq!((speed(0), speed(1), speed(2)), (150, 150, 75));
+}
+
+#[test]
 fn it_stops_where_it_is_and_turns_back() {
     let mut shaft = Shaft::at_rest(Angle::from_fractions(77));
     shaft.set_milli_rpm(Instant::ZERO, 60_000);

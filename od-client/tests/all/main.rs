@@ -11,4 +11,5 @@ mod sdo_download;
 mod sdo_node;
 mod sdo_upload;
 mod support;
+mod texts;
 mod watch;

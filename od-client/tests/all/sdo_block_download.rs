@@ -44,6 +44,18 @@ fn other_aborts_end_a_block_download() {
 }
 
 #[test]
+fn a_block_that_is_cancelled_sends_no_more_segments() {
+    let mut download = download(&pattern(37), options(4));
+    download.talk(&[("", "C603200025")]);
+    download.handle_frame(at(0), &frame("581#A403200004"));
+    let first = download.poll_transmit(at(0)).map(|frame| frame.to_string());
+    assert_eq!(first.as_ref(), block(&pattern(37), 0, 1).first());
+    download.cancel();
+    assert_eq!(download.out(at(0)), ["601#8003200000000008"]);
+    assert_eq!(download.outcome(), Some(Err(SdoError::Cancelled)));
+}
+
+#[test]
 fn a_download_in_two_blocks() {
     let data = pattern(37);
     let mut download = downloading(true);

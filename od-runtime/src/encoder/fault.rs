@@ -1,15 +1,18 @@
 //! Faults of an encoder, and their reports in a family, as const data.
 
+use core::fmt;
+
 use od_model::Address;
 
-/// Something that can break.
+/// Fault of an encoder: a part that is broken, or a condition that it cannot work in.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum Fault {
-    /// The sensor's position is not to be trusted.
+    /// The position of the sensor is not valid.
     Position,
     /// The battery of the multiturn counter is nearly empty.
     Battery,
-    /// The last reset was by the watchdog; seen after the next reset.
+    /// The watchdog reset the device; seen after the next reset.
     Watchdog,
     /// The non-volatile memory failed.
     Memory,
@@ -67,6 +70,33 @@ impl Fault {
         named.map(|(fault, _)| *fault)
     }
 }
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Position => "the position of the sensor is not valid",
+            Self::Battery => "the battery of the multiturn counter is nearly empty",
+            Self::Watchdog => "the watchdog reset the device",
+            Self::Memory => "the non-volatile memory failed",
+            Self::Internal => "the electronics cannot reach the sensor",
+            Self::BatteryEmpty => "the battery of the multiturn counter is empty",
+            Self::Temperature => "the temperature is out of its range",
+            Self::MultiturnSequence => {
+                "the magnetic fields of the multiturn sensor came in a wrong order"
+            }
+            Self::MultiturnStrength => "the magnetic field at the multiturn sensor is too weak",
+            Self::MultiturnCommunication => "the electronics cannot reach the multiturn sensor",
+            Self::Speed => "the shaft turned faster than the encoder can follow",
+            Self::SingleturnStrength => {
+                "the magnetic field at the singleturn sensor is out of its range"
+            }
+            Self::Supervision => "singleturn and multiturn sensor do not agree",
+            Self::MultiturnReset => "the multiturn counter lost its power and started again",
+        })
+    }
+}
+
+impl core::error::Error for Fault {}
 
 /// When a fault is seen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -137,6 +167,8 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
+    use std::string::ToString;
+
     use super::*;
 
     #[test]
@@ -147,6 +179,17 @@ mod tests {
             assert_eq!((fault.name(), Fault::from_name(name)), (name, Some(fault)));
             let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
             assert!(name.chars().all(kebab), "{name}");
+            let others = Fault::NAMES.iter().filter(|(other, _)| *other != fault);
+            let text = fault.to_string();
+            assert!(
+                text.starts_with("the ") || fault == Fault::Supervision,
+                "{text}"
+            );
+            assert!(
+                others
+                    .map(|(other, _)| other.to_string())
+                    .all(|other| other != text)
+            );
         }
         assert_eq!(Fault::from_name(""), None);
     }
