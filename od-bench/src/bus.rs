@@ -16,7 +16,7 @@ pub struct Sent {
     pub at: Instant,
     /// Which device, counted from 0 in the order of [`Bus::add`].
     pub device: usize,
-    /// What.
+    /// The frame.
     pub frame: Frame,
 }
 
@@ -24,7 +24,7 @@ pub struct Sent {
 /// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters. A
 /// real [`line`](Bus::line) lets frames fail as CAN does.
 ///
-/// What happens at one moment happens in a fixed order: devices in the order they
+/// Events of one moment have a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
 /// frames on every run.
 #[derive(Default)]

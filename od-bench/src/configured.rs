@@ -30,7 +30,7 @@ impl VirtualDevice {
         }
     }
 
-    /// What a master could set again, where it is not the default.
+    /// Values that a master could set again and that are not the default values.
     fn configured(&mut self) -> Vec<(Address, Value)> {
         let node_id = self.node_id();
         let Self { source, values, .. } = self;

@@ -11,7 +11,7 @@ pub(super) struct Eeprom {
     pub(super) broken: bool,
 }
 
-/// Who keeps the bytes.
+/// Memory of the bytes.
 enum Keeper {
     /// A memory of its own, with a supply that can be cut.
     Own(Memory<Vec<u8>>),

@@ -1,4 +1,4 @@
-//! What can break, by the names that scripts and pages use.
+//! Faults, by the names that scripts and pages use.
 
 use od_runtime::encoder::Fault;
 

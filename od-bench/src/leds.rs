@@ -3,7 +3,7 @@
 use od_runtime::Instant;
 use od_wire::nmt::State;
 
-/// What one die of the LED does.
+/// State of one die of the LED.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Led {
     /// Dark.

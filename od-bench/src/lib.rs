@@ -3,7 +3,7 @@
 //!
 //! Like the runtime it has no clock, thread, socket or file of its own; what it needs from
 //! outside comes in as an argument. So the same bench runs behind `odkit`, in a test and in
-//! a browser's worker. Clock, threads and sockets are in `serve` alone (feature `serve`), which
+//! a browser's worker. Clock, threads and sockets are in `serve` only (feature `serve`), which
 //! runs a bench in real time.
 
 #![forbid(unsafe_code)]

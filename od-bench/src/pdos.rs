@@ -111,7 +111,7 @@ pub enum Part {
 /// An SDO download of up to four bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Step {
-    /// What it is for.
+    /// Service.
     pub part: Part,
     /// The object.
     pub address: Address,

@@ -11,7 +11,7 @@ use od_runtime::storage::{Memory, Storage, image};
 
 use crate::device::VirtualDevice;
 
-/// What the EEPROM would bring back at the next start.
+/// Saved values, which the device loads at its next start.
 pub struct Saved {
     values: Vec<u8>,
 }
@@ -59,7 +59,7 @@ impl VirtualDevice {
         is_own
     }
 
-    /// What the EEPROM would bring back now.
+    /// Returns the values that a start would load now.
     pub fn saved(&mut self) -> Saved {
         let Self {
             source,
@@ -78,7 +78,7 @@ impl VirtualDevice {
         Saved { values }
     }
 
-    /// What the EEPROM would hold if everything were saved as it is now.
+    /// Returns the values that the EEPROM would contain after a save.
     pub fn image(&mut self) -> Vec<u8> {
         let mut memory = Memory::new(vec![0xFF; self.storage.capacity()]);
         let node_id = self.node.node_id();
@@ -107,7 +107,7 @@ impl VirtualDevice {
         Some(saved.values.get(range.clone()) != self.values.get(range))
     }
 
-    /// Where the value of an object that is saved stands.
+    /// Place of the value of an object that is saved.
     fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
         let entry = dictionary.find(address).ok().filter(|one| is_saved(one))?;

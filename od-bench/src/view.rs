@@ -1,4 +1,4 @@
-//! What can be seen of a device without a frame: its values and its LEDs.
+//! Visible state of a device without a frame: its values and its LEDs.
 
 use std::prelude::v1::*;
 
@@ -68,7 +68,7 @@ impl VirtualDevice {
         self.has_leds
     }
 
-    /// What the two dies of the LED do: green, red (manual 000, chapter 7.3).
+    /// States of the two dies of the LED: green, red (manual 000, chapter 7.3).
     pub fn leds(&self) -> (Led, Led) {
         let bits = |index| self.stored(index, 0).unwrap_or(0);
         let warning = bits(0x6505) != 0;

@@ -1,4 +1,4 @@
-//! What devices of a bus have in common besides it: a shaft, and a bit rate.
+//! Shared properties of devices besides the bus: a shaft, and a bit rate.
 
 use std::prelude::v1::*;
 

@@ -12,7 +12,7 @@ use crate::shaft::Shaft;
 /// 2³², the fractions of a revolution.
 const REVOLUTION: f64 = 4_294_967_296.0;
 
-/// Where a shaft is and how fast it turns.
+/// Position and speed of a shaft.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ShaftView {
     /// Revolutions from the sensor's zero point.
@@ -42,7 +42,7 @@ impl VirtualDevice {
         true
     }
 
-    /// Where the shaft is, if the device has one.
+    /// Position and speed of the shaft, if the device has one.
     pub fn shaft(&self, now: Instant) -> Option<ShaftView> {
         let Behaviour::Encoder(encoder) = &self.behaviour else {
             return None;
@@ -183,7 +183,7 @@ impl VirtualDevice {
         }
     }
 
-    /// What a code of the device's own (2100h) stands for, in kbit/s.
+    /// Bit rate in kbit/s of a code of the device (2100h).
     pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
         let Behaviour::Encoder(encoder) = &self.behaviour else {
             return None;

@@ -6,7 +6,7 @@ pub(crate) enum Failure {
     Usage(String),
     /// It tried and could not, or what it looked at is not as it should be: exit code 1.
     Failed(String),
-    /// What there is to say stands there already; this is the exit code.
+    /// The message is printed already; this is the exit code.
     Reported(u8),
 }
 

@@ -1,4 +1,4 @@
-//! `odkit`, the program; what it does stands in the library beside it.
+//! `odkit`, the program; see the library beside it.
 
 fn main() -> std::process::ExitCode {
     od_cli::main()

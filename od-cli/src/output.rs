@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::failure::Failure;
 
-/// Standard output, buffered. Whoever reads may go away: that is no failure of ours.
+/// Standard output, buffered. A reader that goes away is not a failure.
 pub(crate) struct Output(BufWriter<io::StdoutLock<'static>>);
 
 impl Output {
@@ -31,7 +31,7 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     output.flush().map(drop)
 }
 
-/// The same to a file; to standard output if there is none.
+/// Writes a text to a file, or to standard output without a path.
 pub(crate) fn save(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     match path {
         Some(path) => write(path, format!("{}\n", text.trim_end()).as_bytes()),

@@ -27,7 +27,7 @@ pub(crate) struct Source {
     laid: Option<Box<Laid>>,
 }
 
-/// What an overlaid text was made of.
+/// Parts of an overlaid text.
 struct Laid {
     base: Source,
     /// Path and text.
@@ -35,7 +35,7 @@ struct Laid {
     made: Overlaid,
 }
 
-/// So many errors of a file are shown where a device is made of it.
+/// Limit of the errors that are shown when a device is made from a file.
 const SHOWN: usize = 5;
 
 impl Source {
@@ -144,12 +144,12 @@ impl Source {
         !self.is_overlaid() && !od_eds::is_xml(self.text())
     }
 
-    /// What it describes, and what was found; a text that describes nothing is a failure.
+    /// Returns the description and the findings; a text without objects is a failure.
     pub(crate) fn parse(&self) -> Result<Parsed, Failure> {
         self.described(od_eds::parse(self.text()))
     }
 
-    /// As [`parse`](Self::parse), with what the rules find.
+    /// As [`parse`](Self::parse), with the findings of the rules.
     pub(crate) fn load(&self) -> Result<Parsed, Failure> {
         self.described(od_eds::load(self.text()))
     }
@@ -164,7 +164,7 @@ impl Source {
         Ok(parsed)
     }
 
-    /// What it describes. What cannot be used of it is told on standard error.
+    /// Returns the description. Prints errors on standard error.
     pub(crate) fn description(&self) -> Result<Description, Failure> {
         let Parsed {
             description,
@@ -244,7 +244,7 @@ fn unknown(name: &str, error: &std::io::Error) -> Failure {
     ))
 }
 
-/// What the operating system says of a file, in the middle of a sentence.
+/// Error of the operating system as a clause.
 pub(crate) fn read_error(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "it does not exist".into(),

@@ -16,7 +16,7 @@ pub(crate) struct Terminal<'a> {
     folder: PathBuf,
     /// Device and node ID for a script that names none.
     unnamed: (&'a str, Option<NodeId>),
-    /// Where frames go; none while nobody is to see them.
+    /// Output for frames; `None` shows none.
     pub(crate) output: Option<Output>,
     /// Frames of the script, too.
     pub(crate) echo: bool,

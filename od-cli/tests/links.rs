@@ -107,7 +107,7 @@ fn a_flood_reaches_every_client_in_order() {
     }
     let mut talker = sim.client();
     say(&mut talker, "O\r", "\r");
-    // Each acknowledgement stands before the answer that its frame brings about.
+    // Each acknowledgement comes before the response to its frame.
     let sent = format!("{REQUEST}V\r").repeat(1000);
     say(
         &mut talker,

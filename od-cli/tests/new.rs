@@ -199,7 +199,7 @@ fn make(from: &str, name: &str, folder: &Path) {
     fs::copy(repository("Cargo.lock"), folder.join("Cargo.lock")).expect("a lock file");
 }
 
-/// What cargo prints in a crate; it succeeds.
+/// Output of cargo in a crate; it succeeds.
 fn cargo(folder: &Path, arguments: &[&str]) -> String {
     let cargo = std::process::Command::new(env!("CARGO"))
         .args(arguments)
@@ -215,7 +215,7 @@ fn cargo(folder: &Path, arguments: &[&str]) -> String {
     out.into_owned()
 }
 
-/// Where new crates are built.
+/// Target folder of new crates.
 fn target() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target")
 }
@@ -235,7 +235,7 @@ fn producer(eds: &Path) -> String {
 #[test]
 fn a_new_crate_builds_and_its_tests_pass() {
     if !is_long() && std::env::var_os("CI").is_none() {
-        println!("skipped: it builds odkit anew; set CI=true or ODKIT_LONG=1");
+        println!("skipped: it builds odkit again; set CI=true or ODKIT_LONG=1");
         return;
     }
     let gxmm = PathBuf::from(repository("devices/eds/GXMM.eds"));

@@ -1,4 +1,4 @@
-//! `base.eds+variant.eds` wherever a device can stand.
+//! `base.eds+variant.eds` in place of a device.
 
 mod support;
 

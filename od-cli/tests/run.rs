@@ -157,7 +157,7 @@ fn eds_files_are_devices_too() {
         "expect 710#00",
     );
     assert_eq!(other.code, 0, "{}", other.err);
-    // In a script, a file stands beside the script.
+    // In a script, a path is relative to the script.
     std::fs::copy(&eds, file("beside.eds", "")).expect("a copy");
     let script = file("beside.script", "device beside.eds node 5\nexpect 705#00\n");
     let run = odkit(&["run", &script.display().to_string()], "");

@@ -1,4 +1,4 @@
-//! What a line says.
+//! The meaning of a line, as data.
 
 use std::prelude::v1::*;
 
@@ -22,10 +22,10 @@ pub(crate) enum When {
     After(u64),
 }
 
-/// What a line does.
+/// Action of a line.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Action {
-    /// What a live bench can do, too.
+    /// Action that a live bench supports too.
     Deed(Deed),
     /// Puts a device on the bus.
     Device(Added),
@@ -41,7 +41,7 @@ pub(crate) enum Action {
     },
     /// Such frames do not matter; `None`: all frames matter again.
     Ignore(Option<Pattern>),
-    /// What has come so far does not matter.
+    /// Empties the queue of frames.
     Skip,
     Expect(Expect),
 }
@@ -62,7 +62,7 @@ pub(crate) struct Added {
     pub(crate) off: bool,
 }
 
-/// How an SDO transfer has to end.
+/// Expected end of an SDO transfer.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Outcome {
     Done,
@@ -70,7 +70,7 @@ pub(crate) enum Outcome {
     Aborts(AbortCode),
 }
 
-/// What has to hold.
+/// Condition of an `expect` line.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Expect {
     Frame {
@@ -78,7 +78,7 @@ pub(crate) enum Expect {
         times: u32,
         timing: Timing,
     },
-    /// No frame comes for so many microseconds.
+    /// No frame comes for this time in microseconds.
     Silence(u64),
     Fact(Fact),
 }
@@ -88,10 +88,10 @@ pub(crate) enum Expect {
 pub(crate) enum Timing {
     /// It is there already.
     Now,
-    /// Within so many microseconds.
+    /// Within this time in microseconds.
     Within(u64),
-    /// After exactly so many microseconds.
+    /// After exactly this time in microseconds.
     After(u64),
-    /// Each after exactly so many microseconds from the one before.
+    /// Each exactly this time in microseconds after the one before.
     Every(u64),
 }

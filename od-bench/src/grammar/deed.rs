@@ -1,4 +1,4 @@
-//! What a line does to the bus and to the world around it, on any bench.
+//! Actions on the bus and on the world around it, on any bench.
 
 use std::format;
 use std::prelude::v1::*;
@@ -17,7 +17,7 @@ pub(crate) enum Shaft {
     Turn(f64),
     /// From now on, in revolutions per minute.
     Rpm(f64),
-    /// Evenly to so many revolutions per minute, in so many microseconds.
+    /// Evenly to a speed in revolutions per minute, in a time in microseconds.
     Ramp(f64, u64),
 }
 
@@ -33,7 +33,7 @@ pub(crate) enum Wire {
     Plugged(bool),
 }
 
-/// What a line does, without waiting for anything.
+/// Action of a line that waits for nothing.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Deed {
     Wait,
@@ -46,7 +46,7 @@ pub(crate) enum Deed {
         every: u64,
     },
     Power(bool),
-    /// Off for so many microseconds, then on.
+    /// Off for this time in microseconds, then on.
     Cycle(u64),
     Shaft(Shaft),
     NodeSwitch(u8),
@@ -60,7 +60,7 @@ pub(crate) enum Deed {
 }
 
 impl Deed {
-    /// What is left to do after [`act`](Self::act), and how many microseconds later.
+    /// Rest of the action after [`act`](Self::act), and its delay in microseconds.
     pub(crate) fn rest(&self) -> Option<(u64, Self)> {
         match self {
             Self::Send {

@@ -1,4 +1,4 @@
-//! What has to be so at one moment: read, looked at, and said in words.
+//! Conditions about one moment: parsed, evaluated, and shown in words.
 
 use std::format;
 use std::prelude::v1::*;
@@ -144,7 +144,7 @@ impl Fact {
         }
     }
 
-    /// What can be seen of a device from outside.
+    /// Evaluates a condition that is visible from outside the device.
     fn outside(
         &self,
         one: &VirtualDevice,

@@ -14,7 +14,7 @@ use super::typed::Typed;
 use super::verbs::VERBS;
 use crate::logs::candump;
 
-/// A log of the wall clock counts from 1970; its first stamp is taken as the origin.
+/// A log of the wall clock counts from 1970; its first time stamp is the origin.
 const WALL_CLOCK: u64 = 100_000_000_000_000;
 
 /// Words that say when a line acts.

@@ -10,9 +10,9 @@ pub struct Problem {
     pub line: u32,
     /// In characters, counted from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem, one clause.
     pub message: String,
-    /// What to write instead.
+    /// Text to write instead.
     pub help: String,
 }
 

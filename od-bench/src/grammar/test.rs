@@ -1,4 +1,4 @@
-//! How a value is compared: `= 500`, `!= 0`, `in 400..600`.
+//! Comparisons of a value: `= 500`, `!= 0`, `in 400..600`.
 
 use std::format;
 use std::prelude::v1::*;
@@ -77,7 +77,7 @@ impl Test {
     /// Do the values suit the type?
     ///
     /// # Errors
-    /// What would suit it.
+    /// Describes a valid value.
     pub(crate) fn fits(&self, data_type: DataType) -> Result<(), String> {
         for part in self.text.split("..") {
             values::parse(data_type, part)?;

@@ -7,12 +7,12 @@ use super::problem::Problem;
 use super::shown::{brief, either};
 use crate::logs::candump;
 
-/// How far a moment or a duration may go: 100 years of 365 days, in microseconds.
+/// Longest moment or duration: 100 years of 365 days, in microseconds.
 const LONGEST: u64 = 100 * 365 * 86_400 * 1_000_000;
 
 const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
 
-/// A stretch of a line, to be taken apart from the front.
+/// Part of a line, read from the front.
 #[derive(Clone, Copy)]
 pub(crate) struct Tokens<'t> {
     line: u32,
@@ -180,7 +180,7 @@ impl<'t> Tokens<'t> {
         ))
     }
 
-    /// One word of a table, and what it stands for.
+    /// One word of a table, and its meaning.
     pub(crate) fn one_of<T: Copy>(
         &mut self,
         what: &str,

@@ -37,7 +37,7 @@ impl Typed {
     /// The frame, for this device.
     ///
     /// # Errors
-    /// Why there is none: no such object, a value that is not valid.
+    /// The object does not exist, or the value is not valid.
     pub(crate) fn frame(&self, device: &VirtualDevice) -> Result<Frame, String> {
         let node = device.node_id();
         let request = match self {
@@ -79,7 +79,7 @@ impl Typed {
 }
 
 impl Write {
-    /// Where to write, and what.
+    /// Returns the address and the bytes to write.
     ///
     /// # Errors
     /// Why it cannot be written.

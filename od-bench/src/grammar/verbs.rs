@@ -17,7 +17,7 @@ use crate::logs::candump;
 /// One verb.
 pub(super) struct Verb {
     pub(super) name: &'static str,
-    /// How its lines are written, for messages.
+    /// Syntax of its lines, for messages.
     pub(super) usage: &'static str,
     pub(super) parse: fn(&mut Tokens<'_>) -> Result<Action, Problem>,
 }

@@ -145,7 +145,7 @@ fn device_name(tokens: &mut Tokens<'_>) -> Result<String, Problem> {
     }
 }
 
-/// What has to be so, of which device, and for how long.
+/// Parses a state, its device, and its duration.
 fn state(tokens: &mut Tokens<'_>) -> Result<(What, Option<String>, u64), Problem> {
     let start = *tokens;
     let mut head = tokens.split_at_word(&["of", "for"]);

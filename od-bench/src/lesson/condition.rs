@@ -1,4 +1,4 @@
-//! What a checkpoint asks for: its lines, as data.
+//! Conditions of a checkpoint, as data.
 
 use std::format;
 use std::prelude::v1::*;
@@ -17,10 +17,10 @@ use crate::script::Origin;
 pub(super) struct Line {
     /// In the lesson.
     pub(super) line: u32,
-    /// What it asks for has to come after what the line before asks for.
+    /// The frame must come after the frame of the line before.
     pub(super) then: bool,
     pub(super) alternatives: Vec<Alternative>,
-    /// What to say of it, instead of what the line itself says.
+    /// Text to show instead of the condition in words.
     pub(super) say: Option<String>,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct Alternative {
     pub(super) what: What,
     /// Number or label of the device; `None`: any sender, or the first device.
     pub(super) device: Option<String>,
-    /// For so many microseconds without a break.
+    /// Time without a break, in microseconds.
     pub(super) lasting: u64,
 }
 
@@ -46,7 +46,7 @@ pub(super) enum What {
     Undisturbed,
 }
 
-/// Who put a frame on the bus.
+/// Sender of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Who {
     Learner,

@@ -10,25 +10,25 @@ use crate::script::{Bench, Host, Script, Stop, run_on};
 /// A lesson that was read.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Lesson {
-    /// What it is called.
+    /// Title.
     pub title: String,
-    /// What it is about, in a sentence; may be empty.
+    /// Content in one sentence; may be empty.
     pub summary: String,
     /// Language of its text, `en` if it says nothing.
     pub language: String,
     /// 1 for beginners, 2, 3.
     pub level: u8,
-    /// How long it takes, about.
+    /// Approximate duration in minutes.
     pub minutes: u16,
     /// Objects that its text names though no device of it has them, as `2FFFh`.
     pub absent: Vec<od_model::Address>,
-    /// What stands before the first step, as Markdown.
+    /// Text before the first step, as Markdown.
     pub intro: String,
     /// The script that makes the bench.
     pub set_up: Block,
-    /// What there is to do, in order.
+    /// Steps, in order.
     pub steps: Vec<Step>,
-    /// Where links lead, each with its line.
+    /// Targets of links, each with its line.
     pub(super) links: Vec<(u32, String)>,
     /// Objects that its text names, each with its line.
     pub(super) objects: Vec<(u32, od_model::Address)>,
@@ -48,19 +48,19 @@ pub struct Block {
 pub struct Step {
     /// Line of its heading.
     pub line: u32,
-    /// What it is called.
+    /// Title.
     pub title: String,
-    /// What there is to do and why, as Markdown.
+    /// Task and reason, as Markdown.
     pub text: String,
     /// Each tells a bit more than the one before, as Markdown.
     pub hints: Vec<String>,
-    /// What just happened, once it is done, as Markdown.
+    /// Explanation that is shown when the step is done, as Markdown.
     pub happened: String,
     /// A question about bytes that are still to come.
     pub quiz: Option<Quiz>,
     /// The lines that do it.
     pub solution: Block,
-    /// What has to hold, all of it.
+    /// Conditions; all must hold.
     pub(super) checkpoint: Vec<Line>,
 }
 
@@ -92,7 +92,7 @@ impl Block {
     /// Its lines as a script that counts lines as the lesson does.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// The problems of its lines.
     pub fn script(&self) -> Result<Script, Vec<Problem>> {
         Script::parse_at(&self.text, self.line)
     }
@@ -101,7 +101,7 @@ impl Block {
 /// Why a block stopped, as a problem of the lesson.
 pub(super) fn stopped(stop: &Stop) -> Problem {
     let why = std::format!("{stop}");
-    // The first line of it says where, and that stands in the problem.
+    // The first line names the place, which the problem has already.
     let why: Vec<_> = why.lines().skip(1).map(str::trim).collect();
     Problem {
         line: stop.line,

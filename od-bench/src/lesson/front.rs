@@ -1,4 +1,4 @@
-//! The front matter: what stands between the `+++` lines, one `key = value` a line as in TOML.
+//! The front matter: the lines between `+++`, one `key = value` per line as in TOML.
 
 use std::format;
 use std::prelude::v1::*;
@@ -76,7 +76,7 @@ pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), P
     Ok(())
 }
 
-/// What has to stand there and does not.
+/// Reports a required key that is missing.
 pub(super) fn missing(lesson: &Lesson) -> Option<Problem> {
     let what = if lesson.title.is_empty() {
         "title"

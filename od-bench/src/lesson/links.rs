@@ -1,4 +1,4 @@
-//! What the text of a lesson refers to: other files, and objects.
+//! References in the text of a lesson: files and objects.
 
 use std::prelude::v1::*;
 use std::{format, vec};
@@ -9,7 +9,7 @@ use super::content::Lesson;
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 
-/// Error codes of EMCYs look like objects of the profile and are none.
+/// EMCY error codes that look like objects of the profile.
 const ERROR_CODES: [u16; 2] = [0x1000, 0x6010];
 
 /// Notes where a line of text points to.
@@ -56,8 +56,8 @@ fn objects(line: &str) -> Vec<Address> {
 }
 
 impl Lesson {
-    /// The relative links of its text, each with its line: names of files, without what stands
-    /// behind `#`.
+    /// The relative links of its text, each with its line: names of files, without the part
+    /// after `#`.
     pub fn files(&self) -> impl Iterator<Item = (u32, &str)> {
         let file = |(line, link): &'_ (u32, String)| {
             let end = link.find(['#', ' ']).unwrap_or(link.len());

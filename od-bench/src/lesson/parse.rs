@@ -13,7 +13,7 @@ use crate::script::Script;
 /// A lesson is a text for people; what is longer is something else.
 const LONGEST: usize = 256 * 1024;
 
-/// Where prose goes.
+/// Part that receives prose.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     Text,
@@ -38,7 +38,7 @@ struct Reader {
     problems: Vec<Problem>,
     part: Part,
     fence: Option<Fence>,
-    /// Lines of blocks that stand in the present step already.
+    /// Names of the blocks of the present step.
     seen: Vec<&'static str>,
 }
 
@@ -180,7 +180,7 @@ impl Reader {
         };
     }
 
-    /// Where prose goes now.
+    /// Returns the text that receives prose now.
     fn target(&mut self) -> &mut String {
         let Some(step) = self.lesson.steps.last_mut() else {
             return &mut self.lesson.intro;
@@ -296,7 +296,7 @@ impl Reader {
         }
     }
 
-    /// What the step that ends lacks.
+    /// Reports missing parts of the step that ends.
     fn end_step(&mut self) {
         let Some(step) = self.lesson.steps.last() else {
             return;

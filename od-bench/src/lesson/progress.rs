@@ -1,4 +1,4 @@
-//! How far somebody is in a lesson.
+//! Progress of a learner in a lesson.
 
 use std::collections::VecDeque;
 use std::format;
@@ -19,11 +19,11 @@ use crate::script::Origin;
 pub struct Requirement {
     /// It is so.
     pub holds: bool,
-    /// What it is, and how it stands with it.
+    /// The condition in words; while it is not met, its current state follows in parentheses.
     pub text: String,
 }
 
-/// What is known of one alternative since the step began.
+/// Observations of one alternative since the step began.
 #[derive(Clone, Copy, Default, Debug)]
 struct Note {
     /// Frames that counted.
@@ -45,7 +45,7 @@ pub struct Progress {
     devices: Vec<(String, usize)>,
     step: usize,
     began: Instant,
-    /// Where each shaft was then.
+    /// Position of each shaft at that moment.
     turns: Vec<Option<f64>>,
     notes: Vec<Vec<Note>>,
     /// When a frame was disturbed on the wire.
@@ -103,7 +103,7 @@ impl Progress {
         self.news.pop_front()
     }
 
-    /// Does a checkpoint wait to be polled? A bench that runs by itself pauses then.
+    /// Does a checkpoint wait to be polled? A live bench pauses then.
     pub fn has_news(&self) -> bool {
         !self.news.is_empty()
     }
@@ -217,7 +217,7 @@ impl Progress {
         all
     }
 
-    /// What the present step asks for, and what is missing of it.
+    /// Returns the conditions of the present step, with their state.
     pub fn requirements(&mut self, bus: &mut Bus) -> Vec<Requirement> {
         let Some(step) = self.lesson.steps.get(self.step) else {
             return Vec::new();
@@ -247,7 +247,7 @@ impl Progress {
         requirements
     }
 
-    /// What the checkpoints ask for that cannot be on this bench: the line, and why.
+    /// Returns conditions that this bench cannot meet: the line, and the reason.
     pub(super) fn impossible(&self, bus: &mut Bus) -> Vec<(u32, String)> {
         let mut found = Vec::new();
         for line in self.lesson.steps.iter().flat_map(|step| &step.checkpoint) {
@@ -305,7 +305,7 @@ fn device_of(devices: &[(String, usize)], one: &Alternative) -> usize {
     number(devices, one.device.as_deref()).unwrap_or(0)
 }
 
-/// Does it hold, and how does it stand?
+/// Returns if it holds, and its current state.
 fn holds(
     one: &Alternative,
     note: &mut Note,

@@ -18,7 +18,7 @@ const IDLE: u64 = 20_000_000;
 
 /// Proves a lesson on benches that `host` makes devices for.
 ///
-/// What it finds, in order of the lines; nothing where the lesson is as it should be:
+/// Returns problems in order of the lines; none if the lesson meets all of this:
 ///
 /// - the set-up and the solutions can be carried out, and what checkpoints ask for can be;
 /// - no checkpoint holds at the start, nor after a while in which nobody does anything, nor

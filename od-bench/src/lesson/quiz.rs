@@ -10,17 +10,17 @@ use crate::logs::candump;
 /// A question, its answer, and why.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Quiz {
-    /// What is asked, as Markdown.
+    /// The question, as Markdown.
     pub question: String,
     /// The frame; bytes that do not matter are open.
     pub answer: Pattern,
-    /// What to say when the answer is shown, as Markdown.
+    /// Text to show with the answer, as Markdown.
     pub reveal: String,
     /// Line of the answer.
     pub line: u32,
 }
 
-/// What is right about somebody's answer.
+/// Result of comparing a given answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Judgement {
     /// All of it.
@@ -37,13 +37,13 @@ impl Quiz {
     /// As [`judge`], with the answer of this question.
     ///
     /// # Errors
-    /// It is no frame.
+    /// The text is not a frame.
     pub fn judge(&self, given: &str) -> Result<Judgement, Problem> {
         judge(&self.answer, given)
     }
 }
 
-/// Looks at what somebody predicts: `585#43 00 10 00`, or its bytes alone.
+/// Compares a prediction: `585#43 00 10 00`, or its bytes alone.
 ///
 /// # Errors
 /// It is neither.

@@ -46,7 +46,7 @@ fn check(from: &str, to: &str, expected: &str) {
     let text = GOOD.replacen(from, to, 1);
     assert!(
         text != GOOD || from.is_empty(),
-        "`{from}` stands in the lesson"
+        "the lesson contains `{from}`"
     );
     let problems = match Lesson::parse(&text) {
         Ok(lesson) => prove(&lesson, &mut Bare(od_devices::DEVICES)),

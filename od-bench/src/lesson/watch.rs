@@ -11,9 +11,9 @@ use crate::script::{Host, Origin};
 
 /// A host whose frames a lesson sees, too.
 pub struct Watched<'a> {
-    /// Who makes the devices.
+    /// Host that makes the devices.
     pub host: &'a mut dyn Host,
-    /// Who watches.
+    /// Progress that sees all frames.
     pub progress: &'a mut Progress,
 }
 
@@ -40,7 +40,7 @@ impl Host for Watched<'_> {
     }
 }
 
-/// Lets so many microseconds pass under the eyes of a lesson, with nobody doing anything.
+/// Lets this number of microseconds pass, watched by a lesson.
 pub fn pass(bus: &mut Bus, progress: &mut Progress, micros: u64) {
     let end = bus.now().plus_micros(micros);
     loop {

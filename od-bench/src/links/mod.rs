@@ -1,4 +1,4 @@
-//! What adapters and daemons speak: frames on one side, bytes on the other.
+//! Protocols of adapters and daemons: frames on one side, bytes on the other.
 //!
 //! | module | who speaks it |
 //! |---|---|

@@ -19,7 +19,7 @@ const BELL: &[u8] = b"\x07";
 /// time stamp that some hosts send.
 const LONGEST: usize = 64;
 
-/// What one client's adapter stands at.
+/// State of one client's adapter.
 #[derive(Debug, Default)]
 pub struct Channel {
     line: Vec<u8>,
@@ -38,7 +38,7 @@ impl Codec for Channel {
                     if std::mem::take(&mut self.too_long) {
                         reply(steps, BELL);
                     } else if let Some(frame) = self.command(&line, steps) {
-                        // A frame's own acknowledgement stands before what it brings about.
+                        // A frame's own acknowledgement comes before its effects.
                         steps.push(Step::Frame(frame));
                     }
                     self.line = line;
@@ -151,7 +151,7 @@ fn is_hex(text: &[u8]) -> bool {
     text.iter().all(u8::is_ascii_hexdigit)
 }
 
-/// What stands behind the letter: identifier, length, data, perhaps a time stamp.
+/// Parses the rest after the letter: CAN-ID, length, data, perhaps a time stamp.
 fn parse_frame(kind: u8, text: &[u8]) -> Option<Frame> {
     let extended = kind.is_ascii_uppercase();
     let (id, rest) = text.split_at_checked(if extended { 8 } else { 3 })?;
@@ -181,7 +181,7 @@ fn is_stamp(rest: &[u8]) -> bool {
     rest.len() == 4 && is_hex(rest)
 }
 
-/// At most eight hex digits; a sign is none.
+/// At most eight hex digits, without a sign.
 fn hex(digits: &[u8]) -> Option<u32> {
     if !is_hex(digits) {
         return None;
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
     use std::string::ToString;
 
-    /// What is answered, and which frames go to the bus.
+    /// Returns the response, and the frames for the bus.
     fn taken(channel: &mut Channel, input: &[u8]) -> (Vec<u8>, Vec<Frame>) {
         let (mut steps, mut answered, mut seen) = (Vec::new(), Vec::new(), Vec::new());
         channel.receive(input, Instant::ZERO, &mut steps);

@@ -44,7 +44,7 @@ enum Mode {
     Raw,
 }
 
-/// What one client's connection stands at.
+/// State of one client's connection.
 #[derive(Debug, Default)]
 pub struct Session {
     mode: Mode,
@@ -77,7 +77,7 @@ impl Codec for Session {
                     self.text = text;
                     self.text.clear();
                 }
-                // What stands between commands means nothing.
+                // Text between commands has no meaning.
                 _ if self.text.is_empty() || self.text.len() >= LONGEST => {}
                 _ => self.text.push(*byte),
             }
@@ -137,7 +137,7 @@ impl Session {
         let done = match (name, self.mode) {
             ("rawmode", _) => {
                 self.switch(Mode::Raw, steps);
-                // Clients compare what they read with the answer alone.
+                // Clients compare the whole message with the response.
                 steps.push(Step::Pause);
                 return;
             }
@@ -212,7 +212,7 @@ fn id(word: &str) -> Option<CanId> {
     }
 }
 
-/// Digits only: a sign is none.
+/// Digits only, without a sign.
 fn hex(word: &str) -> Option<u32> {
     let digits = word.bytes().all(|byte| byte.is_ascii_hexdigit());
     u32::from_str_radix(word, 16).ok().filter(|_| digits)
@@ -255,7 +255,7 @@ fn remote_frame(words: &[&str]) -> Option<Frame> {
     }
 }
 
-/// Seconds and microseconds, and what stands behind them.
+/// Seconds and microseconds, and the rest.
 fn interval<'w>(words: &'w [&'w str]) -> Option<(u64, &'w [&'w str])> {
     let [seconds, micros, rest @ ..] = words else {
         return None;

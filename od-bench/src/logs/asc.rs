@@ -22,7 +22,7 @@ pub(super) fn is_one(line: &str) -> bool {
 /// Lines that say something about the log, by their first word.
 const HEADS: [&str; 6] = ["date", "base", "internal", "no", "begin", "end"];
 
-/// What stands behind a time stamp and is not a frame.
+/// Words after a time stamp that are not a frame.
 const OTHERS: [&str; 5] = ["canfd", "log", "start", "trigger", "comment"];
 
 pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {

@@ -24,14 +24,14 @@ pub struct Line {
     pub frame: Frame,
 }
 
-/// A text is no frame.
+/// Error for a text that is not a frame.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Error {
     /// The first character that does not fit, counted from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem, one clause.
     pub message: String,
-    /// What to write instead.
+    /// Text to write instead.
     pub help: &'static str,
 }
 

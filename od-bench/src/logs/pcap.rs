@@ -9,7 +9,7 @@ use super::record::{ERROR, EXTENDED, REMOTE, Record};
 /// The link type of SocketCAN frames in a capture.
 pub(super) const LINK: u16 = 227;
 
-/// What a capture without such frames is refused with.
+/// Message for a capture without CAN frames.
 pub(super) const OTHER_LINK: &str = "its frames are not SocketCAN frames (link type 227)";
 
 /// A file, little or big endian.

@@ -22,7 +22,7 @@ pub struct Log {
 pub struct Problem {
     /// Counted from 1.
     pub line: u32,
-    /// What is wrong with it.
+    /// The problem of the line.
     pub why: String,
 }
 

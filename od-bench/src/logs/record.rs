@@ -2,18 +2,18 @@
 
 use od_wire::{CanId, Frame, Instant};
 
-/// What a log says of one moment.
+/// Entry of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Record {
     /// When, from the beginning of the log.
     pub at: Instant,
-    /// Sent by whoever wrote the log (Tx); else received.
+    /// Sent by the writer of the log (Tx); else received.
     pub sent: bool,
-    /// What was on the bus.
+    /// Content of the bus.
     pub what: What,
 }
 
-/// What was on the bus.
+/// Content of the bus.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum What {
     /// A frame.

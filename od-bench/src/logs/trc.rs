@@ -145,7 +145,7 @@ fn second<'t>(lines: &[&'t str]) -> Reader<'t> {
     })
 }
 
-/// What all versions have in common.
+/// Fields of all versions.
 struct Parts<'t> {
     id: &'t str,
     length: &'t str,

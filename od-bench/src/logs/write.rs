@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 use super::record::{Record, What};
 use super::{candump, pcapng};
 
-/// What a log is written as.
+/// File format of a log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Format {
     /// `candump -L`.

@@ -32,7 +32,7 @@ pub enum Seen {
         at: Instant,
         /// The device that sent it; `None` for one from outside.
         device: Option<usize>,
-        /// What.
+        /// The frame.
         frame: Frame,
     },
     /// A frame that was disturbed, and the transmit error counter of its sender.

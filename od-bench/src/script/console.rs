@@ -1,5 +1,5 @@
 //! The language of scripts, spoken to a bench that runs already: frames, and the world
-//! outside the bus. What is expected belongs to scripts alone.
+//! outside the bus. Expectations belong to scripts only.
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -48,7 +48,7 @@ impl Console {
     /// A line that was read; empty lines and comments mean nothing.
     ///
     /// # Errors
-    /// What is wrong with it and what may stand there instead; nothing of it is done then.
+    /// The problem, and the text to write instead; then nothing of the line is done.
     pub fn push(&mut self, text: &str) -> Result<(), Problem> {
         let Some(statement) = self.reader.statement(text)? else {
             return Ok(());
@@ -127,7 +127,7 @@ mod tests {
     use std::format;
     use std::string::ToString;
 
-    /// What the devices send while these lines are carried out, up to 10 s.
+    /// Frames of the devices while these lines are carried out, up to 10 s.
     fn run(lines: &[&str]) -> String {
         let mut bus = Bus::new();
         for node in [1, 2] {

@@ -1,4 +1,4 @@
-//! What `expect` lines hold against what came.
+//! Checks of `expect` lines against the frames that came.
 
 use std::format;
 use std::prelude::v1::*;

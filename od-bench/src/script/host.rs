@@ -1,4 +1,4 @@
-//! What a script needs of the program that runs it.
+//! Interface of a script to the program that runs it.
 
 use std::format;
 use std::prelude::v1::*;
@@ -8,7 +8,7 @@ use od_runtime::{DeviceKind, Frame, Instant, NodeId};
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 
-/// Who put a frame on the bus.
+/// Sender of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Origin {
     /// The script.
@@ -17,13 +17,13 @@ pub enum Origin {
     Device(usize),
 }
 
-/// What a script needs of the program that runs it.
+/// Interface of a script to the program that runs it.
 pub trait Host {
     /// Makes the device of a `device` line: the name of a built-in one, or of an EDS file.
     /// With no name: the one that scripts without a `device` line run on.
     ///
     /// # Errors
-    /// Why there is no such device, and what to do.
+    /// The reason why the device does not exist, and what to do.
     fn device(
         &mut self,
         name: Option<&str>,

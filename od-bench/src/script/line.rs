@@ -12,7 +12,7 @@ use crate::grammar::problem::Problem;
 use crate::grammar::tokens::Tokens;
 use crate::logs::candump;
 
-/// What a line may refer to.
+/// Context of a line.
 pub struct Known<'k> {
     /// The node that it is for.
     pub node: NodeId,
@@ -27,7 +27,7 @@ pub struct Known<'k> {
 /// short `read 6004`, `write 6001 = 4096`, `sync 5`, `guard`.
 ///
 /// # Errors
-/// What is wrong with it and what to write instead.
+/// The problem, and the text to write instead.
 pub fn frame_of(text: &str, known: &Known<'_>) -> Result<Frame, Problem> {
     let start = Tokens::new(1, text);
     let mut words = start;

@@ -1,4 +1,4 @@
-//! How a run ended.
+//! Result of a run.
 
 use std::fmt;
 use std::prelude::v1::*;
@@ -23,7 +23,7 @@ pub struct Summary {
 pub struct Stop {
     /// The line, counted from 1.
     pub line: u32,
-    /// What it says.
+    /// Text of the line.
     pub text: String,
     /// Virtual time.
     pub at: Instant,
@@ -31,14 +31,14 @@ pub struct Stop {
     pub reason: Reason,
 }
 
-/// What stopped a run.
+/// Reason that stopped a run.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Reason {
     /// An expectation did not hold.
     Failed {
-        /// What was expected.
+        /// Expected frame or value.
         expected: String,
-        /// What came instead.
+        /// Actual frame or value.
         got: String,
     },
     /// The line cannot be carried out: no such device, no such fault, a moment that has passed.

@@ -1,4 +1,4 @@
-//! From text to a script. Every line stands for itself, so every mistake is found.
+//! From text to a script. Lines are independent, so every mistake is found.
 
 use std::prelude::v1::*;
 use std::vec;
@@ -60,7 +60,7 @@ impl Script {
         self.statements.iter().map(|statement| statement.line)
     }
 
-    /// How many `expect` lines it has, SDO lines with an outcome included.
+    /// Number of `expect` lines, SDO lines included.
     pub fn expectations(&self) -> usize {
         let expects = |statement: &&Statement| {
             matches!(
@@ -75,7 +75,7 @@ impl Script {
 /// Reads a script line by line, each as a script of its own.
 #[derive(Clone, Debug, Default)]
 pub struct Reader {
-    /// Where the time stamps of a log begin.
+    /// Origin of the time stamps of a log.
     origin: Option<u64>,
     /// Lines so far.
     line: u32,
@@ -85,7 +85,7 @@ impl Reader {
     /// Reads one more line.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The problem of the line.
     pub fn read(&mut self, text: &str) -> Result<Script, Problem> {
         let statements = self.statement(text)?.into_iter().collect();
         Ok(Script { statements })

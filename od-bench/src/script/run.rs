@@ -16,7 +16,7 @@ use crate::grammar::action::{Action, Added, When};
 use crate::grammar::deed::{Deed, Wire};
 use crate::grammar::pattern::Pattern;
 
-/// What stops a line.
+/// Result of a line; the error stops it.
 pub(super) type Result<T> = core::result::Result<T, Reason>;
 
 pub(super) fn impossible<T>(why: impl Into<String>) -> Result<T> {

@@ -15,7 +15,7 @@ use crate::grammar::typed::{Write, resolve};
 /// A script's frames are those of segmented transfers, whatever the length of a value.
 const SDO: Options = Options::SEGMENTED;
 
-/// How a transfer ended: with data, or with an abort.
+/// Result of a transfer: data, or an abort code.
 type Transfer<T> = core::result::Result<T, u32>;
 
 impl Runner<'_> {

@@ -128,7 +128,7 @@ impl Text {
         None
     }
 
-    /// `R`, `R4`, `rtr`: the rest is a remote frame, maybe of so many bytes.
+    /// `R`, `R4`, `rtr`: the rest is a remote frame, maybe with a length.
     fn remote(&mut self) -> Option<Option<u8>> {
         let rest: String = self.chars[self.at..].iter().collect();
         let rest = rest.trim().to_ascii_lowercase();
@@ -143,7 +143,7 @@ impl Text {
         }
     }
 
-    /// Bytes of one or two digits; one digit needs something behind it that is none.
+    /// Bytes of one or two digits; one digit needs a separator after it.
     fn bytes(&mut self) -> Result<Vec<u8>, Error> {
         let between = |c: char| c.is_whitespace() || matches!(c, '.' | ',' | '_' | '-');
         let mut bytes = Vec::new();
@@ -186,7 +186,7 @@ impl Text {
 /// a decimal fraction: a page has that already.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The problem of the text.
 pub fn value(
     data_type: DataType,
     text: &str,

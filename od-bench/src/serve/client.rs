@@ -15,7 +15,7 @@ use crate::links::Codec;
 const QUEUE: usize = 4096;
 const WAITING: usize = 1024 * 1024;
 
-/// What waits for the thread that writes.
+/// Work for the thread that writes.
 pub(super) enum Message {
     Bytes(Vec<u8>),
     Pause,
@@ -24,14 +24,14 @@ pub(super) enum Message {
 /// A client, as the bus sees it.
 pub(super) struct Client {
     pub(super) number: u64,
-    /// What to call it.
+    /// Name in messages.
     pub(super) name: String,
     pub(super) protocol: Protocol,
     pub(super) codec: Box<dyn Codec>,
     queue: SyncSender<Message>,
     /// Bytes in the queue.
     queued: Arc<AtomicUsize>,
-    /// What this turn of the bus has brought so far.
+    /// Bytes of this turn so far.
     gathered: Vec<u8>,
     dropped: usize,
 }
@@ -140,7 +140,7 @@ impl Client {
         }
     }
 
-    /// What was pushed goes out alone, and nothing follows it for a moment.
+    /// Sends the pushed bytes as one message, with a short pause after it.
     pub(super) fn pause(&mut self) {
         self.flush();
         // A client for which so much waits does not read one by one anyway.

@@ -1,4 +1,4 @@
-//! What a live bench says at the start: what there is, and what to type next.
+//! Greeting of a live bench: its devices, and the commands to try next.
 
 use std::fmt::Write as _;
 
@@ -86,7 +86,7 @@ fn place(link: &Opened) -> String {
     }
 }
 
-/// What to type to reach the first device by this link.
+/// Commands that reach the first device over this link.
 fn help(text: &mut String, link: &Opened, device: &Maker<'_>, node: u8, bitrate: u32) {
     let (connect, needs) = match link {
         Opened::Listener(Protocol::Socketcand, _, address) => (

@@ -22,9 +22,9 @@ use crate::words::plural;
 
 /// Bytes of clients that the bus takes in one turn, before its answers go out.
 const TURN: usize = 16 * 1024;
-/// An input counts as so many bytes at least.
+/// An input counts as this number of bytes at least.
 const INPUT: usize = 64;
-/// Who wakes up later than this has slept: time stood still meanwhile, and nothing is
+/// Longest time between two turns; after a longer pause of the computer the bus paused too, and nothing is
 /// made up for.
 const SLEPT: Duration = Duration::from_secs(2);
 
@@ -185,7 +185,7 @@ impl Live {
         self.run_console();
     }
 
-    /// What the turn has brought goes out, each client's share as one message.
+    /// Sends the bytes of the turn, one message per client.
     fn flush(&mut self) {
         for client in self.clients.values_mut() {
             client.flush();
@@ -248,7 +248,7 @@ impl Live {
         }
     }
 
-    /// What a client's bytes bring about, one after the other.
+    /// Carries out a client's bytes, one input after the other.
     fn steps(&mut self, number: u64, steps: Vec<Step>) {
         for step in steps {
             match step {
@@ -319,7 +319,7 @@ impl Live {
     }
 }
 
-/// What the person at the terminal may want to know.
+/// Event in words, for the terminal.
 fn words(event: Event) -> Option<String> {
     Some(match event {
         Event::State(state) => format!("state: {state}"),

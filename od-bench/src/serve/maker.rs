@@ -16,5 +16,5 @@ pub struct Maker<'m> {
 
 /// Makes a device without power, with this node ID or else its own.
 ///
-/// The error says why there is no device.
+/// The error is the reason why the device cannot be made.
 pub type Make<'m> = Box<dyn Fn(Option<NodeId>) -> Result<VirtualDevice, String> + 'm>;

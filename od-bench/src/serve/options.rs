@@ -7,12 +7,12 @@ use od_runtime::NodeId;
 
 use super::links::Link;
 
-/// How devices run, whichever they are.
+/// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Options {
     /// Node ID of each device, in their order.
     pub node_ids: Vec<NodeId>,
-    /// How masters reach the bus; none: slcan on port 29536 of this machine.
+    /// Links for masters; none: slcan on port 29536 of this computer.
     pub links: Vec<Link>,
     /// File with the EEPROM of each device, in their order; in memory if there is none.
     pub eeproms: Vec<PathBuf>,
@@ -47,7 +47,7 @@ pub struct Choice {
     pub name: &'static str,
     /// Placeholder of its value in help texts.
     pub value: &'static str,
-    /// What it does, for help texts.
+    /// Description, for help texts.
     pub help: &'static str,
     /// Value without it, for help texts.
     pub default: Option<&'static str>,
@@ -62,7 +62,7 @@ impl Choice {
     /// Puts a value into the options.
     ///
     /// # Errors
-    /// What is wrong with the value.
+    /// The problem of the value.
     pub fn set(&self, options: &mut Options, value: &str) -> Result<(), String> {
         (self.set)(options, value)
     }

@@ -12,7 +12,7 @@ use super::client::{Client, Message, Waiting};
 use super::links::opened::Protocol;
 use super::terminal::note;
 
-/// What the threads tell the bus.
+/// Message from a thread to the bus.
 pub(super) enum Input {
     /// A client is there.
     Connected(Client),
@@ -26,7 +26,7 @@ pub(super) enum Input {
 
 /// So much of a queue goes into one write.
 const BATCH: usize = 16 * 1024;
-/// So long nothing follows what a client has to read alone.
+/// Pause after a message that a client has to read separately.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Takes clients that speak `protocol` for as long as the program runs.

@@ -11,7 +11,7 @@ const BUS_OFF: u16 = 256;
 /// Bits that a controller waits after bus-off: 128 times 11 recessive ones (ISO 11898-1).
 const RECOVERY: u64 = 128 * 11;
 
-/// What a controller may still do.
+/// Error state of a controller.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Condition {
     /// Everything.
@@ -45,7 +45,7 @@ pub struct Controller {
 }
 
 impl Controller {
-    /// What it may still do.
+    /// Error state.
     pub const fn condition(self) -> Condition {
         if self.transmit >= BUS_OFF {
             Condition::BusOff
@@ -56,7 +56,7 @@ impl Controller {
         }
     }
 
-    /// What it tells its device of its state.
+    /// Event for its device when the state changes.
     pub(super) const fn event(self) -> BusEvent {
         match self.condition() {
             Condition::BusOff => BusEvent::Off,

@@ -8,7 +8,7 @@ use od_runtime::{CobId, Frame};
 use super::said::{Service, Words};
 use crate::device::VirtualDevice;
 
-/// What an error code means: the manuals' own words, else the class of CiA 301, table 26.
+/// Meaning of an error code: the manuals' own words, else the class of CiA 301, table 26.
 pub fn code_text(code: u16) -> &'static str {
     match code {
         0x0000 => "no error, or error reset",

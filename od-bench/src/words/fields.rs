@@ -20,9 +20,9 @@ pub struct Field {
     pub from: u8,
     /// The byte after the last.
     pub to: u8,
-    /// What it is: `Index`, `Position value`.
+    /// Name: `Index`, `Position value`.
     pub name: String,
-    /// What it says.
+    /// Value in words.
     pub value: String,
     /// The object that it is about.
     pub object: Option<Address>,

@@ -15,17 +15,17 @@ pub struct Fold {
     pub frames: Vec<u32>,
     /// The node ID of the server.
     pub node: u8,
-    /// What is read or written.
+    /// Object that is read or written.
     pub object: Address,
     /// Written; else read.
     pub is_write: bool,
     /// The bytes so far.
     pub bytes: Vec<u8>,
-    /// How it stands.
+    /// State of the transfer.
     pub state: State,
 }
 
-/// How a transfer stands.
+/// State of a transfer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum State {
     /// More frames follow.

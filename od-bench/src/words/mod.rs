@@ -1,6 +1,6 @@
 //! Frames in plain words, with the names of the objects.
 //!
-//! [`explain`] knows a frame by itself; a [`Decoder`] also remembers which object a
+//! [`explain`] shows a single frame; a [`Decoder`] also remembers which object a
 //! segmented or block transfer is about.
 
 mod control;
@@ -29,7 +29,7 @@ pub use tag::{TAGS, Tag, tag};
 use self::sorted::Sorted;
 use crate::device::VirtualDevice;
 
-/// A frame in words, taken by itself.
+/// Returns a single frame in words.
 pub fn explain(devices: &[VirtualDevice], frame: &Frame) -> Words {
     Decoder::default().explain(devices, frame)
 }

@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_model::Address;
 
-/// What a frame is for.
+/// Service of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Service {
     /// NMT command.
@@ -52,7 +52,7 @@ impl Service {
 /// A frame in words.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Words {
-    /// What it is for.
+    /// Service.
     pub service: Service,
     /// The node it is from or for; `None` where it is for all.
     pub node: Option<u8>,
@@ -60,7 +60,7 @@ pub struct Words {
     pub address: Option<Address>,
     /// Is it an abort, an emergency, an error?
     pub error: bool,
-    /// What it says, without the service and the node.
+    /// The meaning, without the service and the node.
     pub text: String,
 }
 

@@ -11,7 +11,7 @@ use super::said::{Service, Words, bytes};
 use crate::device::VirtualDevice;
 use od_model::values;
 
-/// Where a transfer stands, as far as the frames so far tell.
+/// State of a transfer, from the frames so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Transfer {
     address: Option<Address>,
@@ -29,7 +29,7 @@ enum Block {
     Download,
 }
 
-/// Longest value that is put together from segments; of a longer one its length is told.
+/// Longest value that is assembled from segments.
 const KEPT: usize = 4096;
 
 struct Explainer<'e> {

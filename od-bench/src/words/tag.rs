@@ -5,7 +5,7 @@ use od_wire::Frame;
 use od_wire::nmt;
 use od_wire::sdo::{Request, Response};
 
-/// What can be said of a frame without its devices.
+/// Meaning of a frame without its devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Tag {
     /// Place of its name in [`TAGS`].

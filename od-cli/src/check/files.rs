@@ -14,7 +14,7 @@ pub(super) fn find(named: &[String]) -> Vec<String> {
             folder(Path::new(path), &mut found);
         }
         if found.len() == before {
-            // A file; or what is none, which reading it will say.
+            // A file; if it does not exist, reading it reports that.
             found.push(path.clone());
         }
     }
@@ -45,7 +45,7 @@ fn is_description(path: &Path) -> bool {
         .any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// What `check` makes of each path, in order; as many at once as there are processors.
+/// Results of `check` for each path, in order; as many at once as there are processors.
 pub(super) fn at_once<T: Send>(paths: &[String], check: impl Fn(&str) -> T + Sync) -> Vec<T> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);

@@ -92,7 +92,7 @@ fn at(dictionary: Dictionary<'_>, object: &Object, address: Address, what: What)
     }
 }
 
-/// What a value that was read says: its length, and what it is where it should not change.
+/// Compares a value that was read: its length, and the value itself if it should not change.
 fn value(
     dictionary: Dictionary<'_>,
     entry: &Entry,

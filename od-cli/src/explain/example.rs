@@ -1,4 +1,4 @@
-//! What a rule's pair of files shows: the lines in which the two differ, with their sections.
+//! Excerpts of a rule's pair of files: the lines that differ, with their sections.
 
 use od_eds::Document;
 use od_eds::check::Pair;
@@ -49,7 +49,7 @@ fn sections(text: &str) -> Vec<Section<'_>> {
 }
 
 /// The lines that the other file's section of this name has not, with those around them; the
-/// whole section if there is none.
+/// whole section if the other file lacks it.
 fn excerpt<'a>(section: &Section<'a>, others: &[Section<'_>]) -> Vec<&'a str> {
     let Some(other) = others.iter().find(|other| other[0] == section[0]) else {
         return section.clone();

@@ -65,7 +65,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     take.end(args)
 }
 
-/// A lesson while it is taken.
+/// A lesson in progress.
 struct Take {
     progress: Progress,
     bench: Bench,

@@ -1,4 +1,4 @@
-//! What carries the frames of a client.
+//! Link of a client to a bus.
 
 use std::time::Instant;
 
@@ -6,7 +6,7 @@ use od_wire::Frame;
 
 use crate::failure::Failure;
 
-/// What carries frames.
+/// Link that carries frames.
 pub(crate) trait Link {
     /// Sends a frame.
     fn send(&mut self, frame: &Frame) -> Result<(), Failure>;

@@ -13,13 +13,13 @@ use od_bench::links::slcan;
 pub(crate) struct Client {
     stream: TcpStream,
     address: String,
-    /// Bytes that are no whole line yet.
+    /// Bytes of an incomplete line.
     rest: Vec<u8>,
 }
 
 impl Client {
     pub(crate) fn open(address: &str) -> Result<Self, Failure> {
-        // A port alone is one of this machine.
+        // A port without a host is a port of this computer.
         let address = match address.parse::<u16>() {
             Ok(port) => format!("127.0.0.1:{port}"),
             Err(_) => address.to_owned(),

@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// What a run of `odkit` left behind.
+/// Result of a run of `odkit`.
 pub(crate) struct Done {
     /// Exit code.
     pub(crate) code: i32,

@@ -10,7 +10,7 @@ use super::command;
 /// `odkit sim` on an slcan port of its own; it ends with this value.
 pub(crate) struct Sim {
     pub(crate) child: Child,
-    /// What it says at the start.
+    /// Its greeting.
     pub(crate) greeting: String,
     pub(crate) port: u16,
 }

@@ -1,10 +1,10 @@
-//! What BCM mode does again and again: send a frame, and watch an identifier.
+//! Repeated work of BCM mode: send a frame, and watch a CAN-ID.
 
 use std::prelude::v1::*;
 
 use od_runtime::{CanId, Frame, Instant};
 
-/// So many jobs, and so many subscriptions, a client may have.
+/// Limit of jobs, and of subscriptions, of a client.
 const MOST: usize = 256;
 /// No job sends faster, microseconds.
 const FASTEST: u64 = 1000;
@@ -51,7 +51,7 @@ impl Jobs {
         self.0.iter().filter_map(|job| job.next).min()
     }
 
-    /// What is due, each once: what a late call has missed does not come in a heap.
+    /// Returns the jobs that are due, each once, even after a late call.
     pub(super) fn due(&mut self, now: Instant, mut send: impl FnMut(Frame)) {
         for job in &mut self.0 {
             if let Some(next) = job.next.filter(|next| *next <= now) {
@@ -74,9 +74,9 @@ struct Watch {
     every: u64,
     /// Only a change in these bits counts.
     mask: Option<Frame>,
-    /// What the client heard last, and when.
+    /// Last frame that the client received, and its time.
     heard: Option<(Frame, Instant)>,
-    /// What it hears when the interval is over.
+    /// Frame to send to the client when the interval is over.
     held: Option<Frame>,
 }
 
@@ -95,7 +95,7 @@ impl Watch {
     }
 }
 
-/// What the client wants to hear.
+/// Subscription of the client.
 #[derive(Debug, Default)]
 pub(super) struct Watches(Vec<Watch>);
 

@@ -1,4 +1,4 @@
-//! What clients say, and what they get.
+//! Commands of clients, and the responses.
 
 use std::string::ToString;
 

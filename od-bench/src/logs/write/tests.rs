@@ -1,4 +1,4 @@
-//! What is written is read again, and what others write.
+//! Reads written logs again, and logs of other programs.
 
 use std::prelude::v1::*;
 use std::vec;

@@ -38,7 +38,7 @@ fn is_down(name: &str) -> bool {
     flags.is_some_and(|flags| flags & IFF_UP == 0)
 }
 
-/// What went wrong, and the commands that mend it.
+/// Message for an error, with the commands that solve it.
 #[cfg(target_os = "linux")]
 fn advice(name: &str, error: &std::io::Error) -> String {
     /// "Address family not supported by protocol": a kernel without CAN.

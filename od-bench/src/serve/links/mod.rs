@@ -1,4 +1,4 @@
-//! Where masters come from: what `--link` says, and the ends of it.
+//! Links for masters: the values of `--link`, and their ends.
 
 mod can;
 pub(super) mod opened;
@@ -9,7 +9,7 @@ mod tcp;
 use super::failure::Failure;
 use opened::{Ends, Opened, Protocol};
 
-/// What `--link` takes, for error messages.
+/// Forms of `--link`, for error messages.
 const FORMS: &str = "slcan:HOST:PORT, slcan:pty, slcan:DEVICE[@BAUD], socketcand:HOST:PORT, \
                      socketcan:INTERFACE, or - for standard input and output";
 
@@ -40,10 +40,10 @@ impl Link {
         Self::Slcan(place.to_owned())
     }
 
-    /// Reads what stands behind `--link`.
+    /// Reads the value of `--link`.
     ///
     /// # Errors
-    /// It is no link; the text says which ones there are.
+    /// The text is not a valid link; the message lists the forms.
     pub fn parse(text: &str) -> Result<Self, String> {
         if text == "-" {
             return Ok(Self::Console);

@@ -9,7 +9,7 @@ use crate::links::lines::Lines;
 use crate::links::slcan::Channel;
 use crate::links::socketcand::Session;
 
-/// What a client speaks.
+/// Protocol of a client.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(in crate::serve) enum Protocol {
     Slcan,
@@ -31,7 +31,7 @@ impl Protocol {
         }
     }
 
-    /// How long a message is, where it has to be written in one piece.
+    /// Length of a message that must be written in one piece.
     pub(in crate::serve) fn message_len(self) -> Option<usize> {
         (self == Self::CanFrame).then_some(can_frame::SIZE)
     }
@@ -47,7 +47,7 @@ pub(in crate::serve) enum Opened {
 
 /// Both directions of a client.
 pub(in crate::serve) struct Ends {
-    /// What to call it; for a pseudo-terminal the path that others open.
+    /// Name in messages; for a pseudo-terminal the path that others open.
     pub(in crate::serve) name: String,
     pub(in crate::serve) protocol: Protocol,
     pub(in crate::serve) reading: Box<dyn Read + Send>,
