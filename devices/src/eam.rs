@@ -117,7 +117,7 @@ pub static PROFILE: Profile = Profile {
         stopped_only: true,
         node_id: Address::new(0x2101, 0),
         bit_rate: Address::new(0x2100, 0),
-        bit_rates: &[
+        bit_rates: [
             Some(8),
             Some(7),
             Some(6),

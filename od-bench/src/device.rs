@@ -8,12 +8,14 @@ use od_model::{Dictionary, Entry};
 use od_runtime::encoder::{Encoder, Fault, Role};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
-    AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, NoApplication, Node,
-    NodeId, Profile, Reset, Store,
+    AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, Profile,
+    Reset, Store,
 };
 use od_wire::nmt::State;
 
 use crate::eeprom::Eeprom;
+use crate::plain::Plain;
+use crate::services::Services;
 use crate::shaft::{self, Shaft};
 use crate::slave::{Input, Slave};
 use crate::source::Source;
@@ -28,6 +30,7 @@ pub(super) fn roomy(node_id: NodeId) -> Box<dyn Slave> {
 /// What is behind the dictionary.
 pub(super) enum Behaviour {
     Encoder(Box<Encoder<Shaft>>),
+    Plain(Plain),
     Other(Box<dyn Application>),
 }
 
@@ -36,13 +39,14 @@ impl Behaviour {
     pub(super) fn of(dictionary: Dictionary<'_>) -> Self {
         match shaft::encoder_of(dictionary) {
             Some(encoder) => Self::Encoder(Box::new(encoder)),
-            None => Self::Other(Box::new(NoApplication)),
+            None => Self::Plain(Plain::default()),
         }
     }
 
     pub(super) fn as_application(&mut self) -> &mut dyn Application {
         match self {
             Self::Encoder(encoder) => &mut **encoder,
+            Self::Plain(plain) => plain,
             Self::Other(other) => &mut **other,
         }
     }
@@ -59,8 +63,9 @@ pub struct VirtualDevice {
     pub(super) node: Box<dyn Slave>,
     pub(super) behaviour: Behaviour,
     pub(super) storage: Eeprom,
-    pub(super) profile: &'static Profile,
-    wanted_id: NodeId,
+    pub(super) profile: Profile,
+    pub(super) services: Services,
+    pub(super) wanted_id: NodeId,
     wanted_rate: Option<u16>,
     /// When the turning shaft is looked at again.
     look_at: Option<Instant>,
@@ -82,9 +87,10 @@ impl VirtualDevice {
         let behaviour = Behaviour::Encoder(Box::new(shaft::encoder(kind)));
         let source = Source::Compiled(kind.dictionary);
         let node = roomy(node_id);
-        let device = Self::build(kind.title.into(), source, behaviour, kind.profile, node);
+        let device = Self::build(kind.title.into(), source, behaviour, *kind.profile, node);
         Self {
             channels: kind.channels,
+            services: Services::default(),
             has_leds: kind.leds,
             ..device
         }
@@ -101,7 +107,7 @@ impl VirtualDevice {
     ) -> Self {
         let source = Source::of::<D>();
         let behaviour = Behaviour::of(source.dictionary());
-        let profile = &Profile::CIA301;
+        let profile = Profile::CIA301;
         Self::build(title.into(), source, behaviour, profile, Box::new(node))
     }
 
@@ -114,7 +120,7 @@ impl VirtualDevice {
     ) -> Self {
         let behaviour = Behaviour::Other(application);
         let source = Source::of::<D>();
-        Self::build(title.into(), source, behaviour, profile, Box::new(node))
+        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
     }
 
     /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
@@ -128,12 +134,13 @@ impl VirtualDevice {
         title: String,
         source: Source,
         behaviour: Behaviour,
-        profile: &'static Profile,
+        profile: Profile,
         node: Box<dyn Slave>,
     ) -> Self {
         let dictionary = source.dictionary();
         let values = vec![0; dictionary.store_len()];
-        let erased = vec![0xFF; image::capacity_needed(&dictionary)];
+        let erased = vec![0xFF; needed(dictionary, &profile)];
+        let services = Services::of(dictionary, profile.lss.is_some(), |_| false);
         Self {
             title,
             source,
@@ -143,6 +150,7 @@ impl VirtualDevice {
             behaviour,
             storage: Eeprom::own(erased),
             profile,
+            services,
             wanted_rate: None,
             look_at: None,
             activated: None,
@@ -159,15 +167,6 @@ impl VirtualDevice {
         self
     }
 
-    /// With this serial number, where it is an encoder. Do it before power comes.
-    #[must_use]
-    pub fn with_serial_number(mut self, serial_number: u32) -> Self {
-        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
-            **encoder = encoder.clone().with_serial_number(serial_number);
-        }
-        self
-    }
-
     /// Set up for this bit rate in kbit/s, as somebody did who put it on a line: it stands in
     /// an EEPROM that is empty at the first start, where the device can keep it.
     pub fn set_up_for(&mut self, rate: Option<u16>) {
@@ -176,7 +175,7 @@ impl VirtualDevice {
 
     /// Bytes that an EEPROM of this device needs.
     pub fn storage_needed(&self) -> usize {
-        image::capacity_needed(&self.dictionary())
+        needed(self.dictionary(), &self.profile)
     }
 
     /// A name to show.
@@ -380,4 +379,13 @@ impl VirtualDevice {
         };
         (&mut **node, device)
     }
+}
+
+/// Bytes of EEPROM for the values of a dictionary, and for what LSS stores beside them.
+fn needed(dictionary: Dictionary<'_>, profile: &Profile) -> usize {
+    let own = match profile.lss {
+        Some(lss) if lss.is_own() => image::OWN_CAPACITY,
+        _ => 0,
+    };
+    image::capacity_needed(&dictionary) + own
 }

@@ -16,6 +16,7 @@ mod device;
 mod eeprom;
 pub mod faults;
 pub mod grammar;
+mod identity;
 mod leds;
 pub mod lesson;
 pub mod links;
@@ -23,11 +24,13 @@ pub mod links;
 mod loaded;
 pub mod logs;
 pub mod pdos;
+mod plain;
 pub mod rig;
 mod saved;
 pub mod script;
 #[cfg(feature = "serve")]
 pub mod serve;
+mod services;
 pub mod shaft;
 mod slave;
 mod source;
@@ -45,5 +48,6 @@ pub use leds::Led;
 #[cfg(feature = "eds")]
 pub use loaded::EdsOptions;
 pub use saved::{Saved, is_saved};
+pub use services::Services;
 pub use wire::Line;
 pub use world::ShaftView;

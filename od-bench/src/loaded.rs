@@ -1,11 +1,13 @@
 //! A device of an EDS or DCF text.
 
+use std::format;
 use std::prelude::v1::*;
 
-use od_eds::{Finding, Tables};
-use od_runtime::{NodeId, Profile};
+use od_eds::{Description, Finding, Tables};
+use od_runtime::{LssProfile, NodeId, Profile};
 
 use crate::device::{Behaviour, VirtualDevice, roomy};
+use crate::services::Services;
 use crate::source::Source;
 
 /// Choices that an EDS file leaves open.
@@ -48,7 +50,51 @@ impl VirtualDevice {
             .unwrap_or_else(|| "EDS device".into());
         let source = Source::Loaded(Box::new(tables));
         let node = roomy(node_id);
-        let device = Self::build(title, source, behaviour, &Profile::CIA301, node);
+        let profile = Profile {
+            lss: lss(description),
+            ..Profile::CIA301
+        };
+        let mut device = Self::build(title, source, behaviour, profile, node);
+        device.services = Services::of(device.dictionary(), has_lss(description), |key| {
+            is_set(description, key)
+        });
+        let commissioning = description.commissioning().unwrap_or_default();
+        if let Some(number) = commissioning.serial_number {
+            device = device.with_serial_number(number);
+        }
         (Some(device), parsed.findings)
     }
+}
+
+/// The LSS slave that an EDS asks for, with the bit rates of its [DeviceInfo] (DECISIONS U-43).
+fn lss(description: &Description) -> Option<LssProfile> {
+    let mut lss = has_lss(description).then_some(LssProfile::CIA305)?;
+    let has = |kbit: u16| is_set(description, &format!("BaudRate_{kbit}"));
+    let rates = || {
+        (0..)
+            .zip(lss.bit_rates)
+            .filter_map(|(index, rate)| rate.and(od_wire::lss::kbit(index)))
+    };
+    // An EDS that names no bit rate says nothing about them.
+    if rates().any(has) {
+        for (index, rate) in (0..).zip(&mut lss.bit_rates) {
+            *rate = rate.filter(|_| od_wire::lss::kbit(index).is_some_and(has));
+        }
+    }
+    Some(lss)
+}
+
+/// Whether [DeviceInfo] says `LSS_Supported=1` (CiA 306-1).
+fn has_lss(description: &Description) -> bool {
+    is_set(description, "LSS_Supported")
+}
+
+/// Whether a key of [DeviceInfo] is there and not 0.
+fn is_set(description: &Description, key: &str) -> bool {
+    let info = description.section("DeviceInfo");
+    let value = info.and_then(|info| info.get(key));
+    value.is_some_and(|value| {
+        let number = od_model::values::integer(value.value.trim());
+        number.is_some_and(|number| number != 0)
+    })
 }

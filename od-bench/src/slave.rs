@@ -23,6 +23,8 @@ pub(crate) trait Slave {
     fn poll_event(&mut self) -> Option<Event>;
     fn state(&self) -> State;
     fn node_id(&self) -> NodeId;
+    fn set_node_id(&mut self, node_id: Option<NodeId>);
+    fn is_configured(&self) -> bool;
     fn is_powered(&self) -> bool;
     fn is_bus_off(&self) -> bool;
 }
@@ -66,6 +68,14 @@ impl<D: Device, const PDO: usize, const SDO: usize> Slave for Node<D, PDO, SDO> 
 
     fn node_id(&self) -> NodeId {
         self.node_id()
+    }
+
+    fn set_node_id(&mut self, node_id: Option<NodeId>) {
+        self.set_node_id(node_id);
+    }
+
+    fn is_configured(&self) -> bool {
+        self.is_configured()
     }
 
     fn is_powered(&self) -> bool {

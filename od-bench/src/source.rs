@@ -1,5 +1,6 @@
 //! Where the dictionary of a device comes from.
 
+#[cfg(feature = "eds")]
 use std::boxed::Box;
 
 #[cfg(feature = "eds")]

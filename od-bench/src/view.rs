@@ -79,7 +79,7 @@ impl VirtualDevice {
                 let mut errors = reports.filter(|report| report.warning == 0);
                 errors.any(|report| encoder.is_broken(report.fault))
             }
-            Behaviour::Other(_) => false,
+            _ => false,
         };
         let register = bits(0x1001);
         let error = broken

@@ -27,7 +27,7 @@ impl VirtualDevice {
     fn encoder(&mut self) -> Option<&mut Encoder<Shaft>> {
         match &mut self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder),
-            Behaviour::Other(_) => None,
+            _ => None,
         }
     }
 
@@ -58,7 +58,7 @@ impl VirtualDevice {
     pub(super) fn shaft_now(&self) -> Option<Shaft> {
         match &self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder.shaft.without_counter()),
-            Behaviour::Other(_) => None,
+            _ => None,
         }
     }
 
@@ -134,7 +134,7 @@ impl VirtualDevice {
             Behaviour::Encoder(encoder) => {
                 (encoder.switches().node_id, encoder.switches().bit_rate)
             }
-            Behaviour::Other(_) => (0, 0),
+            _ => (0, 0),
         }
     }
 
@@ -162,7 +162,7 @@ impl VirtualDevice {
                 let mut reports = encoder.profile().reports.iter();
                 reports.any(|report| report.fault == fault)
             }
-            Behaviour::Other(_) => false,
+            _ => false,
         }
     }
 
@@ -179,12 +179,16 @@ impl VirtualDevice {
     pub fn bit_rate(&self) -> Option<u16> {
         match &self.behaviour {
             Behaviour::Encoder(encoder) => self.activated.or(encoder.bit_rate()),
-            Behaviour::Other(_) => None,
+            _ => self.activated,
         }
     }
 
-    /// Bit rate in kbit/s of a code of the device (2100h).
+    /// Bit rate in kbit/s of a code of the device (2100h), or without an object for it, of an index of
+    /// the LSS table.
     pub(super) fn bit_rate_of(&self, code: u8) -> Option<u16> {
+        if self.profile.lss.is_some_and(|lss| lss.is_own()) {
+            return od_wire::lss::kbit(code);
+        }
         let Behaviour::Encoder(encoder) = &self.behaviour else {
             return None;
         };
@@ -199,7 +203,7 @@ impl VirtualDevice {
             Behaviour::Encoder(encoder) => {
                 encoder.shaft.is_turning() && self.profile.pdo.event_on_change
             }
-            Behaviour::Other(_) => false,
+            _ => false,
         }
     }
 }

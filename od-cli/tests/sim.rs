@@ -143,6 +143,59 @@ fn shafts_start_where_the_seed_says() {
     assert_ne!(position("1"), position("2"));
 }
 
+/// DECISIONS U-43.
+#[test]
+fn an_eds_with_lss_starts_without_a_node_id() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let lines = "601#4000100000000000\n7E5#4C00000000000000\n7E5#0401000000000000\n\
+                 7E5#5D00000000000000\n7E5#1105000000000000\n7E5#0400000000000000\n\
+                 605#4018100400000000";
+    let sim = console(&[&eds, "--node-id", "none", "--serial", "0x1268"], lines);
+    assert_eq!(sim.code, 0, "{}", sim.err);
+    let frames: Vec<&str> = sim
+        .out
+        .lines()
+        .filter_map(|line| line.split(' ').nth(2))
+        .collect();
+    assert_eq!(
+        frames,
+        [
+            "7E4#5000000000000000",
+            "7E4#5D68120000000000",
+            "7E4#1100000000000000",
+            "705#00",
+            "585#4318100468120000"
+        ],
+        "{}",
+        sim.out
+    );
+    for said in [
+        "no node ID; standard input",
+        "services: ",
+        "LSS slave (CiA 305)",
+    ] {
+        assert!(sim.err.contains(said), "{said}: {}", sim.err);
+    }
+}
+
+#[test]
+fn nodes_of_one_type_have_serial_numbers_of_their_own() {
+    let read = "601#4018100400000000\n602#4018100400000000\n603#4018100400000000";
+    for (args, serials) in [
+        (&["gxmm", "gxmm", "gxam"][..], ["01", "02", "01"]),
+        (
+            &["gxmm", "gxmm", "gxmm", "--serial", "7"],
+            ["07", "01", "08"],
+        ),
+    ] {
+        let sim = console(args, read);
+        for (node, serial) in (1..).zip(serials) {
+            let answer = format!("58{node}#43181004{serial}000000");
+            assert!(sim.out.contains(&answer), "{answer}: {}", sim.out);
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_is_said_in_one_line() {
     for (args, code, why) in [
@@ -183,6 +236,11 @@ fn what_cannot_be_is_said_in_one_line() {
             &["sim", "gxmm", "--node-id", "1", "--node-id", "2"],
             2,
             "`--node-id` is given 2 times for 1 device",
+        ),
+        (
+            &["sim", "gxmm", "--node-id", "none"],
+            2,
+            "only if its EDS says `LSS_Supported=1`",
         ),
         (
             &["sim", "gxmm", "--rpm", "inf"],

@@ -121,13 +121,14 @@ pub struct StoreProfile {
 pub struct LssProfile {
     /// LSS is there in NMT state Stopped alone.
     pub stopped_only: bool,
-    /// Object of the node ID that the device starts with.
+    /// Object of the node ID that the device starts with. [`LssProfile::OWN_NODE_ID`]: no object has
+    /// it, the image of the saved values does; then it can be FFh, not configured.
     pub node_id: Address,
-    /// Object of the bit rate that the device starts with.
+    /// Object of the bit rate that the device starts with, or [`LssProfile::OWN_BIT_RATE`].
     pub bit_rate: Address,
-    /// What `bit_rate` is for each index of the LSS bit timing table (0: 1000 kbit/s …
+    /// Value of `bit_rate` for each index of the LSS bit timing table (0: 1000 kbit/s …
     /// 8: 10 kbit/s); `None`: the device does not have it.
-    pub bit_rates: &'static [Option<u8>],
+    pub bit_rates: [Option<u8>; 9],
     /// Identify remote slave by ranges (46h–4Bh).
     pub identify_remote: bool,
     /// Identify non-configured remote slave (4Ch).
@@ -139,6 +140,41 @@ pub struct LssProfile {
     /// After 15h the device is silent for two switch delays, and the bit rate changes between
     /// them (CiA 305); else for one, and the bit rate changes at its end.
     pub second_delay: bool,
+}
+
+impl LssProfile {
+    /// Stands for the node ID of a device without an object for it: index 0000h has no object.
+    pub const OWN_NODE_ID: Address = Address::new(0, 1);
+    /// Stands for the bit rate of a device without an object for it: its index in the LSS table.
+    pub const OWN_BIT_RATE: Address = Address::new(0, 2);
+
+    /// CiA 305 in full, in every NMT state, for a device without objects for node ID and bit rate.
+    pub const CIA305: Self = Self {
+        stopped_only: false,
+        node_id: Self::OWN_NODE_ID,
+        bit_rate: Self::OWN_BIT_RATE,
+        bit_rates: [
+            Some(0),
+            Some(1),
+            Some(2),
+            Some(3),
+            Some(4),
+            None,
+            Some(6),
+            Some(7),
+            Some(8),
+        ],
+        identify_remote: true,
+        non_configured: true,
+        fastscan: true,
+        inquire_node_id: true,
+        second_delay: true,
+    };
+
+    /// Whether the image keeps node ID and bit rate, and not an object each.
+    pub const fn is_own(&self) -> bool {
+        self.node_id.index == 0
+    }
 }
 
 /// What NMT reset communication takes back.

@@ -38,7 +38,7 @@ fn bench(lss: LssProfile) -> Bench<Device> {
     bench
 }
 
-const RATES: &[Option<u8>] = &[
+const RATES: [Option<u8>; 9] = [
     Some(8),
     Some(7),
     Some(6),

@@ -5,6 +5,22 @@ pub const MASTER: u16 = 0x7E5;
 /// COB-ID of what a slave answers.
 pub const SLAVE: u16 = 0x7E4;
 
+/// Returns the bit rate in kbit/s at an index of the standard bit timing table; `None` for
+/// index 5, which is reserved, and above 8 (CiA 305, chapter 6.3.3).
+pub const fn kbit(index: u8) -> Option<u16> {
+    Some(match index {
+        0 => 1000,
+        1 => 800,
+        2 => 500,
+        3 => 250,
+        4 => 125,
+        6 => 50,
+        7 => 20,
+        8 => 10,
+        _ => return None,
+    })
+}
+
 /// The four numbers of the LSS address, in the order of 1018h.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]

@@ -29,6 +29,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     let count = nodes.len();
     for (option, given) in [
         ("--node-id", args.node_ids.len()),
+        ("--serial", args.serials.len()),
         ("--eeprom", args.eeproms.len()),
     ] {
         if given > count {
@@ -41,6 +42,14 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     let mut places: Vec<Place> = Vec::new();
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
         let mut device = one(maker, args, at, &places)?;
+        if let Some(number) = args
+            .serials
+            .get(at)
+            .copied()
+            .or_else(|| free(&device, &places))
+        {
+            device = device.with_serial_number(number);
+        }
         if let Some(path) = args.eeproms.get(at) {
             let file = File::open(path, device.storage_needed());
             let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
@@ -51,11 +60,8 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
                 set_shaft(args, maker.name, at, &mut device)?;
                 None
             }
-            // Told apart by LSS, and turned by the first channel's shaft.
-            channel => {
-                device = device.with_serial_number(u32::from(channel) + 1);
-                Some(at - usize::from(channel))
-            }
+            // The shaft of the first channel turns it.
+            channel => Some(at - usize::from(channel)),
         };
         places.push(Place { device, beside });
     }
@@ -69,11 +75,17 @@ fn one(
     at: usize,
     others: &[Place],
 ) -> Result<VirtualDevice, Failure> {
-    let wanted = args.node_ids.get(at).copied();
+    let wanted = match args.node_ids.get(at).copied() {
+        Some(None) => return unconfigured(maker),
+        wanted => wanted.flatten(),
+    };
     let device = (maker.make)(wanted).map_err(Failure::Failed)?;
-    let is_used = |id: NodeId| others.iter().any(|other| other.device.node_id() == id);
+    let others = others.iter().map(|other| &other.device);
+    let others = others.filter(|other| other.is_configured());
+    let used: Vec<NodeId> = others.map(VirtualDevice::node_id).collect();
+    let is_used = |id: NodeId| used.contains(&id);
     let own = device.node_id();
-    let Some(last) = others.last().map(|other| other.device.node_id().raw()) else {
+    let Some(last) = used.last().map(|id| id.raw()) else {
         return Ok(device);
     };
     // A DCF says which node it is; the others follow the device before them.
@@ -87,6 +99,27 @@ fn one(
             "a bus has 127 node IDs; start another `odkit sim` for the other devices".into(),
         )),
     }
+}
+
+/// A device that LSS gives its node ID.
+fn unconfigured(maker: &Maker<'_>) -> Result<VirtualDevice, Failure> {
+    let device = (maker.make)(None).map_err(Failure::Failed)?;
+    let name = maker.name;
+    device
+        .without_node_id()
+        .map_err(|why| Failure::Usage(format!("`--node-id none` does not fit {name}: {why}")))
+}
+
+/// Returns the next free serial number, if another device has the LSS address of this one.
+fn free(device: &VirtualDevice, others: &[Place]) -> Option<u32> {
+    let own = device.lss_address();
+    let others = others.iter().map(|other| other.device.lss_address());
+    let alike: Vec<u32> = others
+        .filter(|other| other[..3] == own[..3])
+        .map(|other| other[3])
+        .collect();
+    let next = alike.iter().max()?.wrapping_add(1);
+    alike.contains(&own[3]).then_some(next)
 }
 
 fn set_shaft(

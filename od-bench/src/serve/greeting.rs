@@ -8,6 +8,8 @@ use super::maker::Maker;
 use super::options::Options;
 use super::terminal::{note, print as print_line};
 use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::services::Services;
 
 /// Prints it: to standard output, or where that carries frames, to standard error.
 pub(super) fn print(
@@ -18,7 +20,9 @@ pub(super) fn print(
 ) -> Result<(), Failure> {
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
-        if *wanted != node {
+        if let Some(wanted) = wanted
+            && *wanted != node
+        {
             note(&format!(
                 "the EEPROM contains node ID {node}; `--node-id {wanted}` applies to an empty EEPROM only"
             ));
@@ -41,14 +45,17 @@ fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) 
     // Writing to a String cannot fail.
     let devices = bus.devices();
     if let [device] = devices {
-        let (title, node) = (device.title(), device.node_id());
-        let _ = writeln!(text, "{title}, node {node}; {places}");
+        let (title, node) = (device.title(), node(device));
+        let _ = writeln!(text, "{title}, {node}; {places}");
     } else {
         let _ = writeln!(text, "{} devices; {places}", devices.len());
         for (number, device) in (1..).zip(devices) {
-            let (title, node) = (device.title(), device.node_id());
-            let _ = writeln!(text, "{number:>3}  node {node:<3}  {title}");
+            let (title, node) = (device.title(), node(device));
+            let _ = writeln!(text, "{number:>3}  {node:<10}  {title}");
         }
+    }
+    for device in devices {
+        services(&mut text, device, devices.len() > 1);
     }
     let files: Vec<_> = args
         .eeproms
@@ -66,12 +73,33 @@ fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) 
     let (Some(device), Some(first)) = (devices.first(), first) else {
         return text;
     };
-    let node = device.node_id().raw();
     for link in links {
-        help(&mut text, link, first, node, args.bitrate);
+        help(&mut text, link, first, device, args.bitrate);
     }
     text.push_str("\nPress Ctrl-C to stop.");
     text
+}
+
+/// `node 5`, or `no node ID`.
+fn node(device: &VirtualDevice) -> String {
+    match device.is_configured() {
+        true => format!("node {}", device.node_id()),
+        false => String::from("no node ID"),
+    }
+}
+
+/// What the EDS of a device turns on, and what it promises in vain.
+fn services(text: &mut String, device: &VirtualDevice, several: bool) {
+    let Services { on, missing } = device.services();
+    let of = match several {
+        true => format!("{}: ", node(device)),
+        false => String::new(),
+    };
+    for (label, services) in [("services", on), ("not supported", missing)] {
+        if !services.is_empty() {
+            let _ = writeln!(text, "{of}{label}: {}", services.join(", "));
+        }
+    }
 }
 
 fn place(link: &Opened) -> String {
@@ -87,7 +115,17 @@ fn place(link: &Opened) -> String {
 }
 
 /// Commands that reach the first device over this link.
-fn help(text: &mut String, link: &Opened, device: &Maker<'_>, node: u8, bitrate: u32) {
+fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDevice, bitrate: u32) {
+    let node = device.node_id().raw();
+    let scan = match device.is_configured() {
+        true => String::new(),
+        false => format!(
+            "  network.lss.fast_scan()
+  network.lss.configure_node_id({node})
+  network.lss.store_configuration()
+  network.lss.send_switch_state_global(network.lss.WAITING_STATE)\n"
+        ),
+    };
     let (connect, needs) = match link {
         Opened::Listener(Protocol::Socketcand, _, address) => (
             format!(
@@ -126,12 +164,12 @@ fn help(text: &mut String, link: &Opened, device: &Maker<'_>, node: u8, bitrate:
             }
         },
     };
-    let (description, read) = match device.kind {
+    let (description, read) = match maker.kind {
         Some(_) => (
             "canopen.ObjectDictionary()".to_owned(),
             "sdo.upload(0x1000, 0).hex()",
         ),
-        None => (format!("{:?}", device.name), "sdo[0x1000].raw"),
+        None => (format!("{:?}", maker.name), "sdo[0x1000].raw"),
     };
     let _ = writeln!(
         text,
@@ -140,7 +178,7 @@ python-canopen (pip install {needs})
   import canopen
   network = canopen.Network()
   network.connect({connect})
-  node = network.add_node({node}, {description})
+{scan}  node = network.add_node({node}, {description})
   print(node.{read})"
     );
     candump(text, link, node, bitrate);

@@ -10,8 +10,10 @@ use super::links::Link;
 /// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Options {
-    /// Node ID of each device, in their order.
-    pub node_ids: Vec<NodeId>,
+    /// Node ID of each device, in their order; `None`: it starts without one.
+    pub node_ids: Vec<Option<NodeId>>,
+    /// Serial number of each device (1018h:04), in their order.
+    pub serials: Vec<u32>,
     /// Links for masters; none: slcan on port 29536 of this computer.
     pub links: Vec<Link>,
     /// File with the EEPROM of each device, in their order; in memory if there is none.
@@ -30,6 +32,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             node_ids: Vec::new(),
+            serials: Vec::new(),
             links: Vec::new(),
             eeproms: Vec::new(),
             position: None,
@@ -79,14 +82,36 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 8] = [
+pub const CHOICES: [Choice; 9] = [
     Choice {
         name: "node-id",
         value: "N",
-        help: "Node ID of the node at the start, 1 to 127; repeat it for the next node (a redundant \
-               encoder has two). Without it a node gets 1, or the next free node ID",
+        help: "Node ID of the node at the start, 1 to 127, or `none` (255): it waits for LSS; repeat it \
+               for the next node (a redundant encoder has two). Without it a node gets 1, or the \
+               next free node ID",
         repeats: true,
-        set: |options, text| node_id(text).map(|value| options.node_ids.push(value)),
+        set: |options, text| {
+            let node_id = match text {
+                "none" | "255" => None,
+                text => Some(node_id(text)?),
+            };
+            options.node_ids.push(node_id);
+            Ok(())
+        },
+        ..PLAIN
+    },
+    Choice {
+        name: "serial",
+        value: "NUMBER",
+        help: "Serial number of the node (1018h:04); repeat it for the next node. Without it nodes of \
+               one type get different ones",
+        repeats: true,
+        set: |options, text| {
+            let value = values::integer(text).and_then(|value| u32::try_from(value).ok());
+            let value = value.ok_or("write a number of at most 32 bits, such as 4712 or 0x1268")?;
+            options.serials.push(value);
+            Ok(())
+        },
         ..PLAIN
     },
     Choice {
@@ -237,12 +262,12 @@ mod tests {
     #[test]
     fn arguments_are_read_with_a_blank_or_an_equals_sign() {
         let options = parsed(
-            "--node-id 5 --node-id=0x06 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
+            "--node-id 5 --node-id=0x06 --node-id none --serial 0x1268 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
              --position=79592h --bitrate 125000 --eeprom a.bin",
         )
         .expect("options");
-        let nodes: Vec<u8> = options.node_ids.iter().map(|node| node.raw()).collect();
-        assert_eq!(nodes, [5, 6]);
+        assert_eq!(options.node_ids, [NodeId::new(5), NodeId::new(6), None]);
+        assert_eq!(options.serials, [0x1268]);
         assert_eq!(options.links, [Link::slcan("127.0.0.1:0"), Link::Pty]);
         assert_eq!(options.rpm, Some(-60.0));
         assert_eq!(options.position, Some(0x79592));
@@ -259,6 +284,7 @@ mod tests {
             ("--rpm", "`--rpm`"),
             ("--rpm fast", "`fast`"),
             ("--node-id 128", "1 to 127"),
+            ("--serial 4294967296", "32 bits"),
             ("--rpm 1 --rpm 2", "twice"),
             ("--seed 1 --position 2", "`--seed`"),
             ("--position 2 --seed 1", "`--position`"),

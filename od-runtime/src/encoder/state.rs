@@ -121,6 +121,11 @@ impl<M: Motion> Encoder<M> {
         self
     }
 
+    /// Returns the serial number that [`with_serial_number`](Self::with_serial_number) set.
+    pub const fn serial_number(&self) -> Option<u32> {
+        self.serial_number
+    }
+
     /// Returns resolution and range of its sensor, known after [`with_sensor_of`](Self::with_sensor_of) or the
     /// first power-on.
     pub const fn sensor(&self) -> Sensor {

@@ -4,10 +4,11 @@ mod identify;
 
 use crate::objects::Objects;
 use crate::profile::LssProfile;
+use crate::storage::image;
 use od_wire::lss::{Part, Request, Response};
 
-/// The pending node ID of a slave that has none (CiA 305, chapter 6.3.1).
-const UNCONFIGURED: u8 = 0xFF;
+/// The node ID of a slave that is not configured (CiA 305, chapter 6.3.1).
+pub(crate) const UNCONFIGURED: u8 = 0xFF;
 
 /// Error codes of 11h, 13h and 17h.
 mod error {
@@ -40,7 +41,7 @@ pub(crate) struct Slave {
     remote: identify::Sequence,
     fastscan: identify::Fastscan,
     /// Set by 11h and not stored yet.
-    node_id: Option<u8>,
+    pub(crate) node_id: Option<u8>,
     /// Set by 13h and not stored yet; a value of 2100h.
     bit_rate: Option<u8>,
 }
@@ -68,11 +69,18 @@ impl Slave {
         };
     }
 
-    /// A master's frame.
+    /// Whether a slave that is not configured has a node ID to start with: 11h gave it one, and it
+    /// is back in the waiting state (CiA 305, chapter 6.3.1).
+    pub(crate) fn is_ready(&self) -> bool {
+        !self.configuration && self.node_id.is_some_and(|id| id != UNCONFIGURED)
+    }
+
+    /// A master's frame, for a node whose active node ID this is ([`UNCONFIGURED`]: none).
     pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_>,
         profile: &LssProfile,
+        active: u8,
         data: &[u8],
     ) -> Action {
         let Some(request) = Request::parse(data) else {
@@ -97,14 +105,18 @@ impl Slave {
                 complete.then_some(Response::Identified)
             }
             Request::IdentifyNonConfigured if profile.non_configured => {
-                (self.node_id == Some(UNCONFIGURED)).then_some(Response::NonConfigured)
+                let node_id = match profile.is_own() {
+                    true => Some(active),
+                    false => self.node_id,
+                };
+                (node_id == Some(UNCONFIGURED)).then_some(Response::NonConfigured)
             }
             Request::Fastscan {
                 number,
                 bit,
                 part,
                 next,
-            } if profile.fastscan => {
+            } if profile.fastscan && (active == UNCONFIGURED || !profile.is_own()) => {
                 // Who is being configured was found already (CiA 305, chapter 6.3.6).
                 if self.configuration {
                     return Action::Answer(None);
@@ -144,14 +156,24 @@ impl Slave {
                 })
             }
             Request::ActivateBitTiming { delay_ms } => {
-                let stored = objects
-                    .store
-                    .unsigned(profile.bit_rate.index, profile.bit_rate.sub);
-                let bit_rate = self.bit_rate.unwrap_or(stored as u8);
+                let stored = |objects: &mut Objects<'_>| match profile.is_own() {
+                    true => stored(objects)[1],
+                    false => {
+                        let LssProfile { bit_rate, .. } = profile;
+                        Some(objects.store.unsigned(bit_rate.index, bit_rate.sub) as u8)
+                    }
+                };
+                let Some(bit_rate) = self.bit_rate.or_else(|| stored(objects)) else {
+                    // The device has the bit rate that it was made with.
+                    return Action::Answer(None);
+                };
                 return Action::Activate { delay_ms, bit_rate };
             }
             Request::Store => {
-                let error = self.store(objects, profile);
+                let error = match profile.is_own() {
+                    true => self.store_own(objects, active),
+                    false => self.store(objects, profile),
+                };
                 Some(Response::Configured {
                     command: 0x17,
                     error,
@@ -161,12 +183,9 @@ impl Slave {
                 part,
                 value: address[part as usize],
             }),
-            Request::InquireNodeId if profile.inquire_node_id => {
-                let active = objects.store.node_id().raw();
-                Some(Response::NodeId {
-                    node_id: self.node_id.unwrap_or(active),
-                })
-            }
+            Request::InquireNodeId if profile.inquire_node_id => Some(Response::NodeId {
+                node_id: self.node_id.unwrap_or(active),
+            }),
             _ => None,
         };
         Action::Answer(answer)
@@ -194,7 +213,7 @@ impl Slave {
         let ours = |entry: &od_model::Entry| {
             entry.address == profile.node_id || entry.address == profile.bit_rate
         };
-        match crate::storage::image::save_only(
+        match image::save_only(
             objects.storage,
             &objects.store,
             &objects.profile.store,
@@ -204,4 +223,26 @@ impl Slave {
             Err(_) => error::ACCESS,
         }
     }
+
+    /// Puts what is pending into the image, beside the objects: the next start takes it. A node
+    /// ID of FFh is stored as it is.
+    fn store_own(&mut self, objects: &mut Objects<'_>, active: u8) -> u8 {
+        objects.complete_save();
+        let [node_id, bit_rate] = stored(objects);
+        let own = [
+            self.node_id.or(node_id).or(Some(active)),
+            self.bit_rate.or(bit_rate),
+        ];
+        let profile = &objects.profile.store;
+        match image::save_own(objects.storage, &objects.store, profile, own) {
+            Ok(()) => error::NONE,
+            Err(_) => error::ACCESS,
+        }
+    }
+}
+
+/// Returns the node ID and the bit rate that a device without objects for them stored. A storage
+/// that cannot be read holds none.
+pub(crate) fn stored(objects: &mut Objects<'_>) -> [Option<u8>; 2] {
+    image::own(objects.storage).unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! Power-on, the two NMT resets, and how the services get their configuration.
 
 use od_wire::nmt::State;
-use od_wire::{CobId, Instant};
+use od_wire::{CobId, Instant, NodeId};
 
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
@@ -90,7 +90,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();
-        self.lss = lss::Slave::new();
+        let pending = core::mem::replace(&mut self.lss, lss::Slave::new()).node_id;
         if self.is_bus_off() {
             self.events.push(Event::BusOn);
         }
@@ -100,6 +100,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.lost = false;
         self.tick_at = None;
         self.state = State::Initialising;
+        let mut rate = None;
         if light {
             // Nothing of the device is reset, and a save goes on.
             self.forget_bus_errors(objects);
@@ -116,13 +117,46 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             } else {
                 self.emcy.reset();
             }
+            let bit_rate = self.take_own(objects, reset, pending);
             self.load(objects, reset);
+            rate = bit_rate;
         }
         self.events.push(Event::Reset(reset, self.node_id));
+        if let Some(rate) = rate {
+            self.events.push(Event::BitRate(rate));
+        }
         self.boot_at = Some(objects.now.plus_micros(delay.into()));
         if delay == 0 {
             self.boot_up(objects);
         }
+    }
+
+    /// Node ID of a device without an object for it: a start takes the stored one, NMT reset
+    /// communication the pending one (CiA 305, chapter 6.3.1). Returns the bit rate of a start.
+    fn take_own(
+        &mut self,
+        objects: &mut Objects<'_>,
+        reset: Reset,
+        pending: Option<u8>,
+    ) -> Option<u8> {
+        if !objects.profile.lss.is_some_and(|lss| lss.is_own()) {
+            return None;
+        }
+        let (node_id, bit_rate) = match reset {
+            Reset::PowerOn | Reset::Node => {
+                let [node_id, bit_rate] = lss::stored(objects);
+                let made_with = self.made_with.map_or(lss::UNCONFIGURED, NodeId::raw);
+                (node_id.or(Some(made_with)), bit_rate)
+            }
+            Reset::Communication | Reset::Defaults => (pending, None),
+        };
+        if let Some(node_id) = node_id {
+            let node_id = NodeId::new(node_id);
+            self.configured = node_id.is_some();
+            self.node_id = node_id.unwrap_or(self.node_id);
+            objects.store.set_node_id(self.node_id);
+        }
+        bit_rate
     }
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
@@ -175,6 +209,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     /// goes out, Pre-operational begins.
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_>) {
         self.boot_at = None;
+        if !self.configured {
+            return;
+        }
         self.configure(objects);
         self.push_error_control(0);
         self.state = State::PreOperational;

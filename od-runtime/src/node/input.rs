@@ -10,7 +10,7 @@ use crate::application::Reset;
 use crate::device::Device;
 use crate::emcy::PDO_LENGTH;
 use crate::lent::Lent;
-use crate::lss::Action;
+use crate::lss::{self, Action};
 use crate::objects::Objects;
 use crate::pdo::Received;
 
@@ -21,10 +21,13 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         let Some((node, mut objects)) = self.open(device, now) else {
             return;
         };
+        let id = frame.id();
         if node.state == State::Initialising || node.mute.is_some() {
+            if node.is_unconfigured() && id == CanId::standard(od_wire::lss::MASTER) {
+                node.handle_lss(&mut objects, frame);
+            }
             return;
         }
-        let id = frame.id();
         if id == CanId::standard(0) {
             if !frame.is_remote() {
                 node.handle_nmt(&mut objects, frame);
@@ -142,7 +145,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         if frame.is_remote() || profile.stopped_only && self.state != State::Stopped {
             return;
         }
-        match self.lss.handle(objects, &profile, frame.data()) {
+        let active = match self.configured {
+            true => self.node_id.raw(),
+            false => lss::UNCONFIGURED,
+        };
+        match self.lss.handle(objects, &profile, active, frame.data()) {
             Action::Answer(None) => {}
             Action::Answer(Some(answer)) => {
                 let id = CanId::standard(od_wire::lss::SLAVE);
@@ -158,6 +165,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             }
         }
         self.finish(objects);
+        if !self.configured && self.lss.is_ready() {
+            self.reset(objects, Reset::Communication);
+        }
     }
 
     /// 701h–77Fh: a master guards this node, or another node is alive.

@@ -53,6 +53,10 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
 #[derive(Debug)]
 struct Machines<const PDO: usize, const SDO: usize> {
     node_id: NodeId,
+    /// What [`LssProfile::is_own`](crate::LssProfile::is_own) starts with while nothing is stored.
+    made_with: Option<NodeId>,
+    /// `false`: the node ID is FFh (CiA 305), and there is LSS alone.
+    configured: bool,
     state: State,
     powered: bool,
     now: Instant,
@@ -119,6 +123,22 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         self.machines.node_id
     }
 
+    /// Sets the node ID that a device of [`LssProfile::CIA305`](crate::LssProfile::CIA305) starts with
+    /// from the next power-on while LSS has stored none. `None`: it is not configured, and there
+    /// is nothing but LSS until a master gives it one.
+    pub const fn set_node_id(&mut self, node_id: Option<NodeId>) {
+        let node = &mut self.machines;
+        node.made_with = node_id;
+        if !node.powered {
+            node.configured = node_id.is_some();
+        }
+    }
+
+    /// Whether the node has a node ID; without one it does nothing but LSS.
+    pub const fn is_configured(&self) -> bool {
+        self.machines.configured
+    }
+
     /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
     /// reported it. Meanwhile the node neither sends nor receives.
     pub const fn is_bus_off(&self) -> bool {
@@ -149,6 +169,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     const fn new(node_id: NodeId) -> Self {
         Self {
             node_id,
+            made_with: Some(node_id),
+            configured: true,
             state: State::Initialising,
             powered: false,
             now: Instant::ZERO,
@@ -175,6 +197,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             watches_changes: false,
             pdo_pending: false,
         }
+    }
+
+    /// It has started, and waits for LSS to give it a node ID.
+    fn is_unconfigured(&self) -> bool {
+        !self.configured && self.boot_at.is_none() && self.mute.is_none()
     }
 
     /// The TPDOs that the dictionary has.

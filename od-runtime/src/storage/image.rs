@@ -40,7 +40,7 @@ mod merge;
 
 use bank::Banks;
 use covered::{is_covered, is_saved};
-use layout::{HEADER, RECORD};
+use layout::{HEADER, OWN, RECORD};
 use merge::{Fate, Next};
 
 pub(crate) use covered::is_kept;
@@ -85,6 +85,10 @@ pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
     2 * bytes
 }
 
+/// Bytes of storage that a device needs beyond [`capacity_needed`] where LSS stores node ID and
+/// bit rate, and it has no objects for them.
+pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
+
 /// Puts saved values over those in the store, for the entries that `which` names.
 ///
 /// The store holds the defaults before. A value that the object could not have by now
@@ -103,6 +107,9 @@ pub fn load(
     let mut value = [0; MAX_VALUE];
     let mut records = banks.records();
     while let Some(record) = records.next(storage)? {
+        if record.address.index == OWN {
+            continue;
+        }
         let entry = store.dictionary().find(record.address).ok();
         match entry.filter(|entry| is_saved(entry)) {
             Some(entry) if !which(entry) || banks.is_cut() && !is_life_record(entry) => {}
@@ -167,6 +174,7 @@ pub(crate) fn begin(
             }
             _ => Fate::Keep,
         },
+        own: [None; 2],
         cut: match sub {
             // The device's own saves take nothing away when they are cut.
             0 => CutSave::LastSet,
@@ -194,11 +202,59 @@ pub fn save_only(
             Some(entry) if which(entry) => Fate::Store,
             _ => Fate::Keep,
         },
+        own: [None; 2],
         cut: profile.cut,
         cob_ids: profile.cob_ids,
     };
     let pending = merge::begin(storage, store, &banks, &next)?;
     commit(storage, pending)
+}
+
+/// Saves node ID and bit rate of a device without objects for them, [`OWN_CAPACITY`]; the values
+/// of objects stay as they are saved.
+///
+/// # Errors
+/// As [`save`].
+pub(crate) fn save_own(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    profile: &StoreProfile,
+    own: [Option<u8>; 2],
+) -> Result<(), StorageError> {
+    let banks = Banks::survey(storage)?;
+    let next = Next {
+        plan: &|address, _| match address.index {
+            OWN => Fate::Drop,
+            _ => Fate::Keep,
+        },
+        own,
+        cut: profile.cut,
+        cob_ids: profile.cob_ids,
+    };
+    let pending = merge::begin(storage, store, &banks, &next)?;
+    commit(storage, pending)
+}
+
+/// Returns the node ID and the bit rate that [`save_own`] saved.
+///
+/// # Errors
+/// [`StorageError`] where the storage cannot be read.
+pub(crate) fn own(storage: &mut dyn Storage) -> Result<[Option<u8>; 2], StorageError> {
+    let banks = Banks::survey(storage)?;
+    let mut own = [None; 2];
+    let mut records = banks.records();
+    while let Some(record) = records.next(storage)? {
+        let place = usize::from(record.address.sub).wrapping_sub(1);
+        if record.address.index == OWN
+            && record.len == 1
+            && let Some(place) = own.get_mut(place)
+        {
+            let mut value = [0];
+            storage.read(record.at, &mut value)?;
+            *place = Some(value[0]);
+        }
+    }
+    Ok(own)
 }
 
 /// Takes the saved values away that sub-index `sub` of 1011h covers, so that the next
@@ -226,6 +282,7 @@ pub fn erase(
             };
             if goes { Fate::Drop } else { Fate::Keep }
         },
+        own: [None; 2],
         // A restore that is cut leaves what it was to take away.
         cut: CutSave::LastSet,
         cob_ids: profile.cob_ids,

@@ -28,7 +28,17 @@ impl Application for Stored {
     }
 }
 
-const RATES: &[Option<u8>] = &[Some(8), Some(7), Some(6)];
+const RATES: [Option<u8>; 9] = [
+    Some(8),
+    Some(7),
+    Some(6),
+    None,
+    None,
+    None,
+    None,
+    None,
+    None,
+];
 
 const LSS: LssProfile = LssProfile {
     stopped_only: false,

@@ -7,6 +7,8 @@ pub const MAX_VALUE: usize = 1024;
 pub(super) const HEADER: usize = 20;
 /// Bytes of a record before its value.
 pub(super) const RECORD: usize = 5;
+/// Index of the records that are no object's: node ID (sub-index 1) and bit rate (2) of LSS.
+pub(super) const OWN: u16 = 0;
 /// No byte of it is one flipped bit away from 00h or FFh.
 pub(super) const MAGIC: [u8; 4] = *b"\x69odk";
 /// First byte of the magic of a set that a save is about to replace, where a save that is cut

@@ -5,7 +5,7 @@ use od_model::{Address, Entry};
 use super::bank::{Banks, in_chunks};
 use super::cob_id;
 use super::covered::{is_life_record, is_saved};
-use super::layout::{HEADER, MAGIC, MAX_VALUE, RECORD, REPLACED, VERSION};
+use super::layout::{HEADER, MAGIC, MAX_VALUE, OWN, RECORD, REPLACED, VERSION};
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -26,6 +26,8 @@ pub(super) enum Fate {
 pub(super) struct Next<'n> {
     /// Decides for an address; without an entry where no object of the dictionary saves it.
     pub(super) plan: &'n dyn Fn(Address, Option<&Entry>) -> Fate,
+    /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
+    pub(super) own: [Option<u8>; 2],
     /// What is left where power goes before the end.
     pub(super) cut: CutSave,
     pub(super) cob_ids: SavedCobIds,
@@ -134,6 +136,12 @@ impl Set<'_> {
 
     /// Goes through the newest set and the dictionary side by side, both by address.
     fn records(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
+        for (sub, value) in (1..).zip(self.next.own) {
+            if let Some(value) = value {
+                writer.head(storage, Address::new(OWN, sub), 1)?;
+                writer.put(storage, &[value])?;
+            }
+        }
         let mut records = self.banks.records();
         let entries = self.store.dictionary().entries().iter();
         let mut entries = entries.filter(|entry| is_saved(entry));
@@ -148,7 +156,9 @@ impl Set<'_> {
             let fate = match (self.next.plan)(address, new) {
                 // After a save that was cut the factory values hold, and they stay.
                 Fate::Keep if self.banks.is_cut() && !new.is_some_and(is_life_record) => Fate::Drop,
-                Fate::Keep if new.is_none() && !self.has_orphans => Fate::Drop,
+                Fate::Keep if new.is_none() && address.index != OWN && !self.has_orphans => {
+                    Fate::Drop
+                }
                 fate => fate,
             };
             match (fate, new, old) {
