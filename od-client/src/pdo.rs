@@ -62,12 +62,12 @@ impl Field<'_> {
         self.bits.div_ceil(8) as usize
     }
 
-    /// Does the field have no bits?
+    /// Returns whether the field has no bits.
     pub const fn is_empty(&self) -> bool {
         self.bits == 0
     }
 
-    /// Does the field only fill a gap (dummy mapping of CiA 301, chapter 7.4.7)?
+    /// Returns whether the field only fills a gap (dummy mapping of CiA 301, chapter 7.4.7).
     pub const fn is_dummy(&self) -> bool {
         self.address.index < 0x20
     }
@@ -129,7 +129,7 @@ pub struct Fields<'d, 'm> {
     dictionary: Dictionary<'d>,
     mapping: core::slice::Iter<'m, u32>,
     data: u64,
-    /// Bits that are taken; at most 64, as `decode` has checked.
+    /// Bits before the next field; at most 64, as `decode` has checked.
     first: u8,
 }
 

@@ -5,7 +5,7 @@ use core::fmt;
 use od_wire::nmt::State;
 use od_wire::{Duration, Frame, Instant, NodeId};
 
-/// What happened to a node.
+/// Event of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Event {
@@ -31,7 +31,7 @@ impl fmt::Display for Full {
 
 impl core::error::Error for Full {}
 
-/// What the consumer knows of one node.
+/// State of one node.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
     node: NodeId,
@@ -147,7 +147,7 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// Is the node watched?
+    /// Returns whether the node is watched.
     pub fn contains(&self, node: NodeId) -> bool {
         let mut nodes = self.slots.iter().flatten().map(|slot| slot.node);
         nodes.any(|watched| watched == node)

@@ -88,7 +88,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// The group that the object's index puts it in.
+    /// Returns the group of an object by its index.
     pub const fn of_index(index: u16) -> Self {
         match index {
             0x1000..=0x1FFF => Self::Communication,
@@ -98,7 +98,7 @@ impl Group {
         }
     }
 
-    /// Does sub-index `sub` of 1010h or 1011h cover this group?
+    /// Returns whether sub-index `sub` of 1010h or 1011h covers this group.
     pub const fn covered_by(self, sub: u8) -> bool {
         matches!(
             (self, sub),

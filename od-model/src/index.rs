@@ -111,7 +111,7 @@ pub(crate) fn position(buckets: &[u16], places: &[Place], address: Address) -> O
     }
 }
 
-/// Are these the buckets that [`fill`] makes?
+/// Whether these are the buckets that [`fill`] makes.
 pub(crate) const fn are_filled(buckets: &[u16], places: &[Place]) -> bool {
     if buckets.len() != bucket_count(places.len()) {
         return false;

@@ -1,4 +1,4 @@
-//! What a node needs room for to serve a dictionary; all of it can be asked at compile time.
+//! Sizes that a node needs to serve a dictionary, known at compile time.
 
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;

@@ -95,7 +95,7 @@ impl DataType {
         ]
     };
 
-    /// The type with this code (the index of its DEFTYPE object), if there is one.
+    /// Returns the type with this code, the index of its DEFTYPE object; `None` for other codes.
     pub const fn from_code(code: u16) -> Option<Self> {
         let mut i = 0;
         while i < Self::ALL.len() {
@@ -190,13 +190,13 @@ impl DataType {
         }
     }
 
-    /// Can a value of it depend on the node ID: UNSIGNED8 to UNSIGNED32?
+    /// Returns whether a default value can depend on the node ID: UNSIGNED8 to UNSIGNED32.
     pub const fn holds_node_id(self) -> bool {
         use DataType::*;
         matches!(self, Unsigned8 | Unsigned16 | Unsigned24 | Unsigned32)
     }
 
-    /// Smallest and largest value of an integer type, as the standard ranges them.
+    /// Returns smallest and largest value of an integer type or BOOLEAN; `None` for other types.
     pub const fn integer_range(self) -> Option<(i128, i128)> {
         match (self.kind(), self.bits()) {
             (Kind::Boolean, _) => Some((0, 1)),
@@ -229,7 +229,7 @@ pub enum ObjectCode {
 }
 
 impl ObjectCode {
-    /// The object code with this number, if there is one.
+    /// Returns the object code with this number; `None` for other numbers.
     pub const fn from_code(code: u8) -> Option<Self> {
         Some(match code {
             0x00 => Self::Null,
@@ -261,7 +261,7 @@ impl ObjectCode {
         }
     }
 
-    /// Whether the object has sub-indices with sub-index 0 as their count.
+    /// Returns whether the object has sub-indices with sub-index 0 as their count.
     pub const fn has_members(self) -> bool {
         matches!(self, Self::Array | Self::Record | Self::DefStruct)
     }

@@ -1,4 +1,4 @@
-//! Where the device's own behaviour plugs in.
+//! Interface between the node and the behaviour of the device.
 
 use od_model::Address;
 
@@ -8,31 +8,31 @@ use crate::store::Store;
 use od_wire::emcy::Emcy;
 use od_wire::{AbortCode, Instant, NodeId};
 
-/// What a reset takes back (CiA 301, chapter 7.3.2).
+/// Kind of a reset (CiA 301, chapter 7.3.2).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Reset {
-    /// Power came, or came back: everything in RAM is lost.
+    /// Power-on: everything in RAM is lost.
     PowerOn,
-    /// NMT reset node: everything is taken from storage again.
+    /// NMT reset node: all values are loaded from storage again.
     Node,
-    /// NMT reset communication: 1000h–1FFFh is taken from storage again.
+    /// NMT reset communication: 1000h–1FFFh are loaded from storage again.
     Communication,
     /// 1011h on a device that restores at once: values became their defaults in RAM.
     Defaults,
 }
 
-/// What an application may use while it is called.
+/// Parts of the node that an application may use during a call.
 pub struct Context<'c, 'a> {
-    /// The values.
+    /// Current values.
     pub store: &'c mut Store<'a>,
-    /// Now.
+    /// Time of the call.
     pub now: Instant,
-    /// What the application wants the node to do when the call is over.
+    /// Requests to the node, carried out when the call is over.
     pub signals: &'c mut Signals,
 }
 
-/// Wishes of an application to its node, carried out when the call is over.
+/// Requests of an application to its node, carried out when the call is over.
 #[derive(Debug)]
 pub struct Signals {
     /// Errors that came or went, in order.
@@ -41,7 +41,7 @@ pub struct Signals {
     pub(crate) reconfigure: bool,
     /// The application's own deadline may have moved.
     pub(crate) tick: bool,
-    /// The record of the device's life is to be saved.
+    /// The operating records are to be saved.
     pub(crate) keep: bool,
 }
 
@@ -52,7 +52,7 @@ impl Default for Signals {
 }
 
 impl Signals {
-    /// No wishes.
+    /// No requests.
     pub const fn new() -> Self {
         Self {
             errors: Fifo::new(emcy::NO_CHANGE),
@@ -62,21 +62,21 @@ impl Signals {
         }
     }
 
-    /// Is there nothing to carry out?
+    /// Whether there is nothing to carry out.
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
         self.errors.is_empty() && !self.reconfigure && !self.tick && !self.keep
     }
 
-    /// An error came: an EMCY is sent, 1001h and 1003h follow.
+    /// Reports an error: the node sends an EMCY message and updates 1001h and 1003h.
     ///
-    /// An error that is there already, with the same bits of 1001h, is not reported again.
+    /// An active error with the same code and the same bits of 1001h is not reported again.
     pub fn raise(&mut self, error: Emcy) {
         self.errors.push(emcy::Change::Raised(error));
     }
 
-    /// An error went: 1001h follows, and an EMCY "error reset" with this
-    /// manufacturer information is sent.
+    /// Reports the end of an error: the node updates 1001h and sends an EMCY message with code
+    /// 0000h (error reset) and this manufacturer-specific information.
     pub fn clear(&mut self, code: u16, info: [u8; 5]) {
         self.errors.push(emcy::Change::Cleared {
             code,
@@ -85,8 +85,8 @@ impl Signals {
         });
     }
 
-    /// As [`clear`](Self::clear), where several errors share a code: the one that set these
-    /// bits of 1001h went.
+    /// As [`clear`](Self::clear), if several errors share a code: ends the one that set these bits
+    /// of 1001h.
     pub fn clear_one(&mut self, code: u16, register: u8, info: [u8; 5]) {
         self.errors.push(emcy::Change::Cleared {
             code,
@@ -95,7 +95,8 @@ impl Signals {
         });
     }
 
-    /// Communication objects (1000h–1FFFh) were changed from inside; the services take them over.
+    /// Reports that the application changed communication objects (1000h–1FFFh); the services
+    /// read them again.
     pub fn reconfigure(&mut self) {
         self.reconfigure = true;
     }
@@ -106,43 +107,44 @@ impl Signals {
         self.keep = true;
     }
 
-    /// [`Application::tick`] wants to be asked again for its deadline.
+    /// Requests a call of [`Application::tick`], whose deadline may have changed.
     pub fn wake(&mut self) {
         self.tick = true;
     }
 }
 
-/// The device behind the dictionary: it validates writes, reacts to them, provides live values.
+/// Behaviour of a device: checks writes, reacts to them, and provides live values.
 ///
 /// Every function has an empty default, so a device without behaviour is [`NoApplication`].
-/// Nothing here sends a frame: the node does, from what the store and the signals say.
+/// Nothing here sends a frame: the node does, by the values and the signals.
 pub trait Application {
-    /// The values were reset and what storage held is loaded; make the rest agree.
+    /// Called after a reset, when the values are loaded: brings the rest of the device in line.
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let _ = (cx, reset);
     }
 
-    /// The node ID that the device starts with, if it decides that itself (switches,
-    /// a node-ID object, LSS); asked at [`Reset`]s, after storage is loaded.
+    /// Returns the node ID that the device starts with, if it has one of its own (switches, an
+    /// object, LSS). Called at a [`Reset`], after the values are loaded. `None`: the node keeps
+    /// its node ID.
     fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
         let _ = store;
         None
     }
 
-    /// The value at `address` is about to be read by an SDO or a PDO: bring it up to date.
+    /// Updates the value at `address`, which an SDO or a PDO is about to read.
     ///
     /// # Errors
-    /// The abort code that the SDO answers with; a PDO takes the value as it stands.
+    /// Abort code of the SDO; a PDO sends the old value.
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         let _ = (cx, address);
         Ok(())
     }
 
-    /// A master wants to write `value`, which has the object's length and lies in its
-    /// limits. The store still holds the old one.
+    /// Checks a `value` that a master wants to write; it has the length of the object and is
+    /// within its limits. The store still holds the old value.
     ///
     /// # Errors
-    /// The abort code that the SDO answers with; nothing is written then.
+    /// Abort code of the SDO; the value stays as it was.
     fn validate(
         &mut self,
         cx: &mut Context<'_, '_>,
@@ -153,7 +155,7 @@ pub trait Application {
         Ok(())
     }
 
-    /// The store holds the new value.
+    /// Reacts to a value that a master wrote; the store holds it.
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         let _ = (cx, address);
     }
@@ -164,27 +166,27 @@ pub trait Application {
         let _ = (cx, begins);
     }
 
-    /// What storage holds was looked at, before a [`reset`](Self::reset): it is sound or damaged;
-    /// or it is sound again, as a save or restore made it. [`tick`](Self::tick) follows.
+    /// Receives the state of the storage: sound or damaged before a [`reset`](Self::reset), sound
+    /// after a save or restore. [`tick`](Self::tick) follows.
     fn storage_is(&mut self, sound: bool) {
         let _ = sound;
     }
 
-    /// Bytes 3–7 of an EMCY frame that a service sends of its own accord.
+    /// Returns bytes 3 to 7 of an EMCY message that a service sends.
     fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
         let _ = store;
         [0; 5]
     }
 
-    /// The moment that the last call asked for has come, or the world outside changed.
-    /// Answers with the next moment, if there is one.
+    /// Acts on time or on a change outside the bus, and returns when it wants to be called next.
+    /// `None`: only after a change.
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         let _ = cx;
         None
     }
 }
 
-/// A device that is its dictionary and nothing else.
+/// Device without behaviour: only its dictionary.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoApplication;
 

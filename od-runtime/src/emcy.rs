@@ -36,7 +36,7 @@ pub(crate) enum Change {
 /// Changes on their way from the application to the node.
 pub(crate) type Changes = Fifo<Change, CHANGES>;
 
-/// Stands where no change waits.
+/// Content of an empty place.
 pub(crate) const NO_CHANGE: Change = Change::Cleared {
     code: 0,
     register: None,
@@ -61,11 +61,11 @@ pub(crate) struct Producer {
     active: Fifo<Emcy, ACTIVE>,
     waiting: Fifo<Emcy, QUEUE>,
     blocked_until: Instant,
-    /// Bits of 1001h that no EMCY stands for.
+    /// Bits of 1001h without an EMCY message.
     silent: u8,
 }
 
-/// What a change made of the errors.
+/// Result of a change.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Outcome {
     /// The error was not there, or was: the change is one.
@@ -103,7 +103,7 @@ impl Producer {
         let before = self.register();
         let (code, info) = match change {
             Change::Raised(error) => {
-                // Sources that share a code are told apart by what they mean for 1001h.
+                // Sources that share a code differ in their bits of 1001h.
                 let same =
                     |known: Emcy| known.code == error.code && known.register == error.register;
                 if self.active.iter().any(same) {
@@ -142,14 +142,14 @@ impl Producer {
         }
     }
 
-    /// The bits of 1001h that nobody is told of by EMCY. Answers with those that became set.
+    /// Sets the bits of 1001h without an EMCY message. Returns those that became set.
     pub(crate) fn set_silent(&mut self, store: &mut Store<'_>, bits: u8) -> u8 {
         let before = self.register();
         self.silent = bits;
         self.show(store) & !before
     }
 
-    /// Errors that a reset of the communication ends, without a word.
+    /// Ends errors without an EMCY message, as a reset of the communication does.
     pub(crate) fn forget(&mut self, store: &mut Store<'_>, which: impl Fn(u16) -> bool) {
         while self.active.remove(|error| which(error.code)) {}
         self.silent = 0;

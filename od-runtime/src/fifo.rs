@@ -10,7 +10,7 @@ pub(crate) struct Fifo<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> Fifo<T, N> {
-    /// An empty queue; `fill` stands where nothing is.
+    /// An empty queue; `fill` is the content of empty places.
     pub(crate) const fn new(fill: T) -> Self {
         Self {
             items: [fill; N],

@@ -5,25 +5,25 @@ use od_model::Dictionary;
 use crate::encoder::{EncoderProfile, Sensor};
 use crate::profile::Profile;
 
-/// An encoder that is made: its names, its dictionary, and what its family does differently.
+/// Product: names, dictionary and family of an encoder.
 #[derive(Clone, Copy, Debug)]
 pub struct DeviceKind {
-    /// Its name on a command line, in lower case.
+    /// Name on a command line, in lower case.
     pub name: &'static str,
-    /// What it is.
+    /// Title for people.
     pub title: &'static str,
-    /// The family, as the folder of its conformance scripts is called.
+    /// Family: the folder of its conformance scripts.
     pub family: &'static str,
-    /// Its object dictionary.
+    /// Object dictionary.
     pub dictionary: Dictionary<'static>,
-    /// What its family does differently from CiA 301.
+    /// Options and deviations of its family relative to CiA 301.
     pub profile: &'static Profile,
-    /// What its family does differently from CiA 406.
+    /// Options and deviations of its family relative to CiA 406.
     pub encoder: &'static EncoderProfile,
-    /// It has the dual LED of the bus cover.
+    /// Whether it has the dual LED of the bus cover.
     pub leds: bool,
-    /// Channels on its shaft: nodes of their own on one bus, all of this kind. 2 in a
-    /// redundant encoder, else 1.
+    /// Number of channels on its shaft, each a node of its own on the same bus: 2 in a redundant
+    /// encoder, else 1.
     pub channels: u8,
 }
 

@@ -5,7 +5,7 @@ use od_model::{Entry, Kind, Literal};
 
 use crate::store::Store;
 
-/// How a value is not one that its object can have.
+/// Reason why an object cannot have a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Outside {
     /// Above the upper limit.
@@ -18,7 +18,7 @@ pub(crate) enum Outside {
     Length,
 }
 
-/// Does the value lie in the entry's limits? `bytes` has the entry's length.
+/// Checks a value against the limits of an entry. `bytes` has the entry's length.
 pub(crate) fn check(store: &Store<'_>, entry: &Entry, bytes: &[u8]) -> Result<(), Outside> {
     match entry.data_type.kind() {
         Kind::Boolean if bytes.first().is_some_and(|byte| *byte > 1) => Err(Outside::NotAllowed),

@@ -1,7 +1,6 @@
-//! What one family does differently from another, as const data.
+//! Options and deviations of a device family relative to CiA 301, as const data.
 //!
-//! The standard leaves room and manuals use it; the services ask here instead
-//! of asking who they are.
+//! The standard leaves room and manuals use it; the services read the profile and know no family.
 //!
 //! The structs are not `#[non_exhaustive]`: a family is one `const` literal, which that would
 //! forbid. A literal that ends in `..Profile::CIA301` (or in a part of it, such as
@@ -11,67 +10,71 @@ use od_model::Address;
 
 use od_wire::AbortCode;
 
-/// What a device does with an SDO download whose length is not the object's.
+/// Response to an SDO download whose length is not that of the object.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct LengthRule {
-    /// Answer to too much data; `None`: the low bytes are taken.
+    /// Abort code for too much data; `None`: the node accepts the low bytes.
     pub too_long: Option<AbortCode>,
-    /// Answer to too little data.
+    /// Abort code for too little data.
     pub too_short: AbortCode,
 }
 
-/// SDO server (CiA 301, chapter 7.2.4).
+/// Options of the SDO server (CiA 301, chapter 7.2.4).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SdoProfile {
-    /// Shortest request that is looked at, 4–8 bytes; missing data bytes do not count as given.
+    /// DLC of the shortest request that the server answers, 4 to 8; a shorter one is ignored. Data
+    /// bytes that are missing do not count as given.
     pub min_dlc: u8,
-    /// Downloads of the wrong length.
+    /// Response to downloads of the wrong length.
     pub length: LengthRule,
-    /// Segmented upload. Without it a value of more than four bytes cannot be read.
+    /// Segmented upload is supported. Otherwise a value of more than four bytes cannot be read
+    /// (06010000h).
     pub segmented_upload: bool,
-    /// Segmented download. Without it the command is unknown.
+    /// Segmented download is supported. Otherwise the command is unknown (05040001h).
     pub segmented_download: bool,
-    /// Block transfers.
+    /// Block transfers are supported. Otherwise their commands are unknown (05040001h).
     pub block: bool,
-    /// Answer to a value below the object's lower limit.
+    /// Abort code for a value below the lower limit of the object.
     pub below_limit: AbortCode,
-    /// Answer to reading an entry of 1003h that holds no error; `None`: it reads 0.
+    /// Abort code for an upload of a sub-index of 1003h that holds no error; `None`: it reads 0.
     pub unused_error: Option<AbortCode>,
-    /// Answer to writing an entry of a mapping while its sub-index 0 is not 0.
+    /// Abort code for a download of a mapping entry while sub-index 0 is not 0.
     pub mapping_in_use: AbortCode,
 }
 
-/// Process data (CiA 301, chapter 7.2.2).
+/// Options of the PDOs (CiA 301, chapter 7.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PdoProfile {
-    /// Transmission types that 1800h:02 takes, as inclusive ranges.
+    /// Transmission types that 1800h:02 accepts, as inclusive ranges; others abort with 06090030h.
     pub tpdo_types: &'static [(u8, u8)],
-    /// Types 254 and 255 send when a mapped value changes; else by the event timer alone.
+    /// Types 254 and 255 send when a mapped value changes; otherwise by the event timer only.
     pub event_on_change: bool,
-    /// A COB-ID can be changed while the PDO is valid. CiA 301 wants bit 31 set first.
+    /// A COB-ID can be changed while the PDO is valid. In CiA 301 bit 31 has to be set first
+    /// (chapter 7.5.2.36).
     pub direct_cob_id: bool,
-    /// First index of the repeat counters (2800h of the bus-cover family), one for each TPDO.
+    /// Index of the first repeat counter (2800h of the bus-cover family), one for each TPDO.
+    /// `None`: not supported.
     pub repeat_counter: Option<u16>,
     /// Object index and bit mask. While all masked bits are set, the node sends only synchronous
     /// TPDOs (types 0–240). `None`: not supported.
     pub sync_only: Option<(u16, u32)>,
 }
 
-/// When a restored default acts.
+/// Time when a restored default applies (1011h).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Restore {
-    /// At once in RAM, and storage is invalid.
+    /// At once, in RAM and in storage.
     AtOnce,
     /// After the next reset (CiA 301).
     AfterReset,
 }
 
-/// When a write to 1010h is answered.
+/// Time of the response to a download of 1010h.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SaveAnswer {
-    /// At once; the device goes on storing in the background.
+    /// At once; the device stores in the background.
     AtOnce,
-    /// When everything is stored. NMT, PDOs and error control go on meanwhile; a further
+    /// When everything is stored. Until then NMT, PDOs and error control go on, and a further
     /// SDO request waits.
     AfterStoring,
 }
@@ -81,71 +84,71 @@ pub enum SaveAnswer {
 pub enum CutSave {
     /// The last complete set.
     LastSet,
-    /// The factory values, whatever was saved before. The record of the device's life stays.
+    /// The factory values, whatever was saved before. The operating records stay.
     Factory,
 }
 
-/// What a saved value whose default has `$NODEID` in it becomes when the node ID changes.
+/// Value of a saved COB-ID after a change of the node ID, if its default depends on `$NODEID`.
 /// One that was never changed follows the node ID in any case.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SavedCobIds {
-    /// It stays as it was written.
+    /// As it was written.
     Absolute,
-    /// It is kept as the difference to its default, so it moves with the node ID.
+    /// Saved as the difference to its default: it changes with the node ID.
     Difference,
 }
 
-/// Store and restore (1010h, 1011h).
+/// Options of saving and restoring (CiA 301, objects 1010h and 1011h).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct StoreProfile {
-    /// When 1011h acts.
+    /// Time when a restored default applies.
     pub restore: Restore,
-    /// Answer where the storage fails.
+    /// Abort code if the storage fails.
     pub failed: AbortCode,
-    /// When 1010h is answered.
+    /// Time of the response to 1010h.
     pub answer: SaveAnswer,
-    /// How long a save takes, in microseconds; 0: it is complete at once. The values are
-    /// those of the moment of the command.
+    /// Duration of a save in microseconds; 0: it is complete at once. It saves the values of the
+    /// moment of the command.
     pub duration_us: u32,
-    /// What is left of a save that was cut.
+    /// Values after an interrupted save.
     pub cut: CutSave,
-    /// COB-IDs of the user after a change of the node ID.
+    /// Saved COB-IDs after a change of the node ID.
     pub cob_ids: SavedCobIds,
-    /// Pairs of saved objects that are one value (1800h:05 and 6200h): what saves or restores
-    /// the group of one does so with both.
+    /// Pairs of saved objects with one value (1800h:05 and 6200h): saving or restoring the group
+    /// of one includes the other.
     pub twins: &'static [[Address; 2]],
 }
 
-/// LSS slave (CiA 305).
+/// Options of the LSS slave (CiA 305).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct LssProfile {
-    /// LSS is there in NMT state Stopped alone.
+    /// LSS works only in NMT state Stopped.
     pub stopped_only: bool,
-    /// Object of the node ID that the device starts with. [`LssProfile::OWN_NODE_ID`]: no object has
-    /// it, the image of the saved values does; then it can be FFh, not configured.
+    /// Address of the node ID for the next start. [`LssProfile::OWN_NODE_ID`]: not an object, the
+    /// image of the saved values holds it; then it can be FFh, not configured.
     pub node_id: Address,
-    /// Object of the bit rate that the device starts with, or [`LssProfile::OWN_BIT_RATE`].
+    /// Address of the bit rate for the next start, or [`LssProfile::OWN_BIT_RATE`].
     pub bit_rate: Address,
-    /// Value of `bit_rate` for each index of the LSS bit timing table (0: 1000 kbit/s …
-    /// 8: 10 kbit/s); `None`: the device does not have it.
+    /// Values of `bit_rate` by the index of the LSS bit timing table (0: 1000 kbit/s to
+    /// 8: 10 kbit/s); `None`: not supported.
     pub bit_rates: [Option<u8>; 9],
-    /// Identify remote slave by ranges (46h–4Bh).
+    /// Identify remote slave (46h to 4Bh) is supported.
     pub identify_remote: bool,
-    /// Identify non-configured remote slave (4Ch).
+    /// Identify non-configured remote slave (4Ch) is supported.
     pub non_configured: bool,
-    /// Fastscan (51h).
+    /// Fastscan (51h) is supported.
     pub fastscan: bool,
-    /// Inquire node ID (5Eh).
+    /// Inquire node ID (5Eh) is supported.
     pub inquire_node_id: bool,
     /// After 15h the device is silent for two switch delays, and the bit rate changes between
-    /// them (CiA 305); else for one, and the bit rate changes at its end.
+    /// them (CiA 305); otherwise for one, and the bit rate changes at its end.
     pub second_delay: bool,
 }
 
 impl LssProfile {
-    /// Stands for the node ID of a device without an object for it: index 0000h has no object.
+    /// Address of the node ID of a device without an object for it: index 0000h has no object.
     pub const OWN_NODE_ID: Address = Address::new(0, 1);
-    /// Stands for the bit rate of a device without an object for it: its index in the LSS table.
+    /// Address of the bit rate of a device without an object for it: its index in the LSS table.
     pub const OWN_BIT_RATE: Address = Address::new(0, 2);
 
     /// CiA 305 in full, in every NMT state, for a device without objects for node ID and bit rate.
@@ -177,7 +180,7 @@ impl LssProfile {
     }
 }
 
-/// What NMT reset communication takes back.
+/// Values that NMT reset communication resets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CommunicationReset {
     /// 1000h–1FFFh, node ID and bit rate (CiA 301).
@@ -186,104 +189,104 @@ pub enum CommunicationReset {
     Everything,
 }
 
-/// Network management (CiA 301, chapter 7.2.8).
+/// Options of the NMT slave (CiA 301, chapter 7.2.8).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct NmtProfile {
     /// Time from power-on, and from NMT reset node, until the boot-up message, in microseconds.
     pub reset_node_us: u32,
-    /// Duration of NMT reset communication until boot-up, in microseconds.
+    /// Time from NMT reset communication until the boot-up message, in microseconds.
     pub reset_communication_us: u32,
-    /// What NMT reset communication takes back.
+    /// Values that NMT reset communication resets.
     pub reset_communication: CommunicationReset,
-    /// Object and bits (1F80h) of which one set makes the device enter Operational by itself
-    /// after each boot-up; `None`: it waits for a master.
+    /// Object index and bit mask (1F80h). If any masked bit is set, the node enters Operational
+    /// after each boot-up. `None`: it waits for a master.
     pub self_start: Option<(u16, u32)>,
-    /// Object and bits of which one set makes NMT reset node begin the NMT state alone anew:
-    /// values and errors stay as they are; `None`: it is a reset of the device.
+    /// Object index and bit mask. If any masked bit is set, NMT reset node restarts only the NMT
+    /// state: values and errors stay. `None`: it resets the device.
     pub reset_node_light: Option<(u16, u32)>,
 }
 
-/// What the device says of an error that a service finds: EMCY code and bits of 1001h.
+/// Report of an error that a service finds: EMCY code and bits of 1001h.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Notice {
     /// Emergency error code.
     pub code: u16,
-    /// Bits of 1001h while it lasts.
+    /// Bits of 1001h that it sets while it lasts.
     pub register: u8,
 }
 
-/// When an EMCY "error reset" (0000h) goes out.
+/// Time when the node sends an EMCY message with code 0000h (error reset).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ErrorReset {
-    /// With each error that goes; 1001h in it says what is left.
+    /// With each error that ends; its error register shows the others.
     EachError,
-    /// When the last error is gone.
+    /// When the last error ends.
     LastError,
 }
 
-/// What follows from bus-off.
+/// Options of bus-off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct BusOffProfile {
     /// Object index and bit mask (2110h). If any masked bit is set, the CAN controller restarts
     /// after bus-off; otherwise the node stays off the bus until a reset or power cycle. `None`:
     /// always restarts.
     pub restart: Option<(u16, u32)>,
-    /// Beginning anew is an NMT reset communication, with a boot-up message; else the NMT
-    /// state goes on.
+    /// A restart is an NMT reset communication, with a boot-up message; otherwise the NMT state
+    /// goes on.
     pub boots: bool,
-    /// 1029h acts only where the device stays off the bus; else on every bus-off.
+    /// 1029h acts only if the node stays off the bus; otherwise on every bus-off.
     pub behaviour_if_off: bool,
 }
 
-/// Errors of the bus, and what all errors lead to (CiA 301, chapters 7.2.7 and 7.5.2.32).
+/// Errors of the bus, and the reaction to errors (CiA 301, chapters 7.2.7 and 7.5.2.32).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ErrorProfile {
-    /// Heartbeat or life guarding failed. It asks for 1029h:01 whatever its bits say.
+    /// Report of a failed heartbeat or life guarding. 1029h:01 acts whatever the bits are.
     pub lost: Notice,
-    /// The CAN controller's error counters passed the warning limit; `None`: not reported.
+    /// Report of an error counter beyond the warning limit (96); `None`: not reported.
     pub bus_warning: Option<Notice>,
-    /// The CAN controller is error passive; `None`: not reported.
+    /// Report of the state error passive; `None`: not reported.
     pub bus_passive: Option<Notice>,
-    /// Bits of 1001h while the CAN controller is bus-off; nobody can be told by EMCY.
+    /// Bits of 1001h while the CAN controller is bus-off, without an EMCY message.
     pub bus_off: u8,
-    /// Sent when the node is back from bus-off; `None`: nothing is.
+    /// EMCY message after bus-off; `None`: not sent.
     pub bus_recovered: Option<Notice>,
-    /// Received frames were lost; `None`: not reported.
+    /// Report of received frames that were lost; `None`: not reported.
     pub overrun: Option<Notice>,
-    /// When an error reset is sent.
+    /// Time of the EMCY message for error reset.
     pub reset: ErrorReset,
-    /// Which sub-index of 1029h belongs to which bits of 1001h: it acts when one of them
-    /// becomes set, and at each entry into Operational while one is. Where several act, the
-    /// gravest does: reset node before Stopped before Pre-operational.
+    /// Pairs of bits of 1001h and the sub-index of 1029h that acts when one of them becomes set,
+    /// and at each entry into Operational while one is set. Of several the gravest acts: reset
+    /// node before Stopped before Pre-operational.
     pub behaviour: &'static [(u8, u8)],
-    /// 1029h acts in Operational alone; else "Stopped" and "reset node" act in any state.
+    /// 1029h acts only in Operational; otherwise "Stopped" and "reset node" act in any state.
     pub operational_only: bool,
-    /// Bus-off.
+    /// Reaction to bus-off.
     pub off: BusOffProfile,
 }
 
-/// What the services of a node need to know of its family.
+/// Options and deviations of a device family relative to CiA 301, for all services.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Profile {
-    /// SDO server.
+    /// Options of the SDO server.
     pub sdo: SdoProfile,
-    /// Process data.
+    /// Options of the PDOs.
     pub pdo: PdoProfile,
-    /// Store and restore.
+    /// Options of saving and restoring.
     pub store: StoreProfile,
-    /// LSS slave; `None`: the device has none.
+    /// Options of the LSS slave; `None`: not supported.
     pub lss: Option<LssProfile>,
-    /// Object and bits that switch from heartbeat to node guarding; `None`: CiA 301, where
-    /// 1017h decides.
+    /// Object index and bit mask. If any masked bit is set, node guarding replaces heartbeat.
+    /// `None`: node guarding while 1017h is 0 (CiA 301, chapter 7.2.8.2).
     pub guarding_switch: Option<(u16, u32)>,
-    /// Network management.
+    /// Options of the NMT slave.
     pub nmt: NmtProfile,
-    /// Errors.
+    /// Errors and the reaction to them.
     pub errors: ErrorProfile,
 }
 
 impl Profile {
-    /// CiA 301 to the letter, with every service: what a device of an unknown EDS gets.
+    /// CiA 301 to the letter, with all services but LSS: the profile of a device of an unknown EDS.
     pub const CIA301: Self = Self {
         sdo: SdoProfile {
             min_dlc: 8,

@@ -84,7 +84,7 @@ impl<'a> Store<'a> {
         self.dictionary
     }
 
-    /// The node ID that `$NODEID` stands for.
+    /// The node ID: the value of `$NODEID`.
     #[inline]
     pub fn node_id(&self) -> NodeId {
         self.node_id
@@ -115,7 +115,7 @@ impl<'a> Store<'a> {
         let _ = put(self.values, entry, bytes);
     }
 
-    /// Is the value what [`reset_entry`](Self::reset_entry) would make of it?
+    /// Returns whether the value is its default.
     pub fn is_default(&self, entry: &Entry) -> bool {
         let (mut a, mut b) = ([0; 8], [0; 8]);
         self.bytes(entry, &mut a) == default_bytes(self.dictionary, entry, self.node_id, &mut b)
@@ -186,7 +186,7 @@ impl<'a> Store<'a> {
     }
 
     /// The value's bytes as an SDO carries them. `number` is room for those of a
-    /// `const` number, which stands nowhere in the store.
+    /// `const` number, which is not in the store.
     #[inline]
     pub fn bytes<'b>(&'b self, entry: &Entry, number: &'b mut [u8; 8]) -> &'b [u8] {
         if entry.is_variable() {
@@ -226,7 +226,7 @@ impl<'a> Store<'a> {
         little_endian(self.bytes(entry, &mut number))
     }
 
-    /// Puts a number at an address, cut to the entry's length; `false` where there is no such object.
+    /// Puts a number at an address, cut to the entry's length; `false` if the object does not exist.
     pub fn set_unsigned(&mut self, address: Address, value: u64) -> bool {
         let Ok(entry) = self.dictionary.find(address) else {
             return false;

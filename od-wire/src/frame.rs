@@ -23,17 +23,17 @@ impl CanId {
         Self(raw & 0x1FFF_FFFF | EXTENDED)
     }
 
-    /// The identifier without the length mark: 0–1FFF_FFFFh.
+    /// Returns the number, 0 to 1FFF_FFFFh.
     pub const fn raw(self) -> u32 {
         self.0 & !EXTENDED
     }
 
-    /// Is it 29 bits long?
+    /// Returns whether it has 29 bits.
     pub const fn is_extended(self) -> bool {
         self.0 & EXTENDED != 0
     }
 
-    /// The 11 bits, if it is that short.
+    /// Returns the 11 bits; `None` if it has 29.
     pub const fn as_standard(self) -> Option<u16> {
         if self.is_extended() {
             None
@@ -171,32 +171,32 @@ impl Frame {
         }
     }
 
-    /// The identifier.
+    /// Returns the CAN-ID.
     #[inline]
     pub const fn id(&self) -> CanId {
         self.id
     }
 
-    /// The data length code, 0–8.
+    /// Returns the data length code, 0 to 8.
     #[inline]
     pub const fn dlc(&self) -> u8 {
         self.dlc
     }
 
-    /// Is it a remote frame?
+    /// Returns whether it is a remote frame.
     #[inline]
     pub const fn is_remote(&self) -> bool {
         self.remote
     }
 
-    /// The data; empty for a remote frame.
+    /// Returns the data; empty for a remote frame.
     #[inline]
     pub fn data(&self) -> &[u8] {
         let len = if self.remote { 0 } else { self.dlc.min(8) };
         &self.data[..usize::from(len)]
     }
 
-    /// All eight bytes; those past the DLC are 0.
+    /// Returns all eight bytes; those past the DLC are 0.
     #[inline]
     pub const fn bytes(&self) -> &[u8; 8] {
         &self.data

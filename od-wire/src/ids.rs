@@ -56,32 +56,32 @@ impl fmt::Debug for NodeId {
 pub struct CobId(u32);
 
 impl CobId {
-    /// Every value can be written; what it means is asked for.
+    /// The COB-ID of any value.
     pub const fn new(raw: u32) -> Self {
         Self(raw)
     }
 
-    /// The object's value.
+    /// Returns the value.
     pub const fn raw(self) -> u32 {
         self.0
     }
 
-    /// Bit 31 clear: the PDO or EMCY exists.
+    /// Returns whether bit 31 is clear: the PDO or EMCY message is valid.
     pub const fn is_valid(self) -> bool {
         self.0 & 1 << 31 == 0
     }
 
-    /// Bit 30 of a PDO clear: it may be asked for with a remote frame.
+    /// Returns whether bit 30 is clear: a remote frame may request the PDO.
     pub const fn allows_rtr(self) -> bool {
         self.0 & 1 << 30 == 0
     }
 
-    /// Bit 30 of 1005h set: the device produces SYNC.
+    /// Returns whether bit 30 is set: in 1005h, the device produces SYNC.
     pub const fn produces_sync(self) -> bool {
         self.0 & 1 << 30 != 0
     }
 
-    /// The identifier: 29 bits with bit 29 set, else 11.
+    /// Returns the CAN-ID: 29 bits with bit 29 set, else 11.
     pub const fn can_id(self) -> CanId {
         if self.0 & 1 << 29 != 0 {
             CanId::extended(self.0)
@@ -90,12 +90,12 @@ impl CobId {
         }
     }
 
-    /// Bits 11–28 belong to a 29-bit identifier; with bit 29 clear they have to be 0.
+    /// Returns whether bits 11 to 28, which belong to a 29-bit CAN-ID, are 0 while bit 29 is clear.
     pub const fn is_consistent(self) -> bool {
         self.0 & 1 << 29 != 0 || self.0 & 0x1FFF_F800 == 0
     }
 
-    /// Is it one that CiA 301 (table 40) keeps for NMT, SDO, error control and LSS?
+    /// Returns whether CiA 301 (table 40) reserves the CAN-ID for NMT, SDO, error control or LSS.
     ///
     /// 000h, 001h–07Fh, 101h–180h, 581h–5FFh, 601h–67Fh, 6E0h–6FFh, 701h–7FFh.
     pub const fn is_restricted(self) -> bool {

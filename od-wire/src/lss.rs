@@ -1,8 +1,8 @@
 //! LSS frames (CiA 305): 7E5h from the master, 7E4h from the slave, eight bytes each.
 
-/// COB-ID of what a master sends.
+/// CAN-ID of the master's frames.
 pub const MASTER: u16 = 0x7E5;
-/// COB-ID of what a slave answers.
+/// CAN-ID of the slaves' frames.
 pub const SLAVE: u16 = 0x7E4;
 
 /// Returns the bit rate in kbit/s at an index of the standard bit timing table; `None` for
@@ -44,7 +44,7 @@ impl Part {
     }
 }
 
-/// What a master's frame says.
+/// Frame of an LSS master.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Request {
@@ -148,7 +148,7 @@ impl Request {
     }
 }
 
-/// What a slave's frame says.
+/// Frame of an LSS slave.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[allow(missing_docs)] // the fields are the protocol's own
 pub enum Response {

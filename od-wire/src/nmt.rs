@@ -19,7 +19,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// The command with this specifier, if there is one.
+    /// Returns the command with this specifier; `None` for other numbers.
     pub const fn from_code(code: u8) -> Option<Self> {
         Some(match code {
             0x01 => Self::Start,
@@ -47,7 +47,7 @@ pub enum State {
 }
 
 impl State {
-    /// The state with this number, if there is one.
+    /// Returns the state with this number; `None` for other numbers.
     pub const fn from_code(code: u8) -> Option<Self> {
         Some(match code {
             0x00 => Self::Initialising,
@@ -58,7 +58,7 @@ impl State {
         })
     }
 
-    /// The standard's name.
+    /// Returns the name in the standard.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Initialising => "Initialising",
@@ -75,7 +75,7 @@ impl fmt::Display for State {
     }
 }
 
-/// What an NMT frame (COB-ID 000h) says: a command, and to which node; 0 is all.
+/// NMT message (CAN-ID 000h): a command for one node or for all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Repr {
     /// The command.
@@ -85,7 +85,7 @@ pub struct Repr {
 }
 
 impl Repr {
-    /// The meaning of a frame's bytes; `None` unless there are two and the first is a command.
+    /// Returns the message in the data of a frame; `None` unless it is a command and a byte.
     pub fn parse(data: &[u8]) -> Option<Self> {
         let &[command, node] = data else { return None };
         Some(Self {
@@ -94,7 +94,7 @@ impl Repr {
         })
     }
 
-    /// The frame's bytes.
+    /// Returns the data of the frame.
     pub const fn emit(self) -> [u8; 2] {
         [self.command as u8, self.node]
     }

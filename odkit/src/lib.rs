@@ -42,7 +42,7 @@
 //! ```
 //!
 //! The crates behind this one are public, too: `od-model` (dictionary), `od-wire` (frames and
-//! their bytes), `od-runtime` (node and encoder). Whoever makes a device needs this one alone.
+//! their bytes), `od-runtime` (node and encoder). A device needs only this one.
 #![no_std]
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! What the client tells its host.
+//! Events of the client for its host.
 
 use alloc::collections::VecDeque;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use crate::watch;
 /// Events of the bus that wait at most.
 const NEWS: usize = 256;
 
-/// What the host asked for: a number that comes back with the event that ends it.
+/// Job of the host: a number that comes back with the event that ends it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Job(u32);
 
@@ -29,7 +29,7 @@ impl Job {
     }
 }
 
-/// What happened.
+/// End of a job, or an event of the bus.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Event {
@@ -67,7 +67,7 @@ impl From<watch::Event> for Event {
 #[derive(Debug)]
 pub(super) struct Events {
     waiting: VecDeque<Event>,
-    /// How many of them are no ends of jobs.
+    /// Number of events of the bus among them.
     news: usize,
     dropped: u64,
 }

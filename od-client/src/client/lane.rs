@@ -49,7 +49,7 @@ impl Lane {
         self.node
     }
 
-    /// The node starts anew, perhaps as another device.
+    /// The node restarts, perhaps as another device.
     pub(super) fn forget(&mut self) {
         self.has_no_block = false;
     }

@@ -124,7 +124,7 @@ impl Client {
         self.watch.state(node)
     }
 
-    /// Takes a frame from the bus; frames that are not for a client are ignored.
+    /// Handles a frame from the bus; frames that are not for a client are ignored.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         for lane in &mut self.lanes {
             lane.handle_frame(now, frame, &mut self.out, &mut self.events);

@@ -7,7 +7,7 @@ use super::task::{Answer, Identity, LssError};
 /// `bit` of the request that begins a scan.
 const BEGIN: u8 = 0x80;
 
-/// Where the scan stands.
+/// Step of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Step {
     /// Is there a slave at all?

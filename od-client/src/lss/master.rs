@@ -49,14 +49,14 @@ impl fmt::Display for Busy {
 
 impl core::error::Error for Busy {}
 
-/// What is under way.
+/// Service under way.
 #[derive(Clone, Copy, Debug)]
 struct Work {
     task: Task,
     scan: Fastscan,
     /// The next frame; for a fastscan 0 where one is due.
     step: u8,
-    /// Who is waited for.
+    /// End of the wait for an answer.
     deadline: Option<Instant>,
     /// A slave has answered; the time for others runs.
     heard: bool,
@@ -111,7 +111,7 @@ impl Master {
         Ok(())
     }
 
-    /// Is a service under way?
+    /// Returns whether a service is under way.
     pub const fn is_busy(&self) -> bool {
         self.work.is_some()
     }

@@ -1,4 +1,4 @@
-//! What an LSS master can ask for, and what comes of it.
+//! Services of an LSS master, and their results.
 
 use core::fmt;
 
@@ -132,7 +132,7 @@ impl Task {
         })
     }
 
-    /// Does no slave answer?
+    /// Whether no slave answers.
     pub(super) const fn is_unconfirmed(self) -> bool {
         matches!(
             self,
@@ -140,13 +140,13 @@ impl Task {
         )
     }
 
-    /// Is silence an answer too: no such slave exists?
+    /// Whether silence is an answer: no such slave exists.
     pub(super) const fn is_question(self) -> bool {
         matches!(self, Self::Identify { .. } | Self::IdentifyNonConfigured)
     }
 }
 
-/// What a service brought.
+/// Result of a service.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Answer {
@@ -156,13 +156,13 @@ pub enum Answer {
     Number(u32),
     /// The node ID; `None` if the slave has none (FFh), or one that is not valid.
     NodeId(Option<NodeId>),
-    /// Does such a slave exist?
+    /// Whether such a slave exists.
     Exists(bool),
     /// The slave that fastscan found; `None` if none is left.
     Found(Option<Identity>),
 }
 
-/// Why a service failed.
+/// Reason why a service failed.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum LssError {

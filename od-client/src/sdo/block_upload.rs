@@ -43,7 +43,7 @@ impl Blocks {
         self.tail.is_none()
     }
 
-    /// Did segments of the present block come? If the rest of them is lost, the block can be
+    /// Whether segments of the current block came. If the rest of them is lost, the block can be
     /// confirmed as far as it came.
     pub(super) const fn heard(&self) -> bool {
         self.heard

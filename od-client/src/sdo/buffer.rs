@@ -1,17 +1,17 @@
-//! Where an upload puts the value.
+//! Buffer for the value of an upload.
 
-/// Takes the bytes of a value in their order.
+/// Receives the bytes of a value in their order.
 pub trait Buffer {
-    /// What was taken so far.
+    /// Returns the bytes so far.
     fn bytes(&self) -> &[u8];
 
-    /// Most bytes that fit.
+    /// Returns the number of bytes that fit.
     fn capacity(&self) -> usize;
 
-    /// Forgets all bytes.
+    /// Removes all bytes.
     fn clear(&mut self);
 
-    /// Appends `bytes` as a whole. Returns `false` and takes nothing if they do not fit.
+    /// Appends `bytes` as a whole. Returns `false` and appends nothing if they do not fit.
     #[must_use]
     fn push(&mut self, bytes: &[u8]) -> bool;
 }

@@ -22,7 +22,7 @@ enum State {
     Blocks(Blocks),
 }
 
-/// The download of one object: the client writes, the server takes.
+/// The download of one object: the client writes, the server receives.
 ///
 /// The data stays where it is until the transfer is over, as a block may have to be repeated.
 #[derive(Debug)]
@@ -55,7 +55,7 @@ impl<D: AsRef<[u8]>> Download<D> {
         download
     }
 
-    /// Takes a frame from the bus; frames of other channels are ignored.
+    /// Handles a frame from the bus; frames of other channels are ignored.
     pub fn handle_frame(&mut self, _now: Instant, frame: &Frame) {
         let Some(data) = self.line.receive(frame) else {
             return;
@@ -113,12 +113,12 @@ impl<D: AsRef<[u8]>> Download<D> {
         self.line.fail(AbortCode::General, SdoError::Cancelled);
     }
 
-    /// Did the server abort the block download because it does not know the command?
+    /// Returns whether the server aborted the block download because it does not know the command.
     pub const fn refused_block(&self) -> bool {
         self.refused_block
     }
 
-    /// The data back.
+    /// Returns the data.
     pub fn into_data(self) -> D {
         self.data
     }

@@ -1,11 +1,11 @@
-//! How a transfer fails.
+//! Errors of a transfer.
 
 use core::fmt;
 
 use od_wire::AbortCode;
 use od_wire::sdo::Response;
 
-/// Why a transfer failed.
+/// Reason why a transfer failed.
 ///
 /// In every case but [`Abort`](Self::Abort) the client gives up, and tells the server by an
 /// abort of its own.

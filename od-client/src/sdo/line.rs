@@ -1,4 +1,4 @@
-//! What both directions share: the frames to send, the deadline, the outcome.
+//! Common part of both directions: the frames to send, the deadline, the outcome.
 
 use od_model::Address;
 use od_wire::sdo::{Request, Response};
@@ -142,7 +142,7 @@ impl Line {
         address == self.address || address == Address::new(0, 0)
     }
 
-    /// Does the server abort because it does not know the command?
+    /// Whether the server aborts because it does not know the command.
     pub(super) fn is_unknown_command(&self, response: Response) -> bool {
         matches!(response, Response::Abort { address, code }
             if code == AbortCode::InvalidCommand.code() && self.is_about(address))

@@ -1,4 +1,4 @@
-//! How transfers behave.
+//! Settings of transfers.
 
 use od_wire::Duration;
 
@@ -8,7 +8,7 @@ use od_wire::Duration;
 pub struct Options {
     /// Longest time from a request to its answer. A block upload waits that long for each segment.
     pub timeout: Duration,
-    /// Most bytes that an upload takes; a longer value is [`SdoError::TooLong`](super::SdoError::TooLong).
+    /// Most bytes that an upload accepts; a longer value is [`SdoError::TooLong`](super::SdoError::TooLong).
     pub limit: usize,
     /// Values of this many bytes and more go by block transfer; `None`: always segmented.
     ///
@@ -18,7 +18,7 @@ pub struct Options {
     pub block_from: Option<u32>,
     /// Segments in a block of an upload, 1 to 127; other numbers count as the nearest of these.
     pub block_size: u8,
-    /// How often in a row a block may bring no new segment before the transfer is
+    /// Number of blocks in a row that may bring no new segment before the transfer is
     /// [`SdoError::NoProgress`](super::SdoError::NoProgress).
     pub repeats: u8,
 }
@@ -39,7 +39,7 @@ impl Options {
         ..Self::DEFAULT
     };
 
-    /// Does a value of `size` bytes go by block transfer? `None`: the size is not known.
+    /// Whether a value of `size` bytes goes by block transfer; `None`: the size is not known.
     pub(super) fn blocks(&self, size: Option<u32>) -> bool {
         matches!((self.block_from, size), (Some(from), Some(size)) if size >= from)
     }

@@ -47,7 +47,7 @@ impl<B: Buffer> Upload<B> {
         }
     }
 
-    /// Takes a frame from the bus; frames of other channels are ignored.
+    /// Handles a frame from the bus; frames of other channels are ignored.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let Some(data) = self.line.receive(frame) else {
             return;
@@ -102,17 +102,17 @@ impl<B: Buffer> Upload<B> {
         self.line.fail(AbortCode::General, SdoError::Cancelled);
     }
 
-    /// Did the server abort the block upload because it does not know the command?
+    /// Returns whether the server aborted the block upload because it does not know the command.
     pub const fn refused_block(&self) -> bool {
         self.refused_block
     }
 
-    /// What came so far; the value, once the outcome is `Ok`.
+    /// Returns the bytes so far: the value, once the outcome is `Ok`.
     pub fn bytes(&self) -> &[u8] {
         self.buffer.bytes()
     }
 
-    /// The buffer, with what came so far.
+    /// Returns the buffer, with the bytes so far.
     pub fn into_buffer(self) -> B {
         self.buffer
     }

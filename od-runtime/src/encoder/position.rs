@@ -167,7 +167,7 @@ impl Scale {
         self
     }
 
-    /// Does counter-clockwise count up?
+    /// Returns whether the position increases counter-clockwise.
     pub const fn is_reversed(&self) -> bool {
         self.reversed
     }

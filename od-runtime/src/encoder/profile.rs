@@ -23,16 +23,16 @@ pub enum Total {
 /// Counting of revolutions beyond the range of the sensor, and without power.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Counter {
-    /// With power, on and on; without, whole ranges of the sensor are not noticed. A range
-    /// of more revolutions than the sensor's starts again at 0 where the sensor does.
+    /// Counts without limit while powered; without power whole ranges of the sensor are lost. A
+    /// range of more revolutions than the sensor's starts again at 0 where the sensor does.
     Sensor,
-    /// On and on. Without power half this many revolutions either way are noticed; who turns
-    /// the shaft further finds a position that is wrong by a multiple of them.
+    /// Counts without limit while powered. Without power it follows up to `turns / 2` revolutions
+    /// either way; beyond that the position is off by a multiple of `turns`.
     Kept {
         /// Revolutions that the counter tells apart.
         turns: u32,
     },
-    /// On and on while there is power; each start begins within the first revolution.
+    /// Counts without limit while powered; each start begins within the first revolution.
     Volatile,
 }
 
@@ -59,7 +59,7 @@ pub struct Gear {
     pub kind: GearKind,
 }
 
-/// The two ways in which a gear can be meant.
+/// Effect of a gear.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum GearKind {
     /// The position is that of the encoder divided by the factor, modulo the same range. A
@@ -144,8 +144,8 @@ pub struct EncoderProfile {
 }
 
 impl EncoderProfile {
-    /// Report of a position that is not to be trusted, as CiA 406 has it: bit 0 of 6503h. A
-    /// sensor that does not tell the angle is reported so where the family has no alarm for it.
+    /// Report of a position that is not valid (CiA 406: bit 0 of 6503h). A sensor that fails is
+    /// reported so if the family has no alarm for the fault.
     pub const NO_ANGLE: Report = Report {
         fault: Fault::Position,
         code: 0x7320,
@@ -222,7 +222,7 @@ impl EncoderProfile {
         }
     }
 
-    /// CiA 406 and nothing else: what an encoder of an unknown EDS gets.
+    /// CiA 406 to the letter: the profile of an encoder of an unknown EDS.
     pub const CIA406: Self = Self {
         sensor: None,
         unscaled_steps: None,

@@ -152,7 +152,7 @@ impl<M: Motion> Encoder<M> {
         self.faults.set(fault, broken);
     }
 
-    /// Is it broken?
+    /// Returns whether the host has set this fault.
     pub fn is_broken(&self, fault: Fault) -> bool {
         self.faults.is_set(fault)
     }

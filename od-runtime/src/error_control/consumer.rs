@@ -3,7 +3,7 @@
 use crate::store::Store;
 use od_wire::{Instant, NodeId};
 
-/// How many nodes can be watched; entries of 1016h past that are not.
+/// Number of nodes that can be watched; entries of 1016h beyond it are ignored.
 const WATCHED: usize = 8;
 
 /// One entry of 1016h. Watching begins with the first heartbeat that is heard.

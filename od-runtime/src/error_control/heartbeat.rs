@@ -35,7 +35,7 @@ impl Producer {
         self.next = None;
     }
 
-    /// Is one due?
+    /// Returns whether a heartbeat is due, and plans the next one.
     #[inline]
     pub(crate) fn handle_timeout(&mut self, now: Instant) -> bool {
         match self.next {

@@ -15,7 +15,7 @@ use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
-/// Is node guarding in force, and heartbeat not?
+/// Whether node guarding is active instead of heartbeat.
 ///
 /// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
 /// leaves nothing of the heartbeat, neither producer nor consumer.
@@ -26,7 +26,7 @@ pub(crate) fn guards(store: &Store<'_>, profile: &Profile) -> bool {
     }
 }
 
-/// Does writing this object change how errors are watched for?
+/// Whether the object at this index configures the monitor.
 pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
     matches!(index, 0x100C | 0x100D | 0x1016 | 0x1017)
         || profile
@@ -34,12 +34,12 @@ pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
             .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Who watches the others.
+/// Monitor of the other side: life guarding and heartbeat consumer.
 #[derive(Debug)]
 pub(crate) struct Monitor {
     guard: guarding::Guard,
     consumer: consumer::Consumer,
-    /// What the node was told last.
+    /// Result of the last [`poll`](Self::poll).
     lost: bool,
 }
 
@@ -91,7 +91,7 @@ impl Monitor {
         changed.then_some(lost)
     }
 
-    /// Is somebody lost?
+    /// Whether a node or the master is lost.
     pub(crate) const fn is_lost(&self) -> bool {
         self.lost
     }

@@ -1,4 +1,4 @@
-//! Who is meant: selective switching, identification by ranges, fastscan.
+//! Selection of a slave: switch state selective, identification by ranges, fastscan.
 
 /// Steps that have to come in order, each about this slave.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ impl Sequence {
 
     /// Answers whether this step, the `last` one, completes the sequence.
     pub(super) fn step(&mut self, step: u8, last: u8, matches: bool) -> bool {
-        // Step 0 begins anew, whatever came before.
+        // Step 0 restarts, whatever came before.
         let in_order = step == 0 || step == self.next;
         self.next = if in_order && matches { step + 1 } else { 0 };
         let complete = self.next > last;
@@ -42,7 +42,7 @@ pub(super) fn in_range(
     }
 }
 
-/// What a step of fastscan found.
+/// Result of a step of fastscan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Seen {
     /// Another slave is meant.
@@ -53,7 +53,7 @@ pub(super) enum Seen {
     Complete,
 }
 
-/// Where a scan stands: which of the four numbers is looked for now.
+/// State of a scan: the number of the LSS address that is scanned now.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fastscan {
     part: u8,

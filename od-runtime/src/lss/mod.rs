@@ -18,12 +18,12 @@ mod error {
     pub(super) const ACCESS: u8 = 2;
 }
 
-/// What a request makes the node do, besides the answer.
+/// Action of the node after a request, besides the response.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Action {
-    /// Nothing, or the answer alone.
+    /// Nothing, or only the response.
     Answer(Option<Response>),
-    /// Silence for so many milliseconds, then the bit rate of this index of 2100h, then
+    /// Silence for `delay_ms` milliseconds, then the bit rate of this index of 2100h, then
     /// silence again where the family has it.
     Activate {
         /// Switch delay, in ms.

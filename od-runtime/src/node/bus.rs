@@ -1,4 +1,4 @@
-//! What the CAN controller has to say, and times of silence.
+//! States of the CAN controller, and times without frames.
 
 use od_wire::Instant;
 use od_wire::nmt::State;
@@ -104,7 +104,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.stop_pdos();
     }
 
-    /// The CAN controller began anew, and the NMT state goes on.
+    /// The CAN controller restarted, and the NMT state goes on.
     fn come_back(&mut self, objects: &mut Objects<'_>) {
         self.mute = None;
         self.events.push(Event::BusOn);
@@ -135,8 +135,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
     }
 
-    /// A reset ends the errors of communication without a word: whoever was lost is watched
-    /// anew, and the CAN controller begins anew.
+    /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN
+    /// controller restart.
     pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_>) {
         let profile = objects.profile.errors;
         let optional = [

@@ -2,12 +2,12 @@
 
 use od_wire::Instant;
 
-/// News of the CAN controller (CiA 301, table 26, codes 81xxh).
+/// State change or frame loss of the CAN controller (CiA 301, table 26, codes 81xxh).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum BusEvent {
-    /// Error active, with error counters below the warning limit: all is well, or well again,
-    /// and no more frames are lost. After bus-off: the controller could begin anew.
+    /// Error active, with error counters below the warning limit; no more frames are lost. After
+    /// bus-off: the controller can restart.
     Active,
     /// An error counter passed the warning limit (96).
     Warning,
@@ -15,12 +15,12 @@ pub enum BusEvent {
     Passive,
     /// Bus-off: the transmit error counter passed 255.
     Off,
-    /// A received frame was lost, because the one before it was not taken in time.
+    /// A received frame was lost because the one before it was not read in time.
     Overrun,
 }
 
 impl BusEvent {
-    /// How bad it is.
+    /// Severity, 0 to 3.
     pub(super) const fn level(self) -> u8 {
         match self {
             Self::Active | Self::Overrun => 0,
@@ -31,7 +31,7 @@ impl BusEvent {
     }
 }
 
-/// Nothing is sent or received.
+/// Time in which the node neither sends nor receives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mute {
     /// [`Instant::MAX`]: until the CAN controller is back.

@@ -1,4 +1,4 @@
-//! What follows from a call: services read changed objects again, saves end, errors go out.
+//! Effects of a call: services read changed objects again, saves end, errors go out.
 
 use od_wire::nmt::State;
 
@@ -11,8 +11,8 @@ use crate::storage::image;
 const LIFE_RECORD: u8 = 0;
 
 impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
-    /// What follows from a call: services take changed objects over, errors go out,
-    /// changed values make event-driven PDOs.
+    /// The end of a call: services read changed objects again, errors go out, and changed values
+    /// cause event-driven PDOs.
     #[inline]
     pub(super) fn finish(&mut self, objects: &mut Objects<'_>) {
         if !objects.outbox.is_empty() {
@@ -99,7 +99,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 }
 
-/// Is it the object that switches from heartbeat to guarding?
+/// Whether it is the object that switches from heartbeat to node guarding.
 fn switches(objects: &Objects<'_>, index: u16) -> bool {
     objects
         .profile
@@ -107,7 +107,7 @@ fn switches(objects: &Objects<'_>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Is it an object that SYNC or a PDO takes its configuration from?
+/// Whether it is an object that configures SYNC or a PDO.
 fn is_configuration(objects: &Objects<'_>, index: u16) -> bool {
     let repeat = objects.profile.pdo.repeat_counter;
     let sync_only = objects.profile.pdo.sync_only;

@@ -1,5 +1,5 @@
-//! What the node does when an error comes: the other side is lost, or a bit of 1001h becomes
-//! set (CiA 301, object 1029h).
+//! Reaction to errors: the other side is lost, or a bit of 1001h becomes set (CiA 301, object
+//! 1029h).
 
 use super::{Event, Machines};
 use crate::emcy::{self, Change};
@@ -8,11 +8,11 @@ use crate::profile::Notice;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-/// What 1029h asks for, the gravest last.
+/// Reaction that 1029h requests, the gravest last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Behaviour {
     Nothing,
-    /// From Operational alone; what CiA 301 asks for without the object (chapter 7.5.2.32).
+    /// Only from Operational; the default of CiA 301 without the object (chapter 7.5.2.32).
     PreOperational,
     Stopped,
     Reset,
@@ -67,7 +67,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             gravest = gravest.max(match objects.store.try_unsigned(0x1029, sub) {
                 None | Some(0) if operational => Behaviour::PreOperational,
                 Some(2) => Behaviour::Stopped,
-                // Of the families that take the value, the bus covers alone have it.
+                // Of the families that accept the value, only the bus covers have it.
                 Some(3) => Behaviour::Reset,
                 _ => Behaviour::Nothing,
             });

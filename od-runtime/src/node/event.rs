@@ -1,4 +1,4 @@
-//! What a host may want to show or log.
+//! Events of the node for the host: to show, to log, or to act on.
 
 use od_model::Address;
 

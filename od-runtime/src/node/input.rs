@@ -1,4 +1,4 @@
-//! What comes in: frames and the passing of time.
+//! Inputs of the node: frames, time, and changes outside the bus.
 
 use od_wire::emcy::Emcy;
 use od_wire::nmt::{self, Command, State};

@@ -75,7 +75,7 @@ struct Machines<const PDO: usize, const SDO: usize> {
     lss: lss::Slave,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<controller::Mute>,
-    /// What the CAN controller reported last; overruns aside.
+    /// Last report of the CAN controller, except overruns.
     bus: BusEvent,
     /// The error behaviour requests a reset when the call is over.
     reset_due: bool,
@@ -140,7 +140,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 
     /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
-    /// reported it. Meanwhile the node neither sends nor receives.
+    /// reported it. Until it ends the node neither sends nor receives.
     pub const fn is_bus_off(&self) -> bool {
         self.machines.is_bus_off()
     }

@@ -1,4 +1,4 @@
-//! What goes out: frames, the next deadline, events.
+//! Outputs of the node: frames, the next deadline, events.
 
 use od_wire::nmt::State;
 use od_wire::{Frame, Instant};
@@ -29,7 +29,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         None
     }
 
-    /// What services have to send that waits for nobody's request.
+    /// Returns the next frame that no request asked for: PDO, EMCY message, block segment.
     #[inline(never)]
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
@@ -90,7 +90,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.out.push(Frame::of(self.node_id.plus(0x700), &[byte]));
     }
 
-    /// What was to be sent is not.
+    /// Discards the frames that wait.
     pub(super) fn discard_frames(&mut self) {
         self.out.clear();
         self.answer = None;

@@ -1,4 +1,4 @@
-//! What CiA 301 says of writing the communication objects.
+//! Rules of CiA 301 for writing the communication objects.
 
 use od_model::typed::MapEntry;
 use od_model::{Address, Entry};
@@ -7,7 +7,7 @@ use crate::profile::Profile;
 use crate::store::{Store, little_endian};
 use od_wire::{AbortCode, CobId};
 
-/// The signature that a write to 1010h or 1011h has to carry, as it stands on the wire.
+/// The signature that a write to 1010h or 1011h has to carry, in the order of the bus.
 pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     match address {
         Address {
@@ -22,7 +22,7 @@ pub(super) fn command(address: Address) -> Option<[u8; 4]> {
     }
 }
 
-/// Is it the number of objects that a PDO maps?
+/// Whether it is the number of objects that a PDO maps.
 pub(super) const fn is_mapping_count(address: Address) -> bool {
     matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF) && address.sub == 0
 }
@@ -57,7 +57,7 @@ pub(super) fn check(
                 Err(AbortCode::ValueRange)
             }
         }
-        // The inhibit time stands while the PDO exists (chapter 7.5.2.37).
+        // The inhibit time cannot change while the PDO exists (chapter 7.5.2.37).
         (0x1800..=0x19FF, 3) if is_valid(store, index) && !profile.pdo.direct_cob_id => {
             Err(AbortCode::ValueRange)
         }
@@ -76,7 +76,7 @@ pub(super) fn check(
     }
 }
 
-/// Does another entry of 1016h than `sub` have a time for the node of `value`, which has one?
+/// Whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
 fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u64) -> bool {
     let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
     let mut others = (1..=0x7F).filter(|other| *other != sub);

@@ -28,7 +28,7 @@ pub(crate) struct Objects<'c> {
 }
 
 impl<'c> Objects<'c> {
-    /// Is one of these bits of an object set?
+    /// Whether one of these bits of an object is set.
     pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
         self.store.unsigned(index, 0) & u64::from(bits) != 0
     }
@@ -53,7 +53,7 @@ impl<'c> Objects<'c> {
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
-    /// value that stands nowhere in the store.
+    /// value that is not in the store.
     #[inline(always)] // into the one way from an SDO request to its answer
     pub(crate) fn read<'b>(
         &'b mut self,
@@ -84,7 +84,7 @@ impl<'c> Objects<'c> {
         self.application(|application, context| application.refresh(context, address))
     }
 
-    /// May an entry be written at all, and does data of this length fit?
+    /// Returns the entry, if it can be written and data of this length fits.
     pub(crate) fn writable(
         &self,
         address: Address,
@@ -100,7 +100,7 @@ impl<'c> Objects<'c> {
         Ok(entry)
     }
 
-    /// How many of `len` bytes the entry takes.
+    /// Returns how many of `len` bytes the entry accepts.
     fn fit(&self, entry: &Entry, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile.sdo.length;
         let (low, high) = match entry.data_type.size() {
@@ -140,7 +140,7 @@ impl<'c> Objects<'c> {
         Ok(())
     }
 
-    /// How an SDO is told that a value is out of its limits.
+    /// Returns the abort code for a value outside its limits.
     fn refusal(&self, address: Address, outside: Outside) -> AbortCode {
         match outside {
             // More objects than a mapping has room for are too many, not too great a number.
@@ -227,11 +227,11 @@ impl<'c> Objects<'c> {
         self.outbox.signals.wake();
     }
 
-    /// What the device keeps of its own life is brought up to date before it is saved.
+    /// Updates the operating records before they are saved.
     pub(crate) fn refresh_life_record(&mut self) {
         let entries = self.store.dictionary().entries();
         for entry in entries.iter().filter(|entry| image::is_life_record(entry)) {
-            // A value that cannot be had is saved as it stands.
+            // A value that cannot be updated is saved as it is.
             let _ = self.refresh(entry.address);
         }
     }

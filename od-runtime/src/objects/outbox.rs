@@ -1,4 +1,4 @@
-//! What a call leaves to be done when it is over.
+//! Work that a call leaves for its end.
 
 use od_model::Address;
 use od_wire::Instant;
@@ -7,7 +7,7 @@ use crate::application::Signals;
 use crate::fifo::Fifo;
 use crate::storage::image;
 
-/// What writing an object means for the services.
+/// Effect of a write on the services.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Effect {
     /// The object at this address has a new value.
@@ -28,7 +28,7 @@ pub(crate) enum Effect {
 pub(crate) struct Outbox {
     /// The application's requests.
     pub(crate) signals: Signals,
-    /// What was written: one object by an SDO, up to 64 by an RPDO.
+    /// Objects that were written: one by an SDO, up to 64 by an RPDO.
     pub(crate) effects: Fifo<Effect, 8>,
     /// More was written than `effects` could hold.
     pub(crate) overflow: bool,

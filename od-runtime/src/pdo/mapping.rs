@@ -1,4 +1,4 @@
-//! What a PDO is made of, taken from its mapping object once and kept.
+//! Mapping of a PDO, read from its object once and kept.
 
 use od_model::Entry;
 
@@ -7,7 +7,7 @@ use crate::objects::{Objects, check_mapped};
 /// Entries that are kept; a mapping of more (of BOOLEANs, say) is read from its object each time.
 const KEPT: usize = 8;
 
-/// One mapped value: where its entry stands in the dictionary, and its length.
+/// One mapped value: the position of its entry in the dictionary, and its length.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Mapped {
     /// Position in the dictionary's entries; [`DUMMY`] for bits that nobody reads.
@@ -112,7 +112,7 @@ impl Mapping {
         }
     }
 
-    /// The frame's bytes as the values stand now, live ones brought up to date.
+    /// Returns the frame's bytes with the current values, live ones updated.
     #[inline]
     pub(super) fn sample(&self, objects: &mut Objects<'_>) -> [u8; 8] {
         let mut data = 0u64;

@@ -1,4 +1,4 @@
-//! One RPDO: when it is taken, and into what.
+//! One RPDO: when it acts, and on which objects.
 
 use super::mapping::Mapping;
 use crate::objects::Objects;
@@ -14,7 +14,7 @@ pub(crate) struct Rpdo {
     waiting: Option<[u8; 8]>,
 }
 
-/// What came of a frame.
+/// Result of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Received {
     /// It was taken, or waits for SYNC.
@@ -63,7 +63,7 @@ impl Rpdo {
         }
     }
 
-    /// Is a frame with this identifier its own?
+    /// Whether it receives frames with this CAN-ID.
     #[inline]
     pub(crate) fn takes(&self, id: CanId) -> bool {
         self.valid && self.cob_id.can_id() == id

@@ -13,7 +13,7 @@ mod kind {
     pub(super) const EVENT_FIRST: u8 = 254;
 }
 
-/// What the objects of a TPDO say.
+/// Configuration of a TPDO, from its objects.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Config {
     valid: bool,
@@ -26,7 +26,7 @@ struct Config {
     mapping: Mapping,
 }
 
-/// A TPDO: what its objects say, and where it stands.
+/// TPDO: its configuration and its state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tpdo {
     config: Config,
@@ -41,7 +41,7 @@ pub(crate) struct Tpdo {
     waits_for_start: bool,
     /// Transmissions of this value that the repeat counter still allows.
     repeats_left: u8,
-    /// What was sampled or sent last.
+    /// Data that was sampled or sent last.
     last: [u8; 8],
     sampled: bool,
 }
@@ -101,7 +101,7 @@ impl Tpdo {
     };
 
     /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
-    /// they say something else than before; only then the TPDO starts anew.
+    /// they say something else than before; only then the TPDO restarts.
     pub(crate) fn configure(&mut self, objects: &Objects<'_>, number: u16) -> bool {
         let config = Config::load(objects, number);
         let changed = config != self.config;
@@ -148,7 +148,7 @@ impl Tpdo {
         self.pending = false;
     }
 
-    /// Does a remote frame with this identifier ask for it?
+    /// Whether a remote frame with this CAN-ID requests it.
     pub(crate) fn answers(&self, id: CanId) -> bool {
         self.config.valid && self.config.cob_id.allows_rtr() && self.config.cob_id.can_id() == id
     }
@@ -224,12 +224,12 @@ impl Tpdo {
         }
     }
 
-    /// Is it sent when a mapped value changes, in a family that sends changes?
+    /// Whether it is sent when a mapped value changes, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
         self.config.valid && self.is_event_driven()
     }
 
-    /// Has a mapped value changed that it is sent for?
+    /// Marks it as pending if a mapped value has changed that it is sent for.
     pub(crate) fn notice_change(&mut self, objects: &mut Objects<'_>) {
         if self.watches_changes() && !self.pending {
             self.pending = self.config.mapping.sample(objects) != self.last;

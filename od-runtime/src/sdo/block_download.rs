@@ -12,7 +12,7 @@ pub(super) struct BlockDownload {
     /// The client makes a CRC.
     crc: bool,
     size: Option<u32>,
-    /// Bytes in the buffer, those of the last segment that are no data included.
+    /// Bytes in the buffer, with the unused ones of the last segment.
     received: usize,
     /// Segments that this block has.
     block_size: u8,
@@ -60,7 +60,7 @@ impl BlockDownload {
         let is_block_over = last || sequence == self.block_size;
         if sequence == self.ack + 1 {
             let tail = buffer.get_mut(self.received..).unwrap_or(&mut []);
-            // The last segment may carry bytes that are no data past the buffer's end.
+            // The unused bytes of the last segment may be past the buffer's end.
             if tail.len() < 7 && !last {
                 return Err(AbortCode::OutOfMemory);
             }

@@ -1,7 +1,7 @@
 //! SDO server (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
 //!
-//! A transfer is taken down into the server's buffer first and written when it is
-//! complete, so one that breaks off leaves the object as it was.
+//! The server buffers a download and writes it when it is complete, so one that breaks off
+//! leaves the object as it was.
 
 mod block_download;
 mod block_upload;
@@ -21,11 +21,11 @@ use block_upload::BlockUpload;
 use late::{Held, Late};
 use segmented::{Download, Upload};
 
-/// How long a block transfer waits for the client, in microseconds: its segments cannot
-/// be told from requests, so a client that died would block the next one.
+/// Longest time that a block transfer waits for the client, in microseconds: its segments look
+/// like requests, so a client that died would block the next one.
 const BLOCK_TIMEOUT_US: u64 = 5_000_000;
 
-/// Where a transfer stands.
+/// Transfer under way.
 #[derive(Clone, Copy, Debug, Default)]
 enum Transfer {
     #[default]
@@ -48,7 +48,7 @@ pub(crate) struct Server<const N: usize> {
     late: Late,
 }
 
-/// What the server answers.
+/// Response of the server, if there is one, or the reason of its abort.
 type Answer = Result<Option<Response>, AbortCode>;
 
 impl<const N: usize> Server<N> {
@@ -324,7 +324,7 @@ impl<const N: usize> Server<N> {
         .emit()
     }
 
-    /// May [`poll`](Self::poll) have something?
+    /// Whether [`poll`](Self::poll) may have a segment.
     #[inline]
     pub(crate) fn is_sending(&self) -> bool {
         matches!(self.transfer, Transfer::BlockUpload(_))

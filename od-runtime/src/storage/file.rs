@@ -11,7 +11,7 @@ use super::{Storage, StorageError};
 /// The first bytes of such a file, so that no other is ever taken for one.
 const SIGNATURE: &[u8; 16] = b"odkit EEPROM 1\r\n";
 
-/// What an erased byte reads.
+/// Value of an erased byte.
 const ERASED: u8 = 0xFF;
 
 /// Storage in a file: [`Storage::flush`] puts it on the disk.

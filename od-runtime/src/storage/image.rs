@@ -18,7 +18,7 @@
 //! values then ([`CutSave::Factory`]), the first byte of the last set's magic is 96h while the
 //! save goes on.
 //!
-//! A value is as it stands on the wire; where a family keeps COB-IDs as differences
+//! A value has the bytes of an SDO transfer; where a family keeps COB-IDs as differences
 //! ([`SavedCobIds::Difference`](crate::profile::SavedCobIds)), one whose default has `$NODEID` in it is
 //! less that default.
 //!
@@ -48,11 +48,11 @@ pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
 pub(crate) use merge::{Pending, commit};
 
-/// What the storage held.
+/// Content of the storage at the time of a load.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Loaded {
-    /// Nothing yet, or nothing of this device: the defaults stand.
+    /// Nothing yet, or nothing of this device: the values keep their defaults.
     Blank,
     /// The last set that was saved.
     Complete,
@@ -64,10 +64,10 @@ pub enum Loaded {
     },
     /// The last set is damaged, and the one before it was taken.
     Older,
-    /// A save was cut, on a device that takes the factory values then: the defaults stand,
+    /// A save was cut, on a device that loads the factory values then: the values keep their defaults,
     /// but for the record of its life.
     Cut,
-    /// What is there cannot be read, or another version wrote it: the defaults stand.
+    /// The content cannot be read, or another version wrote it: the values keep their defaults.
     Damaged,
 }
 
@@ -139,7 +139,7 @@ pub fn load(
 /// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
 /// values stay as they are.
 ///
-/// A `$NODEID` default that still stands is not saved: it follows the node ID.
+/// A `$NODEID` default that was not changed is not saved: it follows the node ID.
 /// Sub-index 0, which no master can write, saves the life record alone
 /// ([`is_life_record`]).
 ///

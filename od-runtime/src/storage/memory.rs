@@ -4,8 +4,8 @@ use super::{Storage, StorageError};
 
 /// Storage that lives as long as its bytes: an array, a slice, a `Vec`.
 ///
-/// Power can be cut after so many written bytes, which is how tests and the
-/// simulator try what a save leaves behind:
+/// Power can be cut after a number of written bytes, so that tests and the bench can try what an
+/// interrupted save leaves:
 ///
 /// ```
 /// use od_runtime::storage::{Memory, Storage, StorageError};
@@ -40,7 +40,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Memory<B> {
         self.left = Some(bytes);
     }
 
-    /// Did power go? Nothing can be read or written then.
+    /// Returns whether power went; nothing can be read or written then.
     pub fn is_cut(&self) -> bool {
         self.cut
     }
@@ -51,12 +51,12 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Memory<B> {
         self.cut = false;
     }
 
-    /// What it holds.
+    /// Returns its bytes.
     pub fn bytes(&self) -> &[u8] {
         self.bytes.as_ref()
     }
 
-    /// What it holds, to be damaged.
+    /// Returns its bytes, for a test to damage.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes.as_mut()
     }

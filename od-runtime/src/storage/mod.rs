@@ -1,4 +1,4 @@
-//! What survives power-off: bytes behind a small trait, and the image that is kept in them.
+//! Non-volatile memory: bytes behind a small trait, and the image of the saved values.
 //!
 //! [`Storage`] is an EEPROM as a host provides it. [`NoStorage`] is a device without
 //! one, [`Memory`] lives as long as its bytes, `File` (feature `std`) longer.
@@ -16,7 +16,7 @@ use core::fmt;
 pub use file::{File, OpenError};
 pub use memory::Memory;
 
-/// Why bytes could not be read or written.
+/// Reason why bytes could not be read or written.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum StorageError {
@@ -65,10 +65,10 @@ pub trait Storage {
     /// bytes may be written then.
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError>;
 
-    /// What was written before this call survives whatever happens after it.
+    /// Makes sure that everything written before this call survives a loss of power after it.
     ///
     /// # Errors
-    /// What the device has to say.
+    /// Those of the device.
     fn flush(&mut self) -> Result<(), StorageError> {
         Ok(())
     }

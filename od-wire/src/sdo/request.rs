@@ -1,4 +1,4 @@
-//! What a client sends.
+//! Frames of an SDO client.
 
 use od_model::Address;
 
@@ -25,7 +25,7 @@ pub enum Request {
     /// Abort transfer; [`AbortCode`](crate::AbortCode) knows the codes of CiA 301.
     Abort { address: Address, code: u32 },
     /// Initiate block upload: reads `address`. `crc`: the client can check a CRC; `block_size`:
-    /// segments in a block, 1 to 127 where valid; `threshold`: a value of up to so many bytes may
+    /// segments in a block, 1 to 127 where valid; `threshold`: a value of up to this many bytes may
     /// come by another protocol, 0: never.
     InitiateBlockUpload {
         address: Address,
@@ -47,7 +47,7 @@ pub enum Request {
         crc: bool,
         size: Option<u32>,
     },
-    /// End block download: `unused` bytes of the last segment are no data, 0 to 7; `crc` is 0 if
+    /// End block download: `unused` bytes of the last segment are unused, 0 to 7; `crc` is 0 if
     /// none was agreed on.
     EndBlockDownload { unused: u8, crc: u16 },
     /// A command specifier that no request has.

@@ -1,4 +1,4 @@
-//! What a server answers.
+//! Frames of an SDO server.
 
 use od_model::Address;
 
@@ -41,7 +41,7 @@ pub enum Response {
         crc: bool,
         size: Option<u32>,
     },
-    /// End block upload: `unused` bytes of the last segment are no data, 0 to 7; `crc` is 0 if
+    /// End block upload: `unused` bytes of the last segment are unused, 0 to 7; `crc` is 0 if
     /// none was agreed on.
     EndBlockUpload { unused: u8, crc: u16 },
     /// A command specifier that no response has.

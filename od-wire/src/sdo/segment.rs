@@ -63,8 +63,7 @@ pub const fn block_segments(len: usize) -> usize {
     if len == 0 { 1 } else { len.div_ceil(7) }
 }
 
-/// Bytes of the last segment of a block transfer that are no data, 0 to 7, for a value of `len`
-/// bytes.
+/// Unused bytes of the last segment of a block transfer, 0 to 7, for a value of `len` bytes.
 pub const fn unused(len: usize) -> u8 {
     (block_segments(len) * 7 - len) as u8
 }

@@ -9,7 +9,7 @@ use crate::storage::{Storage, StorageError};
 /// A whole bank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bank {
-    /// Where its header is.
+    /// Offset of its header.
     pub(super) start: usize,
     /// Bytes of records.
     len: usize,
@@ -18,17 +18,17 @@ pub(super) struct Bank {
     pub(super) replaced: bool,
 }
 
-/// What stands in both.
+/// State of both banks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Banks {
     pub(super) newest: Option<Bank>,
-    /// Where the next set goes.
+    /// Offset of the bank for the next set.
     pub(super) target: usize,
     /// Bytes of a bank.
     pub(super) size: usize,
-    /// A bank holds something that is no set.
+    /// A bank holds something other than a set.
     pub(super) damaged: bool,
-    /// The damaged one was written after the newest whole one, or that cannot be told.
+    /// The damaged one was written after the newest whole one, or may have been.
     pub(super) lost_newer: bool,
 }
 
@@ -82,7 +82,7 @@ impl Banks {
         Ok(banks)
     }
 
-    /// Was the last save cut, on a device that takes the factory values then?
+    /// Whether the last save was interrupted, on a device that loads the factory values then.
     pub(super) fn is_cut(&self) -> bool {
         self.newest.is_some_and(|bank| bank.replaced)
     }
@@ -167,7 +167,7 @@ pub(super) fn in_chunks(
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Record {
     pub(super) address: Address,
-    /// Where its bytes stand.
+    /// Offset of its value.
     pub(super) at: usize,
     pub(super) len: usize,
 }
@@ -187,7 +187,7 @@ impl Records {
         }
     }
 
-    /// `None` at the end, and where the rest is no record.
+    /// `None` at the end, and if the rest is not a record.
     pub(super) fn next(
         &mut self,
         storage: &mut dyn Storage,

@@ -6,7 +6,7 @@ use crate::profile::SavedCobIds;
 use crate::store::{Store, little_endian};
 use od_wire::CobId;
 
-/// What is saved instead of the value; `None` where the value is.
+/// Returns the bytes that are saved instead of the value; `None`: the value is saved.
 pub(super) fn difference(store: &Store<'_>, entry: &Entry, rule: SavedCobIds) -> Option<[u8; 8]> {
     let default = default(store, entry, rule)?;
     Some(store.number(entry).wrapping_sub(default).to_le_bytes())

@@ -11,24 +11,24 @@ use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 use crate::store::Store;
 
-/// What becomes of an address in the next set.
+/// Part of an address in the next set.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Fate {
     /// The store's value goes in.
     Store,
-    /// What the newest set says stays; nothing, if it says nothing.
+    /// The record of the newest set stays, if there is one.
     Keep,
     /// Nothing goes in.
     Drop,
 }
 
-/// What the next set is made of, and how.
+/// Recipe of the next set.
 pub(super) struct Next<'n> {
     /// Decides for an address; without an entry where no object of the dictionary saves it.
     pub(super) plan: &'n dyn Fn(Address, Option<&Entry>) -> Fate,
     /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
     pub(super) own: [Option<u8>; 2],
-    /// What is left where power goes before the end.
+    /// Values after an interrupted save.
     pub(super) cut: CutSave,
     pub(super) cob_ids: SavedCobIds,
 }
@@ -76,7 +76,7 @@ pub(super) fn begin(
         storage.flush()?;
     }
     if let Err(error) = set.write(storage, len) {
-        // Power did not go, so the set before it still counts, if it can be told.
+        // Power did not go, so the set before it still counts, if it can be marked.
         let _ = reinstate(storage, pending);
         return Err(error);
     }
