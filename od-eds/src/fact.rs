@@ -70,6 +70,20 @@ impl Key {
         self.name().eq_ignore_ascii_case(name)
     }
 
+    /// Returns if its value is a number or a word of CiA 306, so no text.
+    pub(crate) const fn is_coded(self) -> bool {
+        matches!(
+            self,
+            Self::ObjectType
+                | Self::SubNumber
+                | Self::CompactSubObj
+                | Self::DataType
+                | Self::AccessType
+                | Self::PdoMapping
+                | Self::ObjFlags
+        )
+    }
+
     /// The key with this name, written as in the standard.
     pub fn of(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|key| key.name() == name)

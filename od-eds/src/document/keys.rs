@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Document, Edit, EditError, one_line};
+use crate::fact::Key;
 use crate::scan::lines;
 use crate::scan::number;
 use crate::scan::number::Note;
@@ -177,19 +178,11 @@ fn pairs<'s, 'a>(
 
 /// Is what follows the value a comment? Behind a number or a word of CiA 306 it is.
 fn holds_comment(key: &str, before: &str) -> bool {
-    const NOT_TEXT: [&str; 9] = [
-        "ObjectType",
-        "SubNumber",
-        "DataType",
-        "AccessType",
-        "PDOMapping",
-        "ObjFlags",
-        "CompactSubObj",
-        "LowLimit",
-        "HighLimit",
-    ];
+    let not_text =
+        |known: &Key| known.is_coded() || matches!(known, Key::LowLimit | Key::HighLimit);
+    let mut known = Key::ALL.into_iter().filter(not_text);
     let mut notes = Vec::new();
-    NOT_TEXT.iter().any(|word| key.eq_ignore_ascii_case(word))
+    known.any(|known| known.is(key))
         || number::node_id(before, &mut notes).is_some()
         // `FF` may be a text.
         || number::integer(before, &mut notes).is_some() && !notes.contains(&Note::BareHex)

@@ -5,6 +5,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::fact::Key;
 use crate::finding::Finding;
 use crate::read::other::unknown_object_keys;
 use crate::rules::structure::i0320;
@@ -13,17 +14,6 @@ use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 use od_model::{Address, Group};
-
-/// Keys that say nothing when they are empty; an empty value or limit is none.
-const NOT_EMPTY: [&str; 7] = [
-    "ObjectType",
-    "SubNumber",
-    "DataType",
-    "AccessType",
-    "PDOMapping",
-    "ObjFlags",
-    "CompactSubObj",
-];
 
 /// The keys of a section that describes an object or a member.
 pub(crate) struct Fields<'a> {
@@ -46,7 +36,9 @@ impl<'a> Fields<'a> {
             keep
         });
         for (key, value) in &mut pairs {
-            let numeric = NOT_EMPTY.iter().any(|name| key.eq_ignore_ascii_case(name));
+            // An empty value or limit is none.
+            let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
+            let numeric = coded.any(|known| known.is(key));
             if numeric && before_comment(value).is_empty() {
                 log.push(i0320::finding(key).about(address));
                 value.value = Cow::Borrowed("");

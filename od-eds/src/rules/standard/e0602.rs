@@ -1,9 +1,8 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use od_model::Address;
+use crate::rules::standard::shared::missing;
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0602",
@@ -18,9 +17,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    // A file without objects has a rule of its own.
-    if !description.objects.is_empty() && !description.objects.contains_key(&0x1001) {
-        let finding = RULE.finding().about(Address::new(0x1001, 0));
-        findings.push(finding.fact("missing", Fact::Section(0x1001, None)));
-    }
+    findings.extend(missing(&RULE, description, 0x1001));
 }

@@ -1,7 +1,7 @@
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
-use crate::rules::standard::shared::{code, data_type};
+use crate::rules::standard::shared::{code, data_type, value};
 use crate::subject::Object;
 use od_model::{DataType, ObjectCode};
 
@@ -19,13 +19,9 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    if object.index != 0x1001 {
-        return;
+    if object.index == 0x1001 {
+        findings.extend(code(&RULE, object, &[ObjectCode::Var]));
+        findings
+            .extend(value(object).and_then(|entry| data_type(&RULE, &entry, DataType::Unsigned8)));
     }
-    findings.extend(code(&RULE, object, &[ObjectCode::Var]));
-    let value = object
-        .entries()
-        .next()
-        .filter(|_| !object.code.has_members());
-    findings.extend(value.and_then(|value| data_type(&RULE, &value, DataType::Unsigned8)));
 }

@@ -2,12 +2,32 @@
 
 use alloc::format;
 
-use od_model::{DataType, ObjectCode};
+use od_model::{Address, DataType, ObjectCode};
 
+use crate::description::Description;
 use crate::fact::{Fact, Key};
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
 use crate::subject::{Entry, Object};
+
+/// The finding about a mandatory object that is missing; none for a file without objects, which
+/// has a rule of its own.
+pub(super) fn missing(
+    rule: &'static Rule,
+    description: &Description,
+    index: u16,
+) -> Option<Finding> {
+    let objects = &description.objects;
+    let is_missing = !objects.is_empty() && !objects.contains_key(&index);
+    let finding = rule.finding().about(Address::new(index, 0));
+    is_missing.then(|| finding.fact("missing", Fact::Section(index, None)))
+}
+
+/// The value of an object without sub-objects.
+pub(super) fn value<'a>(object: &Object<'a>) -> Option<Entry<'a>> {
+    let first = object.entries().next();
+    first.filter(|_| !object.code.has_members())
+}
 
 /// The finding about an object that must have one of these codes.
 pub(super) fn code(

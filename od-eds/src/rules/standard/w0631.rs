@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
+use crate::rules::pdo::shared::{is_communication, maps_rpdo};
 use crate::rules::standard::table::of;
 use crate::subject::Entry;
 use od_model::Address;
@@ -23,8 +24,8 @@ pub(crate) static RULE: Rule = Rule {
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let Address { index, sub } = entry.address;
     let own_rule = matches!(index, 0x1000 | 0x1001 | 0x1018)
-        || matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF if sub <= 2)
-        || matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+        || is_communication(index) && sub <= 2
+        || maps_rpdo(index).is_some();
     if let Some(standard) = of(index).filter(|found| found.is_like(*entry.object.code))
         && let Some(value) = standard.value(sub)
         && let Some(given) = entry.data_type.filter(|given| **given != value.data_type)

@@ -6,6 +6,7 @@ use od_model::{DataType, ObjectCode};
 
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
+use crate::rules::pdo::shared::maps_rpdo;
 use crate::span::{Spanned, token_of};
 use crate::subject::{Entry, Object, start_number};
 
@@ -27,14 +28,9 @@ pub(super) fn sub_index_0<'a>(object: &Object<'a>) -> Option<Entry<'a>> {
     first.filter(|entry| entry.address.sub == 0)
 }
 
-/// Is it the mapping of a PDO?
-const fn is_mapping(index: u16) -> bool {
-    matches!(index, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
-}
-
 /// Objects whose sub-index 0 changes with their content.
 pub(super) const fn counts_in_use(index: u16) -> bool {
-    index == 0x1003 || is_mapping(index)
+    index == 0x1003 || maps_rpdo(index).is_some()
 }
 
 /// What sub-index 0 says, beside what exists.
@@ -75,7 +71,7 @@ impl<'a> Count<'a> {
     /// Returns if it makes a device unsound: a PDO cannot be made of entries that do not exist. The
     /// values of a macro call are the author's own to correct.
     pub(super) fn is_error(&self) -> bool {
-        is_mapping(self.entry.address.index) || token_of(self.given.span).is_some()
+        maps_rpdo(self.entry.address.index).is_some() || token_of(self.given.span).is_some()
     }
 
     /// The finding that it is wrong.
