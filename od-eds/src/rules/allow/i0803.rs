@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "odkit",
     fixability: Fixability::Unsafe,
     says: "`odkit-allow={code}` matches no finding",
-    help: "remove the line",
+    help: "remove the line{fix}",
     ..Rule::NEW
 };
 

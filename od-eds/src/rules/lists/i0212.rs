@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "odkit reads [{name}] as [{right}]",
-    help: "write `[{right}]`",
+    help: "write `[{right}]`{fix}",
     ..Rule::NEW
 };
 

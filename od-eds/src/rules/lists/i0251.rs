@@ -15,7 +15,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, DummyUsage",
     fixability: Fixability::Safe,
     says: "[DummyUsage] lacks {missing}",
-    help: "write 0 for each, or 1 if RPDOs may map the dummy entry",
+    help: "write 0 for each{fix}, or 1 if RPDOs may map the dummy entry",
     check: Check::Device(check),
     ..Rule::NEW
 };

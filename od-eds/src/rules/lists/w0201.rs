@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object lists",
     fixability: Fixability::Unsafe,
     says: "{object} is listed, but section [{object:04X}] is missing",
-    help: "add the section, or remove the entry",
+    help: "remove the entry{fix}, or add the section",
     ..Rule::NEW
 };
 

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
     says: "SupportedObjects is {given}, but the list has {found:entry|entries}",
-    help: "write `SupportedObjects={found}`",
+    help: "write `SupportedObjects={found}`{fix}",
     also: &[MISSING],
     ..Rule::NEW
 };

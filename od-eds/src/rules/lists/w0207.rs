@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
     says: "duplicate entry for {object}",
-    help: "remove one of the entries",
+    help: "remove one of the entries{fix}",
     ..Rule::NEW
 };
 

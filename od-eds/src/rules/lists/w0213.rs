@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, file format",
     fixability: Fixability::Unsafe,
     says: "[{name}] is not a section of CiA 306",
-    help: "write `[{meant}]` if this section is meant",
+    help: "write `[{meant}]` if this section is meant{fix}",
     ..Rule::NEW
 };
 

@@ -11,7 +11,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object lists",
     fixability: Fixability::Safe,
     says: "duplicate entry number {number}",
-    help: "number the entries 1, 2, 3 and so on",
+    help: "number the entries 1, 2, 3 and so on{fix}",
     ..Rule::NEW
 };
 

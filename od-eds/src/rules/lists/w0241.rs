@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, Comments",
     fixability: Fixability::Safe,
     says: "Lines is {given}, but [Comments] has {lines:line|lines}",
-    help: "write `Lines={lines}`",
+    help: "write `Lines={lines}`{fix}",
     also: &[MISSING],
     check: Check::Device(check),
     ..Rule::NEW

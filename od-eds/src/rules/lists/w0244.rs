@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, SupportedModules",
     fixability: Fixability::Safe,
     says: "NrOfEntries is {given}, but the list has {count:entry|entries}",
-    help: "write `NrOfEntries={count}`",
+    help: "write `NrOfEntries={count}`{fix}",
     check: Check::Device(check),
     ..Rule::NEW
 };

@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 401 and CiA 402, object overview",
     fixability: Fixability::Unsafe,
     says: "{object} is {given}, but CiA {profile} specifies {right}",
-    help: "write `{key={right}}`",
+    help: "write `{key={right}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

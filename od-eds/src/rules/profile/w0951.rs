@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 406, object overview",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} is `{given}`, but CiA {profile} specifies `{right}`",
-    help: "write `{AccessType={right}}`",
+    help: "write `{AccessType={right}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

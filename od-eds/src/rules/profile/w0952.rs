@@ -15,7 +15,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 406, objects 6001h and 6002h",
     fixability: Fixability::Unsafe,
     says: "6002h is {range}, but 6001h ({units}) times {turns:revolution|revolutions} is {all}",
-    help: "write `{DefaultValue={all}}`, or a number that divides it",
+    help: "write `{DefaultValue={all}}`{fix}, or a number that divides it",
     check: Check::Device(check),
     ..Rule::NEW
 };

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 406, object 6004h",
     fixability: Fixability::Unsafe,
     says: "{object} (position value) cannot be mapped into a PDO",
-    help: "write `{PDOMapping=1}`",
+    help: "write `{PDOMapping=1}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };

@@ -15,7 +15,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 406, objects 6000h and 6500h",
     fixability: Fixability::Unsafe,
     says: "6500h is 0x{status:X}, but 6000h is 0x{parameters:X}",
-    help: "write `{DefaultValue=0x{right:X}}`",
+    help: "write `{DefaultValue=0x{right:X}}`{fix}",
     check: Check::Device(check),
     ..Rule::NEW
 };

@@ -16,7 +16,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 406, object 6200h",
     fixability: Fixability::Unsafe,
     says: "6200h is {cycle} ms, but 1800h:05 is {event} ms",
-    help: "write the same value in both",
+    help: "write the same value in both{fix}",
     check: Check::Device(check),
     ..Rule::NEW
 };

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object 1018h",
     fixability: Fixability::Unsafe,
     says: "{object} is {given}, but CiA 301 specifies {right}",
-    help: "write `{key={right}}`",
+    help: "write `{key={right}}`{fix}",
     also: &[NO_VENDOR],
     check: Check::Object(check),
     ..Rule::NEW

@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, DCF",
     fixability: Fixability::Safe,
     says: "CiA 306 spells `DeviceCommissioning` with one m",
-    help: "write `[DeviceComissioning]`",
+    help: "write `[DeviceComissioning]`{fix}",
     ..Rule::NEW
 };
 

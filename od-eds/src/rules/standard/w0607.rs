@@ -16,7 +16,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, DeviceInfo",
     fixability: Fixability::Unsafe,
     says: "{field} is 0x{given:X}, but {object} is 0x{value:X}",
-    help: "write `{field}=0x{value:X}`, or correct {object}",
+    help: "write `{field}=0x{value:X}`{fix}, or correct {object}",
     check: Check::Device(check),
     ..Rule::NEW
 };

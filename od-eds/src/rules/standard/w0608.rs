@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, DeviceInfo",
     fixability: Fixability::Safe,
     says: "{field} is {given}, but the file defines {count:TPDO|TPDOs} (1800h–19FFh)",
-    help: "write `{field}={count}`",
+    help: "write `{field}={count}`{fix}",
     also: &[RPDOS],
     check: Check::Device(check),
     ..Rule::NEW

@@ -16,7 +16,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
     says: "{object} ({name}) is {given}, but {standard} specifies {right}",
-    help: "write `{DataType={right}}`",
+    help: "write `{DataType={right}}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} ({name}) is `{given}`, but {standard} specifies `{right}`",
-    help: "write `{AccessType={fixed}}`",
+    help: "write `{AccessType={fixed}}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };

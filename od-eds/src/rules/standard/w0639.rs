@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object 1003h",
     fixability: Fixability::Unsafe,
     says: "{DefaultValue} is {given}, but the error history of a new device is empty",
-    help: "write `{DefaultValue=0}`",
+    help: "write `{DefaultValue=0}`{fix}",
     check: Check::Entry(check),
     ..Rule::NEW
 };

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
     says: "sub-index 0 is {given}, not {right}",
-    help: "write `{DataType={right}}`",
+    help: "write `{DataType={right}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

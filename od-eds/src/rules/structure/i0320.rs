@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "`{name}` is empty",
-    help: "write a value for `{name}`, or remove the line",
+    help: "remove the line{fix}, or write a value for `{name}`",
     ..Rule::NEW
 };
 

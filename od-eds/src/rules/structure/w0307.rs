@@ -16,7 +16,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
     says: "sub-index 0 is missing",
-    help: "add {missing} with `{DataType={right}}` and the highest sub-index as {DefaultValue}",
+    help: "add {missing} with `{DataType={right}}` and the highest sub-index as {DefaultValue}{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "{SubNumber} is {given}, but the object has {count:sub-index|sub-indices}",
-    help: "write `{SubNumber={count}}`",
+    help: "write `{SubNumber={count}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

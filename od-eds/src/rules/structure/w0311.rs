@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
     says: "sub-index 0 is {given}, but sub-index {highest} exists",
-    help: "write `{DefaultValue={highest}}`",
+    help: "write `{DefaultValue={highest}}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
     says: "{object} is {given}, but {first} of the same ARRAY is {right}",
-    help: "write `{ObjectType=0x9}` (RECORD) if the types are correct",
+    help: "write `{ObjectType=0x9}` (RECORD) if the types are correct{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

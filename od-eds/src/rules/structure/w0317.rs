@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Safe,
     says: "{SubNumber} is missing",
-    help: "write `{SubNumber={count}}`",
+    help: "write `{SubNumber={count}}`{fix}",
     ..Rule::NEW
 };
 

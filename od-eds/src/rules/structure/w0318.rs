@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "`{name}` is not a key of CiA 306 for this section",
-    help: "write `{meant}={given}` if this key is meant",
+    help: "write `{meant}={given}` if this key is meant{fix}",
     ..Rule::NEW
 };
 

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, CompactSubObj",
     fixability: Fixability::Safe,
     says: "NrOfEntries is {given}, but the section has {found:entry|entries}",
-    help: "write `NrOfEntries={found}`",
+    help: "write `NrOfEntries={found}`{fix}",
     also: &[MISSING],
     ..Rule::NEW
 };

@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object structure",
     fixability: Fixability::Unsafe,
     says: "sub-index 0 counts the sub-objects, but its {AccessType} is `{given}`",
-    help: "write `{AccessType=const}`",
+    help: "write `{AccessType=const}`{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };

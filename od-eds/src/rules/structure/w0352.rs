@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "{SubNumber} is {given}, but {code} has no sub-objects",
-    help: "remove {SubNumber}",
+    help: "remove {SubNumber}{fix}",
     check: Check::Object(check),
     ..Rule::NEW
 };
