@@ -11,14 +11,14 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object codes",
     fixability: Fixability::Unsafe,
     says: "{code} cannot have sub-objects",
-    help: "write `{ObjectType=0x9}` (RECORD){fix}, or `{ObjectType=0x8}` (ARRAY)",
+    help: "write `{ObjectType=0x9}` for a RECORD{fix}, or `{ObjectType=0x8}` for an ARRAY",
     also: &[COMPACT],
     ..Rule::NEW
 };
 
 /// Sentence for an object with CompactSubObj.
 const COMPACT: Form = Form {
-    help: "write `{ObjectType=0x8}` (ARRAY){fix}",
+    help: "write `{ObjectType=0x8}` for an ARRAY{fix}",
     ..Form::OWN
 };
 

@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "{ObjectType} is missing, but sub-objects exist",
-    help: "write `{ObjectType=0x9}` (RECORD){fix}, or `{ObjectType=0x8}` (ARRAY)",
+    help: "write `{ObjectType=0x9}` for a RECORD{fix}, or `{ObjectType=0x8}` for an ARRAY",
     ..Rule::NEW
 };
 

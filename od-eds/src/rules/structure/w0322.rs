@@ -11,7 +11,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, object sections",
     fixability: Fixability::Unsafe,
     says: "{ObjectType} `{given}` is not valid for a sub-index",
-    help: "write `{ObjectType=0x7}` (VAR){fix}",
+    help: "write `{ObjectType=0x7}`{fix}",
     ..Rule::NEW
 };
 
