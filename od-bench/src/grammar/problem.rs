@@ -18,7 +18,7 @@ pub struct Problem {
 
 impl Problem {
     /// A problem of a whole line.
-    pub(crate) fn new(line: u32, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub fn new(line: u32, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             line,
             column: 1,

@@ -103,10 +103,7 @@ pub(super) fn stopped(stop: &Stop) -> Problem {
     let why = std::format!("{stop}");
     // The first line names the place, which the problem has already.
     let why: Vec<_> = why.lines().skip(1).map(str::trim).collect();
-    Problem {
-        line: stop.line,
-        column: 1,
-        message: std::format!("`{}` fails: {}", stop.text, why.join(" ")),
-        help: "run the block with `odkit run` to see its frames".into(),
-    }
+    let message = std::format!("`{}` fails: {}", stop.text, why.join(" "));
+    let help = "run the block with `odkit run` to see its frames";
+    Problem::new(stop.line, message, help)
 }

@@ -12,14 +12,7 @@ const KEYS: &str = "write title, summary, level, minutes, language or absent";
 
 /// Takes one line of it.
 pub(super) fn line(lesson: &mut Lesson, number: u32, text: &str) -> Result<(), Problem> {
-    let problem = |message: String, help: &str| {
-        Err(Problem {
-            line: number,
-            column: 1,
-            message,
-            help: help.into(),
-        })
-    };
+    let problem = |message: String, help: &str| Err(Problem::new(number, message, help));
     let text = text.trim();
     if text.is_empty() || text.starts_with('#') {
         return Ok(());
@@ -87,12 +80,7 @@ pub(super) fn missing(lesson: &Lesson) -> Option<Problem> {
     } else {
         return None;
     };
-    Some(Problem {
-        line: 1,
-        column: 1,
-        message: format!("the lesson has no {what}"),
-        help: "begin the file with a line `+++`, then `title = \"…\"`, `level = 1`, \
-               `minutes = 10`, and a line `+++`"
-            .into(),
-    })
+    let help = "begin the file with a line `+++`, then `title = \"…\"`, `level = 1`, `minutes = 10`, and \
+                a line `+++`";
+    Some(Problem::new(1, format!("the lesson has no {what}"), help))
 }

@@ -84,12 +84,11 @@ impl Lesson {
         };
         let unknown = self.objects.iter().filter(|(_, address)| !known(address));
         unknown
-            .map(|(line, address)| Problem {
-                line: *line,
-                column: 1,
-                message: format!("no device of the set-up has object {address}"),
-                help: "correct the address, or add it to the front matter: `absent = \"2FFFh\"`"
-                    .into(),
+            .map(|(line, address)| {
+                let message = format!("no device of the set-up has object {address}");
+                let help =
+                    "correct the address, or add it to the front matter: `absent = \"2FFFh\"`";
+                Problem::new(*line, message, help)
             })
             .collect()
     }

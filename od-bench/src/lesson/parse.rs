@@ -97,12 +97,7 @@ fn parse(text: &str) -> Result<Lesson, Vec<Problem>> {
 
 impl Reader {
     fn problem(&mut self, line: u32, message: impl Into<String>, help: &str) {
-        self.problems.push(Problem {
-            line,
-            column: 1,
-            message: message.into(),
-            help: help.into(),
-        });
+        self.problems.push(Problem::new(line, message, help));
     }
 
     fn line(&mut self, number: u32, line: &str) {

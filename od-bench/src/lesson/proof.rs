@@ -16,6 +16,8 @@ use crate::script::{Bench, Host, Origin, Script, run_on};
 /// So long nobody does anything, in microseconds; no checkpoint may be reached by that.
 const IDLE: u64 = 20_000_000;
 
+const NEEDS_ACTION: &str = "add a condition that needs an action";
+
 /// Proves a lesson on benches that `host` makes devices for.
 ///
 /// Returns problems in order of the lines; none if the lesson meets all of this:
@@ -33,7 +35,7 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
             let progress = Progress::new(lesson.clone(), &mut bench);
             let wrong = progress.impossible(&mut bench.bus).into_iter();
             let mut problems: Vec<_> = wrong
-                .map(|(line, why)| problem(line, why, "correct the condition or the set-up"))
+                .map(|(line, why)| Problem::new(line, why, "correct the condition or the set-up"))
                 .collect();
             problems.extend(lesson.unknown_objects(bench.bus.devices()));
             problems
@@ -56,15 +58,6 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
     problems
 }
 
-fn problem(line: u32, message: impl Into<String>, help: &str) -> Problem {
-    Problem {
-        line,
-        column: 1,
-        message: message.into(),
-        help: help.into(),
-    }
-}
-
 /// A host that keeps the frames.
 struct Recorder<'a> {
     host: &'a mut dyn Host,
@@ -85,13 +78,26 @@ impl Host for Recorder<'_> {
     }
 }
 
+/// The bench as the set-up leaves it, with some solutions played on it.
+fn played(
+    lesson: &Lesson,
+    host: &mut dyn Host,
+    solutions: &[Block],
+) -> Result<(Bench, Progress), Problem> {
+    let mut bench = lesson.set_up(host)?;
+    let mut progress = Progress::new(lesson.clone(), &mut bench);
+    for solution in solutions {
+        play(solution, &mut bench, host, &mut progress)?;
+    }
+    Ok((bench, progress))
+}
+
 /// Each step on its own, on the bench as the set-up leaves it.
 fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Problem>) {
     for (number, step) in lesson.steps.iter().enumerate() {
-        let Ok(mut bench) = lesson.set_up(host) else {
+        let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
             return;
         };
-        let mut progress = Progress::new(lesson.clone(), &mut bench);
         progress.begin(number, &bench.bus);
         let at_once = progress.look(&mut bench.bus);
         pass(&mut bench.bus, &mut progress, IDLE);
@@ -102,21 +108,16 @@ fn nothing_by_itself(lesson: &Lesson, host: &mut dyn Host, problems: &mut Vec<Pr
                 "after a pause"
             };
             let message = format!("the checkpoint of `{}` holds {when}", step.title);
-            problems.push(problem(
-                step.line,
-                message,
-                "add a condition that needs an action",
-            ));
+            problems.push(Problem::new(step.line, message, NEEDS_ACTION));
         }
     }
 }
 
 /// Plays the solutions in their order.
 fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &mut Vec<Problem>) {
-    let Ok(mut bench) = lesson.set_up(host) else {
+    let Ok((mut bench, mut progress)) = played(lesson, host, &[]) else {
         return;
     };
-    let mut progress = Progress::new(lesson.clone(), &mut bench);
     for (number, (step, solution)) in lesson.steps.iter().zip(solutions).enumerate() {
         let mut recorder = Recorder {
             host,
@@ -128,18 +129,15 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
         let frames = recorder.frames;
         if progress.step() <= number {
             let missing = progress.requirements(&mut bench.bus);
-            let missing: Vec<_> = missing.iter().filter(|one| !one.holds).collect();
-            let words: Vec<_> = missing.iter().map(|one| one.text.as_str()).collect();
+            let missing = missing.iter().filter(|one| !one.holds);
+            let words: Vec<_> = missing.map(|one| one.text.as_str()).collect();
             let message = format!(
                 "the solution of `{}` does not reach its checkpoint; not met: {}",
                 step.title,
                 words.join("; ")
             );
-            return problems.push(problem(
-                solution.line,
-                message,
-                "correct the solution or the checkpoint",
-            ));
+            let help = "correct the solution or the checkpoint";
+            return problems.push(Problem::new(solution.line, message, help));
         }
         if progress.step() > number + 1 {
             let message = format!(
@@ -147,17 +145,14 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
                 step.title
             );
             let help = "let the checkpoint ask for something new";
-            return problems.push(problem(solution.line, message, help));
+            return problems.push(Problem::new(solution.line, message, help));
         }
         if let Some(quiz) = &step.quiz
             && !frames.iter().any(|frame| quiz.answer.matches(frame))
         {
             let message = format!("the answer {} does not occur in this step", quiz.answer);
-            problems.push(problem(
-                quiz.line,
-                message,
-                "correct the answer or the solution",
-            ));
+            let help = "correct the answer or the solution";
+            problems.push(Problem::new(quiz.line, message, help));
         }
         if let Err(found) = waits(lesson, host, solutions, number + 1) {
             problems.push(found);
@@ -172,17 +167,12 @@ fn waits(
     solutions: &[Block],
     done: usize,
 ) -> Result<(), Problem> {
-    let mut bench = lesson.set_up(host)?;
-    let mut progress = Progress::new(lesson.clone(), &mut bench);
-    for solution in &solutions[..done] {
-        play(solution, &mut bench, host, &mut progress)?;
-    }
+    let (mut bench, mut progress) = played(lesson, host, &solutions[..done])?;
     pass(&mut bench.bus, &mut progress, IDLE);
     match lesson.steps.get(done) {
         Some(step) if progress.step() > done => {
             let message = format!("the checkpoint of `{}` holds after a pause", step.title);
-            let help = "add a condition that needs an action";
-            Err(problem(step.line, message, help))
+            Err(Problem::new(step.line, message, NEEDS_ACTION))
         }
         _ => Ok(()),
     }
@@ -208,26 +198,13 @@ fn every_line_is_needed(
             let shown = core::mem::take(left_out).trim();
             let mut shorter = solutions.to_vec();
             shorter[number].text = text.join("\n");
-            if is_done(lesson, host, &shorter) {
+            if played(lesson, host, &shorter).is_ok_and(|(_, progress)| progress.is_done()) {
                 let message = format!("the lesson is also done without `{shown}`");
                 let help = "let the checkpoint ask for its effect, or remove the line";
-                problems.push(problem(line, message, help));
+                problems.push(Problem::new(line, message, help));
             }
         }
     }
-}
-
-fn is_done(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block]) -> bool {
-    let Ok(mut bench) = lesson.set_up(host) else {
-        return false;
-    };
-    let mut progress = Progress::new(lesson.clone(), &mut bench);
-    for solution in solutions {
-        if play(solution, &mut bench, host, &mut progress).is_err() {
-            return false;
-        }
-    }
-    progress.is_done()
 }
 
 /// Plays a block under the eyes of a lesson.

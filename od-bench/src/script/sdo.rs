@@ -4,9 +4,9 @@ use std::format;
 use std::prelude::v1::*;
 
 use od_client::sdo::{Channel, Options, SdoError};
-use od_client::{Client, Event, lss};
-use od_model::{Address, DataType, values};
-use od_wire::{AbortCode, CanId, Frame};
+use od_client::{Client, Event, Job, lss};
+use od_model::{DataType, values};
+use od_wire::{AbortCode, CanId, Frame, NodeId};
 
 use super::run::{Result, Runner, failed, impossible};
 use crate::grammar::action::Outcome;
@@ -16,35 +16,22 @@ use crate::grammar::typed::{Write, resolve};
 const SDO: Options = Options::SEGMENTED;
 
 /// Result of a transfer: data, or an abort code.
-type Transfer<T> = core::result::Result<T, u32>;
+type Transfer = core::result::Result<Vec<u8>, u32>;
 
 impl Runner<'_> {
     pub(super) fn read(&mut self, object: &str, outcome: &Outcome) -> Result<()> {
         let dictionary = self.device()?.dictionary();
         let (address, data_type) = resolve(dictionary, object).or_else(impossible)?;
-        let result = self.upload(address)?;
-        match (outcome, result) {
-            (Outcome::Done, Ok(_)) => {}
-            (Outcome::Value(value), Ok(bytes)) => {
-                let data_type = data_type.unwrap_or(DataType::Domain);
-                let wanted = values::parse(data_type, value).or_else(impossible)?;
-                if wanted != bytes {
-                    return failed(
-                        format!("{object} = {}", values::show(data_type, &wanted)),
-                        format!("{} was read", values::show(data_type, &bytes)),
-                    );
-                }
+        let result = self.transfer(|client, node| client.read(node, address))?;
+        let data_type = data_type.unwrap_or(DataType::Domain);
+        let shown = |bytes: &[u8]| format!("{} was read", values::show(data_type, bytes));
+        let done = ended(outcome, result, &format!("a value of {object}"), shown)?;
+        if let (Outcome::Value(value), Some(bytes)) = (outcome, done) {
+            let wanted = values::parse(data_type, value).or_else(impossible)?;
+            if wanted != bytes {
+                let wanted = values::show(data_type, &wanted);
+                return failed(format!("{object} = {wanted}"), shown(&bytes));
             }
-            (Outcome::Aborts(wanted), Err(code)) if wanted.code() == code => {}
-            (Outcome::Aborts(wanted), Ok(bytes)) => {
-                let data_type = data_type.unwrap_or(DataType::Domain);
-                let got = values::show(data_type, &bytes);
-                return failed(format!("SDO abort {wanted}"), format!("{got} was read"));
-            }
-            (Outcome::Aborts(wanted), Err(code)) => {
-                return failed(format!("SDO abort {wanted}"), aborted(code));
-            }
-            (_, Err(code)) => return failed(format!("a value of {object}"), aborted(code)),
         }
         self.held += 1;
         Ok(())
@@ -53,38 +40,24 @@ impl Runner<'_> {
     pub(super) fn write(&mut self, write: &Write, outcome: &Outcome) -> Result<()> {
         let dictionary = self.device()?.dictionary();
         let (address, bytes) = write.bytes(dictionary).or_else(impossible)?;
-        let object = &write.object;
-        match (outcome, self.download(address, &bytes)?) {
-            (Outcome::Aborts(wanted), Err(code)) if wanted.code() == code => {}
-            (Outcome::Aborts(wanted), Err(code)) => {
-                return failed(format!("SDO abort {wanted}"), aborted(code));
-            }
-            (Outcome::Aborts(wanted), Ok(())) => {
-                return failed(format!("SDO abort {wanted}"), "the value was written");
-            }
-            (_, Ok(())) => {}
-            (_, Err(code)) => return failed(format!("{object} can be written"), aborted(code)),
-        }
+        let result = self.transfer(|client, node| client.write(node, address, &bytes))?;
+        let expected = format!("a confirmed write of {}", write.object);
+        ended(outcome, result, &expected, |_| {
+            "the value was written".into()
+        })?;
         self.held += 1;
         Ok(())
     }
 
-    fn upload(&mut self, address: Address) -> Result<Transfer<Vec<u8>>> {
+    /// Carries out one transfer; a download brings no bytes.
+    fn transfer(&mut self, begin: impl FnOnce(&mut Client, NodeId) -> Job) -> Result<Transfer> {
         let mut client = Client::with(SDO, lss::Options::DEFAULT);
-        client.read(self.device()?.node_id(), address);
+        begin(&mut client, self.device()?.node_id());
         loop {
-            if let Event::Read(_, result) = self.next_event(&mut client)? {
-                return outcome(result);
-            }
-        }
-    }
-
-    fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Transfer<()>> {
-        let mut client = Client::with(SDO, lss::Options::DEFAULT);
-        client.write(self.device()?.node_id(), address, bytes);
-        loop {
-            if let Event::Written(_, result) = self.next_event(&mut client)? {
-                return outcome(result);
+            match self.next_event(&mut client)? {
+                Event::Read(_, result) => return transferred(result),
+                Event::Written(_, result) => return transferred(result.map(|()| Vec::new())),
+                _ => {}
             }
         }
     }
@@ -128,18 +101,38 @@ impl Runner<'_> {
 }
 
 /// A script may expect an abort; any other error stops it.
-fn outcome<T>(result: core::result::Result<T, SdoError>) -> Result<Transfer<T>> {
+fn transferred(result: core::result::Result<Vec<u8>, SdoError>) -> Result<Transfer> {
     match result {
         Ok(value) => Ok(Ok(value)),
         Err(SdoError::Abort(code)) => Ok(Err(code)),
         Err(SdoError::Silent) => failed(
-            "an SDO answer",
+            "an SDO response",
             format!("none came within {:?}", SDO.timeout),
         ),
         Err(SdoError::OutOfTurn { expected, got }) => {
             failed(expected.to_string(), format!("{got:?} came"))
         }
         Err(other) => failed("an SDO transfer", other.to_string()),
+    }
+}
+
+/// Compares the end of a transfer with the expected one. Returns the bytes of one that succeeded.
+fn ended(
+    outcome: &Outcome,
+    result: Transfer,
+    expected: &str,
+    shown: impl Fn(&[u8]) -> String,
+) -> Result<Option<Vec<u8>>> {
+    match (outcome, result) {
+        (Outcome::Aborts(wanted), Err(code)) if wanted.code() == code => Ok(None),
+        (Outcome::Aborts(wanted), Err(code)) => {
+            failed(format!("SDO abort {wanted}"), aborted(code))
+        }
+        (Outcome::Aborts(wanted), Ok(bytes)) => {
+            failed(format!("SDO abort {wanted}"), shown(&bytes))
+        }
+        (_, Err(code)) => failed(expected, aborted(code)),
+        (_, Ok(bytes)) => Ok(Some(bytes)),
     }
 }
 

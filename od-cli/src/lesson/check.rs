@@ -49,11 +49,9 @@ fn dead_links(lesson: &Lesson, path: &Path) -> Vec<Problem> {
     lesson
         .files()
         .filter(dead)
-        .map(|(line, file)| Problem {
-            line,
-            column: 1,
-            message: format!("the linked file {file} does not exist"),
-            help: "write the path relative to the lesson".into(),
+        .map(|(line, file)| {
+            let message = format!("the linked file {file} does not exist");
+            Problem::new(line, message, "write the path relative to the lesson")
         })
         .collect()
 }
