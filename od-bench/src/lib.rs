@@ -12,6 +12,7 @@ mod bench;
 pub mod bus;
 #[cfg(feature = "eds")]
 mod configured;
+mod cursor;
 mod device;
 mod eeprom;
 pub mod faults;

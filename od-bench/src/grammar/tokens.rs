@@ -5,6 +5,7 @@ use std::prelude::v1::*;
 
 use super::problem::Problem;
 use super::shown::{brief, either};
+use crate::cursor::Cursor;
 use crate::logs::candump;
 
 /// Longest moment or duration: 100 years of 365 days, in microseconds.
@@ -16,8 +17,7 @@ const TOO_LONG: &str = "the limit is 100 years, 3153600000s";
 #[derive(Clone, Copy)]
 pub(crate) struct Tokens<'t> {
     line: u32,
-    column: usize,
-    text: &'t str,
+    rest: Cursor<'t>,
 }
 
 impl<'t> Tokens<'t> {
@@ -37,41 +37,26 @@ impl<'t> Tokens<'t> {
             }
             before = c;
         }
-        let mut tokens = Self {
-            line,
-            column: 1,
-            text: text[..end].trim_end(),
-        };
-        tokens.skip();
-        tokens
-    }
-
-    fn skip(&mut self) {
-        let trimmed = self.text.trim_start();
-        self.column += self.text[..self.text.len() - trimmed.len()].chars().count();
-        self.text = trimmed;
+        let rest = Cursor::new(text[..end].trim_end());
+        Self { line, rest }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.text.is_empty()
+        self.rest.text.is_empty()
     }
 
     /// All that is left.
     pub(crate) fn rest(&self) -> &'t str {
-        self.text
+        self.rest.text
     }
 
     pub(crate) fn peek(&self) -> &'t str {
-        self.text.split_whitespace().next().unwrap_or("")
+        self.rest.peek()
     }
 
     /// The next word; empty at the end of the line.
     pub(crate) fn next(&mut self) -> &'t str {
-        let word = self.peek();
-        self.text = &self.text[word.len()..];
-        self.column += word.chars().count();
-        self.skip();
-        word
+        self.rest.next()
     }
 
     /// Takes the next word if it is this one.
@@ -95,17 +80,21 @@ impl<'t> Tokens<'t> {
             quoted ^= word.matches('"').count() % 2 == 1;
             self.next();
         }
-        head.text = head.text[..head.text.len() - self.text.len()].trim_end();
+        head.rest.text = head.rest.text[..head.rest.text.len() - self.rest.text.len()].trim_end();
         head
     }
 
     /// Splits the last word off.
     pub(crate) fn split_last(&mut self) -> Self {
-        let at = self.text.rfind(char::is_whitespace).map_or(0, |at| at + 1);
+        let at = self
+            .rest
+            .text
+            .rfind(char::is_whitespace)
+            .map_or(0, |at| at + 1);
         let mut last = *self;
-        last.column += self.text[..at].chars().count();
-        last.text = &self.text[at..];
-        self.text = self.text[..at].trim_end();
+        last.rest.column += self.rest.text[..at].chars().count();
+        last.rest.text = &self.rest.text[at..];
+        self.rest.text = self.rest.text[..at].trim_end();
         last
     }
 
@@ -114,9 +103,9 @@ impl<'t> Tokens<'t> {
     pub(crate) fn split_at_sign<T: Copy>(&mut self, signs: &[(&str, T)]) -> Option<(Self, T)> {
         let mut quoted = false;
         let mut before = ' ';
-        for (at, c) in self.text.char_indices() {
+        for (at, c) in self.rest.text.char_indices() {
             quoted ^= c == '"';
-            let rest = &self.text[at..];
+            let rest = &self.rest.text[at..];
             let is_here = |sign: &str| {
                 let word = sign.starts_with(|c: char| c.is_alphabetic());
                 let alone = || before.is_whitespace() && rest[sign.len()..].starts_with(' ');
@@ -126,11 +115,9 @@ impl<'t> Tokens<'t> {
             let found = signs.iter().filter(|(sign, _)| !quoted && is_here(sign));
             if let Some((sign, meaning)) = found.max_by_key(|(sign, _)| sign.len()) {
                 let mut head = *self;
-                head.text = self.text[..at].trim_end();
+                head.rest.text = self.rest.text[..at].trim_end();
                 let end = at + sign.len();
-                self.column += self.text[..end].chars().count();
-                self.text = &self.text[end..];
-                self.skip();
+                self.rest.skip(end);
                 return Some((head, *meaning));
             }
             before = c;
@@ -151,7 +138,7 @@ impl<'t> Tokens<'t> {
     pub(crate) fn problem(&self, message: impl Into<String>, help: impl Into<String>) -> Problem {
         Problem {
             line: self.line,
-            column: self.column,
+            column: self.rest.column,
             message: brief(&message.into()),
             help: help.into(),
         }

@@ -13,6 +13,8 @@ use std::{fmt, format};
 
 use od_runtime::{CanId, Frame, Instant};
 
+use crate::cursor::Cursor;
+
 /// A frame as a log has it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Line {
@@ -64,11 +66,11 @@ impl core::error::Error for Error {}
 /// [`Error`] names the first character that does not fit.
 pub fn parse_line(line: &str) -> Result<Line, Error> {
     let mut rest = Cursor::new(line);
-    let at = match rest.peek() {
-        Some(word) if word.starts_with('(') => Some(time_stamp(&mut rest)?),
-        _ => None,
+    let at = match rest.peek().starts_with('(') {
+        true => Some(time_stamp(&mut rest)?),
+        false => None,
     };
-    let (column, word) = rest.word(FRAME)?;
+    let (column, word) = next_word(&mut rest, FRAME)?;
     if word.contains('#') {
         let frame = parse_frame(word).map_err(|error| error.shifted(column - 1))?;
         return end(rest).map(|()| Line {
@@ -78,7 +80,7 @@ pub fn parse_line(line: &str) -> Result<Line, Error> {
         });
     }
     let interface = Some(word.to_owned());
-    let (column, word) = rest.word(FRAME)?;
+    let (column, word) = next_word(&mut rest, FRAME)?;
     let frame = if word.contains('#') {
         parse_frame(word).map_err(|error| error.shifted(column - 1))?
     } else {
@@ -184,7 +186,7 @@ fn parse_data(text: &str) -> Result<([u8; 8], usize), Error> {
 /// `601   [8]  40 04 60 00 00 00 00 00`, or `701   [0]  remote request`.
 fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error> {
     let id = parse_id(id).map_err(|error| error.shifted(column - 1))?;
-    let (column, length) = rest.word(FRAME)?;
+    let (column, length) = next_word(rest, FRAME)?;
     let length = length
         .strip_prefix('[')
         .and_then(|rest| rest.strip_suffix(']'));
@@ -196,16 +198,16 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
             "write the length as [0] to [8]",
         ));
     };
-    if rest.peek() == Some("remote") {
-        rest.word(FRAME)?;
-        if rest.peek() == Some("request") {
-            rest.word(FRAME)?;
+    if rest.peek() == "remote" {
+        next_word(rest, FRAME)?;
+        if rest.peek() == "request" {
+            next_word(rest, FRAME)?;
         }
         return Ok(request);
     }
     let mut data = [0; 8];
     for byte in data.iter_mut().take(request.dlc().into()) {
-        let (column, word) = rest.word("write as many bytes as the length gives")?;
+        let (column, word) = next_word(rest, "write as many bytes as the length gives")?;
         *byte = match (word.len(), u8::from_str_radix(word, 16)) {
             (2, Ok(byte)) => byte,
             _ => return Err(Error::new(column, format!("`{word}` is not a byte"), DATA)),
@@ -215,7 +217,7 @@ fn screen(column: usize, id: &str, rest: &mut Cursor<'_>) -> Result<Frame, Error
 }
 
 fn time_stamp(rest: &mut Cursor<'_>) -> Result<Instant, Error> {
-    let (column, word) = rest.word(TIME)?;
+    let (column, word) = next_word(rest, TIME)?;
     let inner = word
         .strip_prefix('(')
         .and_then(|rest| rest.strip_suffix(')'));
@@ -248,7 +250,7 @@ pub(crate) fn seconds(text: &str) -> Option<u64> {
 
 /// A log line may end with `R` or `T`: received or sent. Nothing else follows a frame.
 fn end(mut rest: Cursor<'_>) -> Result<(), Error> {
-    match rest.word("") {
+    match next_word(&mut rest, "") {
         Err(_) | Ok((_, "R" | "T")) => Ok(()),
         Ok((column, word)) => Err(Error::new(
             column,
@@ -263,38 +265,12 @@ pub fn format_line(at: Instant, interface: &str, frame: &Frame) -> String {
     format!("({at:?}) {interface} {frame}")
 }
 
-/// The words of a line, with their columns.
-struct Cursor<'t> {
-    text: &'t str,
-    column: usize,
-}
-
-impl<'t> Cursor<'t> {
-    fn new(text: &'t str) -> Self {
-        let mut cursor = Self { text, column: 1 };
-        cursor.skip();
-        cursor
-    }
-
-    fn skip(&mut self) {
-        let trimmed = self.text.trim_start();
-        self.column += self.text[..self.text.len() - trimmed.len()].chars().count();
-        self.text = trimmed;
-    }
-
-    fn peek(&self) -> Option<&'t str> {
-        self.text.split_whitespace().next()
-    }
-
-    fn word(&mut self, help: &'static str) -> Result<(usize, &'t str), Error> {
-        let column = self.column;
-        let Some(word) = self.peek() else {
-            return Err(Error::new(column, "the line ends here", help));
-        };
-        self.text = &self.text[word.len()..];
-        self.column += word.chars().count();
-        self.skip();
-        Ok((column, word))
+/// The next word, with its column.
+fn next_word<'t>(rest: &mut Cursor<'t>, help: &'static str) -> Result<(usize, &'t str), Error> {
+    let column = rest.column;
+    match rest.next() {
+        "" => Err(Error::new(column, "the line ends here", help)),
+        word => Ok((column, word)),
     }
 }
 
