@@ -1,15 +1,11 @@
 // People who use no mouse, no eyes, or little light: axe finds nothing, keys reach everything.
 import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
+import { test } from 'node:test';
 import { becomes, booted, nmt, row } from './bench.mjs';
+import { open } from './check.mjs';
 
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
 
 async function faults(page) {
   await page.addScriptTag({ path: axe });
@@ -22,7 +18,7 @@ const flawless = (page, where) => becomes(`what axe finds: ${where}`, () => faul
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing, ${colorScheme}`, async () => {
-    const { page, close } = await open(browser, { colorScheme });
+    const { page, close } = await open({ colorScheme });
     await booted(page);
     await nmt(page, 'Start');
     await row(page, 'a PDO1', (one) => one.id === '181');
@@ -35,7 +31,7 @@ for (const colorScheme of ['light', 'dark']) {
 }
 
 test('axe finds nothing on a phone', async () => {
-  const { page, close } = await open(browser, { width: 390, height: 844 });
+  const { page, close } = await open({ width: 390, height: 844 });
   for (const name of ['Bus', 'Objects', 'Encoder']) {
     await page.getByRole('tab', { name }).click();
     await flawless(page, name);
@@ -44,7 +40,7 @@ test('axe finds nothing on a phone', async () => {
 });
 
 test('the sheet of keys opens by its key', async () => {
-  const { page, close } = await open(browser, {});
+  const { page, close } = await open();
   await booted(page);
   await page.keyboard.press('?');
   const sheet = page.getByRole('dialog', { name: 'Keys' });
@@ -57,7 +53,7 @@ test('the sheet of keys opens by its key', async () => {
 
 test('axe finds nothing in what opens over the page', async () => {
   for (const [width, height] of [[1280, 800], [390, 844]]) {
-    const { page, close } = await open(browser, { width, height, hash: '#device=eam_mt&node=1' });
+    const { page, close } = await open({ width, height, hash: '#device=eam_mt&node=1' });
     await page.getByRole('button', { name: 'Share and save' }).click();
     await page.getByRole('dialog', { name: 'Share and save' }).waitFor();
     await flawless(page, `sharing, ${width}`);
@@ -78,7 +74,7 @@ test('axe finds nothing in what opens over the page', async () => {
 });
 
 test('keys alone: from part to part, to the filter, to an object and its value', async () => {
-  const { page, close } = await open(browser, {});
+  const { page, close } = await open();
   await booted(page);
   const focused = () => page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.id);
   const after = async (key, name) => {
@@ -100,7 +96,7 @@ test('keys alone: from part to part, to the filter, to an object and its value',
 });
 
 test('the keyboard reaches every control, in a sensible order', async () => {
-  const { page, close } = await open(browser, {});
+  const { page, close } = await open();
   await booted(page);
   const names = [];
   for (let i = 0; i < 80; i++) {

@@ -1,26 +1,10 @@
 // The frame console: filters, views, folds, finding, marks, the send list, logs.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, stays, until } from './bench.mjs';
+import { checks } from './check.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-function check(name, options, body) {
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      await booted(page);
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(booted);
 
 const filter = (page, text) => page.getByRole('searchbox', { name: 'Filter frames' }).fill(text);
 const ids = async (page) => [...new Set((await rows(page)).map((one) => one.id))].sort().join(' ');

@@ -1,12 +1,7 @@
 // Other devices, EDS files, links, a phone, a crash.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, nmt, row, rows, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
-
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
+import { checks } from './check.mjs';
 
 const GOOD = `[FileInfo]
 FileName=little.eds
@@ -89,17 +84,7 @@ async function drop(page, name, text) {
 const deviceName = (page) => page.locator('.device-button').textContent();
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 
-function check(name, options, body) {
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(booted);
 
 check('an EDS file that is dropped runs', {}, async (page) => {
   await booted(page);

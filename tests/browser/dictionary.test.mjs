@@ -3,28 +3,13 @@ import assert from 'node:assert/strict';
 import { readFile, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, until } from './bench.mjs';
+import { checks } from './check.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-function check(name, options, body) {
-  if (typeof options === 'function') [options, body] = [{}, options];
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      if (options.width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
-      await booted(page);
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(async (page) => {
+  if (page.viewportSize().width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
+  await booted(page);
+});
 
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 const search = (page, text) => page.getByRole('searchbox', { name: 'Search objects' }).fill(text);

@@ -1,16 +1,13 @@
 // Lessons at the page: taken by clicks, keys and the send line, and a trainer's own files.
 import assert from 'node:assert/strict';
 import { readdir, readFile } from 'node:fs/promises';
-import { after, before, test } from 'node:test';
-import { launch, open, URL_OF_PAGE } from './harness.mjs';
+import { test } from 'node:test';
 import { becomes, booted, clock, nmt, sdo, sdoNote, sendRaw, state, until } from './bench.mjs';
+import { browser, open } from './check.mjs';
+import { URL_OF_PAGE } from './harness.mjs';
 
 const folder = new URL('../../playground/lessons/', import.meta.url);
 const files = (await readdir(folder)).filter((name) => /^\d+-.*\.md$/.test(name));
-
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
 
 const NMT = { start: 'Start', stop: 'Stop', preop: 'Pre-op', reset: 'Reset node' };
 const FAULTS = { 'position-error': 'Sensor position' };
@@ -84,7 +81,7 @@ for (const name of BY_HAND) {
     const text = await readFile(new URL(files.find((file) => file.endsWith(`-${name}.md`)), folder), 'utf8');
     const solutions = [...text.matchAll(/```solution\n([\s\S]*?)```/g)].map(([, lines]) => lines.trim().split('\n'));
     const labels = [...text.matchAll(/^device .* as (\S+)/gm)].map(([, label]) => label);
-    const { page, faults, close } = await open(browser, { hash: `#lesson=${name}` });
+    const { page, faults, close } = await open({ hash: `#lesson=${name}` });
     const lesson = page.locator('od-lesson');
     const isDone = async () => (await lesson.locator('.happened').count()) === 1;
     for (const [i, lines] of solutions.entries()) {
@@ -116,7 +113,7 @@ for (const name of files.map(nameOf).filter((name) => !BY_HAND.includes(name))) 
   test(`the lesson ${name} is gone through by clicks, hints first`, async () => {
     const file = files.find((file) => nameOf(file) === name);
     const steps = [...(await readFile(new URL(file, folder), 'utf8')).matchAll(/```solution\n/g)].length;
-    const { page, faults, close } = await open(browser, { hash: `#lesson=${name}` });
+    const { page, faults, close } = await open({ hash: `#lesson=${name}` });
     const lesson = page.locator('od-lesson');
     for (let step = 1; step <= steps; step++) {
       await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
@@ -133,7 +130,7 @@ for (const name of files.map(nameOf).filter((name) => !BY_HAND.includes(name))) 
 }
 
 test('a lesson is chosen from the list, asks, gives hints one by one, stops time at a goal, and is marked when done', async () => {
-  const { page, faults, close } = await open(browser);
+  const { page, faults, close } = await open();
   await booted(page);
   await page.getByRole('button', { name: 'Learn' }).click();
   const list = page.getByRole('dialog', { name: 'Lessons' });
@@ -229,7 +226,7 @@ nmt start
 `;
 
 test("a trainer's own lesson is opened from a file; a wrong one says in which line, and leaves the bench", async () => {
-  const { page, faults, close } = await open(browser);
+  const { page, faults, close } = await open();
   await booted(page);
   await page.getByRole('button', { name: 'Learn' }).click();
   const list = page.getByRole('dialog', { name: 'Lessons' });

@@ -1,25 +1,9 @@
 // The bench: several nodes, their switches, faults, EEPROMs and shafts, the wire, and time.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, captured, clock, nmt, number, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
+import { checks } from './check.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-function check(name, options, body) {
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      await booted(page);
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(booted);
 
 const part = (page, name) => page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name }).click();
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);

@@ -1,25 +1,9 @@
 // The object dictionary: by name over the bus, and live beside it.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, captured, row, sdo, sdoNote, until } from './bench.mjs';
+import { checks } from './check.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-function check(name, body) {
-  test(name, async () => {
-    const { page, faults, close } = await open(browser);
-    try {
-      await booted(page);
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(booted);
 
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 

@@ -1,28 +1,10 @@
 // The page as a person uses it.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
 import { becomes, booted, captured, clock, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
+import { checks } from './check.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-/** A test with a page of its own, which must not complain on its console. */
-function check(name, options, body) {
-  if (typeof options === 'function') [options, body] = [{}, options];
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      await booted(page);
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+const check = checks(booted);
 
 const boots = async (page) => (await rows(page)).filter((one) => one.id === '701').length;
 

@@ -1,12 +1,8 @@
 // Objects over time.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { launch, open } from './harness.mjs';
+import { test } from 'node:test';
 import { becomes, booted, captured, number, until } from './bench.mjs';
-
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
+import { open } from './check.mjs';
 
 /** Pixels of a chart that have the colour of its line, from its left to its right. */
 const columns = (page, n) =>
@@ -23,7 +19,7 @@ const columns = (page, n) =>
   });
 
 test('position and speed are drawn while the shaft turns, and any other object', async () => {
-  const { page, faults, close } = await open(browser);
+  const { page, faults, close } = await open();
   try {
     await booted(page);
     const loaded = () => page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name).join(' '));

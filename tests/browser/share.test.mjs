@@ -4,27 +4,13 @@ import { readFile, writeFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { launch, open, URL_OF_PAGE } from './harness.mjs';
+import { test } from 'node:test';
 import { becomes, booted, captured, nmt, pass, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
+import { browser, checks, open } from './check.mjs';
+import { URL_OF_PAGE } from './harness.mjs';
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser?.close());
-
-/** A test with a page of its own, which must not complain on its console. */
-function check(name, options, body) {
-  if (typeof options === 'function') [options, body] = [{}, options];
-  test(name, async () => {
-    const { page, faults, close } = await open(browser, options);
-    try {
-      await body(page);
-      assert.deepEqual(faults, [], 'the page complained');
-    } finally {
-      await close();
-    }
-  });
-}
+/** A test with a page that is as it comes. */
+const check = checks(async () => {});
 
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 
@@ -103,7 +89,7 @@ check('a link without the run brings the bench as it stands', async (page) => {
   const at = await position(page);
   const hash = await linkOf(page);
   assert.ok(hash.length < 4000, `${hash.length} characters`);
-  const other = await open(browser, { hash });
+  const other = await open({ hash });
   await becomes('the state', () => state(other.page), 'Operational');
   assert.ok((await rows(other.page)).every((one) => one.id === '181' || one.id === '701'), 'no frame of the past');
   await isUsed(other.page, at);
@@ -121,7 +107,7 @@ check('a link with the run brings every frame again', async (page) => {
   await becomes('the newest row', async () => (await rows(page)).at(-1).number, count - 1);
   const before = strip(await rows(page));
   const hash = await linkOf(page, { trace: true });
-  const other = await open(browser, { hash });
+  const other = await open({ hash });
   await becomes('the moment', () => other.page.getByRole('timer').textContent(), clock);
   await becomes('frames', () => captured(other.page), count);
   await becomes('the rows', async () => strip(await rows(other.page)), before);
@@ -137,7 +123,7 @@ check('two nodes, switches, a wire without terminators', async (page) => {
   await page.getByRole('button', { name: /^gxam/ }).click();
   await becomes('nodes', () => page.locator('.topbar .badge').count(), 2);
   const hash = await linkOf(page);
-  const other = await open(browser, { hash });
+  const other = await open({ hash });
   await becomes('nodes there', () => other.page.locator('.topbar .badge').allTextContents(), ['node 1', 'node 2']);
   await becomes('their devices', () => other.page.locator('.topbar .nodes strong').allTextContents(), ['gxmm', 'gxam']);
   await other.close();
@@ -159,7 +145,7 @@ check('a dropped EDS, its node and its values go along', async (page) => {
   await note(page, /2000h written/);
   for (const trace of [false, true]) {
     const hash = await linkOf(page, { trace });
-    const other = await open(browser, { hash });
+    const other = await open({ hash });
     await becomes('the node there', () => other.page.locator('.topbar').textContent(), /node 9/);
     assert.match(await read(other.page, '2000'), /^321/);
     assert.deepEqual(other.faults, []);
@@ -169,7 +155,7 @@ check('a dropped EDS, its node and its values go along', async (page) => {
 
 test('bad links get a message and a fresh bench', async () => {
   for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900']) {
-    const { page, faults, close } = await open(browser, { hash });
+    const { page, faults, close } = await open({ hash });
     await booted(page);
     if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link holds no bench').isVisible());
     await becomes('the state', () => state(page), 'Pre-operational');
@@ -185,7 +171,7 @@ check('a file is saved and opened again', async (page) => {
   const [download] = await Promise.all([page.waitForEvent('download'), dialog.getByRole('button', { name: 'Save as file' }).click()]);
   assert.equal(download.suggestedFilename(), 'odkit-gxmm.json');
   const path = await download.path();
-  const other = await open(browser);
+  const other = await open();
   await booted(other.page);
   const opening = await shareDialog(other.page);
   const damaged = join(tmpdir(), `odkit-damaged-${process.pid}.json`);
@@ -225,7 +211,7 @@ check('nothing is offered where nothing was done', async (page) => {
 });
 
 test('it loads without a network after the first visit', async () => {
-  const { page, faults, close } = await open(browser);
+  const { page, faults, close } = await open();
   await booted(page);
   await page.evaluate(async () => {
     const { active } = await navigator.serviceWorker.ready;

@@ -118,11 +118,14 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     judge(&found, &list)
 }
 
-/// The names of a package's test targets.
+/// The names of a package's test targets: `NAME.rs`, or a folder with a `main.rs`.
 fn own_tests(dir: &Path) -> Vec<String> {
     let files = fs::read_dir(dir).into_iter().flatten().flatten();
     let names = files.filter_map(|file| {
         let name = file.file_name().into_string().ok()?;
+        if file.path().join("main.rs").is_file() {
+            return Some(name);
+        }
         name.strip_suffix(".rs").map(String::from)
     });
     names.collect()

@@ -17,7 +17,12 @@ pub(super) const ALL: [&str; 6] =
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
     let check = ["--check", "--", "--color=never"];
-    let bindgen = ["fmt", "--manifest-path", "xtask/bindgen/Cargo.toml"];
+    let bindgen = [
+        "fmt",
+        "--all",
+        "--manifest-path",
+        "xtask/bindgen/Cargo.toml",
+    ];
     run(context, "formatting", &[&bindgen[..], &check].concat())?;
     run(
         context,

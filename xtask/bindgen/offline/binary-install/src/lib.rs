@@ -25,7 +25,13 @@ impl Cache {
     }
 
     /// `None` if downloads are not allowed, or else an error.
-    pub fn download(&self, allowed: bool, name: &str, _: &[&str], url: &str) -> Result<Option<Download>> {
+    pub fn download(
+        &self,
+        allowed: bool,
+        name: &str,
+        _: &[&str],
+        url: &str,
+    ) -> Result<Option<Download>> {
         if allowed {
             bail!("this wasm-pack does not use the network: `{name}` is not on PATH ({url})");
         }
