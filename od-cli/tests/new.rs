@@ -215,9 +215,10 @@ fn cargo(folder: &Path, arguments: &[&str]) -> String {
     out.into_owned()
 }
 
-/// Target folder of new crates.
-fn target() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-target")
+/// The folder that new crates are built in: that of this workspace, whose dependencies are there.
+fn target() -> &'static Path {
+    let temporary = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    temporary.parent().unwrap_or(temporary)
 }
 
 /// The text of an EDS that wants of a node what it does not serve: SYNC, and a second SDO server.

@@ -24,6 +24,8 @@ pub(crate) fn say(line: &str) {
 pub(crate) struct Console {
     log: Option<File>,
     limit: Duration,
+    /// Do its programs leave the processors to others?
+    yields: bool,
     last: RefCell<String>,
 }
 
@@ -33,15 +35,18 @@ impl Console {
         Console {
             log: None,
             limit: Duration::MAX,
+            yields: false,
             last: RefCell::default(),
         }
     }
 
-    /// Everything goes to `log`; a program that runs longer than `limit` is stopped.
-    pub(crate) fn to_log(log: File, limit: Duration) -> Console {
+    /// Everything goes to `log`; a program that runs longer than `limit` is stopped. With
+    /// `yields`, other programs come first.
+    pub(crate) fn to_log(log: File, limit: Duration, yields: bool) -> Console {
         Console {
             log: Some(log),
             limit,
+            yields,
             last: RefCell::default(),
         }
     }
@@ -64,6 +69,7 @@ impl Console {
         let started = Instant::now();
         let shown = shown(command);
         self.last.replace(shown.clone());
+        let mut outputs = None;
         match &self.log {
             None => say(&format!("» {what}")),
             Some(log) => {
@@ -72,8 +78,13 @@ impl Console {
                     log.try_clone()
                         .map_err(|e| Error::Failed(format!("cannot write the log: {e}")))
                 };
-                command.stdout(copy()?).stderr(copy()?);
+                outputs = Some((copy()?, copy()?));
             }
+        }
+        let mut nice = nice(command).filter(|_| self.yields);
+        let command = nice.as_mut().unwrap_or(command);
+        if let Some((out, err)) = outputs {
+            command.stdout(out).stderr(err);
         }
         let mut child = command
             .stdin(Stdio::null())
@@ -158,6 +169,21 @@ pub(crate) fn clean(program: &Path, dir: &Path, args: &[&str]) -> Command {
     }
     command.args(args).current_dir(dir);
     command
+}
+
+/// The same command behind `nice`, where there is one.
+fn nice(command: &Command) -> Option<Command> {
+    let mut nice = Command::new(which("nice")?);
+    nice.args(["-n", "5"]).arg(command.get_program());
+    nice.args(command.get_args());
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => nice.env(name, value),
+            None => nice.env_remove(name),
+        };
+    }
+    nice.current_dir(command.get_current_dir()?);
+    Some(nice)
 }
 
 /// A duration as people say it.
