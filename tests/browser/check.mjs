@@ -12,10 +12,10 @@ after(() => browser?.close());
 export const open = (options) => openIn(browser, options);
 
 /**
- * Makes `check(name, [options,] body)`: a test with a page of its own, which is `ready` first
- * and must not complain on its console.
+ * Makes `check(name, [options,] body)`: a test with a page of its own, which must not complain on
+ * its console. `ready` waits for what each test of the file needs first.
  */
-export const checks = (ready) => (name, options, body) => {
+export const checks = (ready = () => {}) => (name, options, body) => {
   if (typeof options === 'function') [options, body] = [{}, options];
   test(name, async () => {
     const { page, faults, close } = await open(options);

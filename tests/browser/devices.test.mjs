@@ -84,7 +84,7 @@ async function drop(page, name, text) {
 const deviceName = (page) => page.locator('.device-button').textContent();
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 
-const check = checks(booted);
+const check = checks();
 
 check('an EDS file that is dropped runs', {}, async (page) => {
   await booted(page);

@@ -9,8 +9,7 @@ import { becomes, booted, captured, nmt, pass, position, row, rows, sdo, sdoNote
 import { browser, checks, open } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
 
-/** A test with a page that is as it comes. */
-const check = checks(async () => {});
+const check = checks();
 
 const note = (page, pattern) => becomes('what stands under the SDO line', () => sdoNote(page), pattern);
 

@@ -1,4 +1,4 @@
-//! Running programs: in `play` under the user's eyes, in `test` into a log.
+//! Runs programs: in `play` with their output on the terminal, in `test` in a log.
 
 use std::cell::RefCell;
 use std::env;
@@ -19,12 +19,12 @@ pub(crate) fn say(line: &str) {
     let _ = out.flush();
 }
 
-/// Where the output of steps goes.
+/// Runs programs, and directs their output to the terminal or into a log.
 #[derive(Debug)]
 pub(crate) struct Console {
     log: Option<File>,
     limit: Duration,
-    /// Do its programs leave the processors to others?
+    /// Whether its programs leave the processors to others.
     yields: bool,
     last: RefCell<String>,
 }
@@ -127,7 +127,7 @@ pub(crate) fn ask(program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
     ask_in(Path::new("."), program, args)
 }
 
-/// What [`ask`] answers in a folder: rustup chooses the toolchain by it.
+/// [`ask`] in a folder, by which rustup chooses the toolchain.
 pub(crate) fn ask_in(dir: &Path, program: impl AsRef<Path>, args: &[&str]) -> Option<String> {
     let output = Command::new(program.as_ref())
         .args(args)
@@ -140,7 +140,7 @@ pub(crate) fn ask_in(dir: &Path, program: impl AsRef<Path>, args: &[&str]) -> Op
     output.status.success().then(|| String::from(text.trim()))
 }
 
-/// Where a program is on PATH.
+/// The path of a program on PATH.
 pub(crate) fn which(name: &str) -> Option<PathBuf> {
     let path = env::var_os("PATH")?;
     env::split_paths(&path)
@@ -186,7 +186,7 @@ fn nice(command: &Command) -> Option<Command> {
     Some(nice)
 }
 
-/// A duration as people say it.
+/// A duration as text: `1.2 s`, `2 min 05 s`.
 pub(crate) fn seconds(duration: Duration) -> String {
     let whole = duration.as_secs();
     if whole < 60 {

@@ -1,6 +1,6 @@
-//! `cargo xtask corpus DIR`: what odkit makes of a folder of device files.
+//! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! The work is done by an example of the tests, because xtask itself depends on nothing.
+//! An example of the tests does the work, because xtask has no dependencies.
 
 use std::path::{Path, absolute};
 
@@ -15,7 +15,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
         [folder] => (folder, None),
         [folder, option, file] if option == "--docs" => (folder, Some(file)),
         _ => {
-            let text = "corpus takes a folder, and perhaps `--docs FILE`";
+            let text = "corpus needs a folder, and accepts `--docs FILE`";
             return Err(Error::Usage(String::from(text)));
         }
     };

@@ -1,11 +1,11 @@
-//! Why a command stopped, as far as the caller acts on the difference.
+//! Errors, as far as the caller acts on the difference.
 
 use std::path::Path;
 
 /// The result of everything here that can fail.
 pub(crate) type Result<T> = std::result::Result<T, Error>;
 
-/// Why a command stopped.
+/// The reason why a command stopped.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Error {
     /// The command line is wrong: exit code 2.

@@ -1,7 +1,7 @@
 //! `cargo xtask`: everything around the product, and no product code.
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
-//! check there is, `mutants` checks the tests, `corpus` reads a folder of device files,
+//! check, `mutants` checks the tests, `corpus` reads a folder of device files,
 //! `wasm-pack` makes the npm package. Standard library only.
 
 mod bundle;
@@ -32,18 +32,18 @@ odkit's tasks
 usage: cargo xtask <command> [options]
 
   play [--port N] [--no-serve]
-        set up what is needed, build the browser page and serve it on 127.0.0.1
+        set up the tools, build the browser page and serve it on 127.0.0.1
         (port 8080 or the next free one; --no-serve stops after the build)
   test [--quick] [--long] [--only STAGE]... [--list]
-        run every check; --quick is the inner loop, --long gives fuzz-like tests
+        run every check; --quick runs the short ones, --long gives fuzz-like tests
         more time, --only runs single stages, --list names them
   corpus DIR [--docs FILE]
-        what odkit makes of the device files below a folder: a line a file, then
+        read the device files below a folder and print one line per file, then
         the findings by code; --docs writes the sums as Markdown
   mutants [--shard K/N] [--file FILE]...
         change the code of the node, the client and the rules, one thing at a time,
-        and look whether a test notices; K is 0 to N-1; takes hours, and goes on
-        where it was stopped
+        and check that a test notices; K is 0 to N-1; takes hours, and continues
+        where it stopped
   shots
         build and serve the page, write its screenshots to target/shots/
   wasm-pack [arguments]
@@ -97,12 +97,12 @@ fn run(args: &[String]) -> Result<ExitCode> {
         }
         "shots" => {
             if let Some(extra) = rest.first() {
-                return Err(Error::Usage(format!("shots does not take `{extra}`")));
+                return Err(Error::Usage(format!("shots has no option `{extra}`")));
             }
             shots::run(&Repo::locate()?, &Console::terminal())?;
         }
         "wasm-pack" => wasm_pack::run(&Repo::locate()?, &Console::terminal(), rest)?,
-        other => return Err(Error::Usage(format!("no such command: `{other}`"))),
+        other => return Err(Error::Usage(format!("`{other}` is not a command"))),
     }
     Ok(ExitCode::SUCCESS)
 }

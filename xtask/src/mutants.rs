@@ -1,7 +1,7 @@
-//! `cargo xtask mutants`: do the tests notice when the code is changed?
+//! `cargo xtask mutants`: checks that the tests notice when the code is changed.
 //!
 //! cargo-mutants changes one thing at a time and runs the tests. A change that no test
-//! notices survives: it is a missing test, or is listed in `tests/mutants.toml` with a reason.
+//! notices survives: a test is missing, or `tests/mutants.toml` lists it with a reason.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::packages::{MUTATED, TESTS};
 use crate::repo::{Repo, program};
 
-/// The version that is built; another one has other mutants.
+/// The version that is built. Other versions make other mutants.
 const VERSION: &str = "27.1.0";
 
 /// Seconds that the tests of a mutant may take; a change that makes them endless is caught.
@@ -23,9 +23,9 @@ const LEAST: usize = 90;
 /// The command line of `mutants`.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Options {
-    /// `2/8`: the third of eight parts, which are counted from 0.
+    /// `2/8`: the third of eight parts; parts count from 0.
     shard: Option<String>,
-    /// These files alone.
+    /// Only these files.
     files: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ impl Options {
                     let text = format!("no mutants are made in `{file}`");
                     return Err(Error::Usage(text));
                 }
-                _ => return Err(Error::Usage(format!("mutants does not take `{word}`"))),
+                _ => return Err(Error::Usage(format!("mutants has no option `{word}`"))),
             }
         }
         Ok(options)
@@ -57,14 +57,14 @@ fn room(file: &str) -> Option<usize> {
         .position(|(_, folder, _)| file.starts_with(folder))
 }
 
-/// What a run found.
+/// The result of a run.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Found {
     caught: usize,
     survivors: Vec<String>,
 }
 
-/// Runs cargo-mutants and holds what it finds against the list.
+/// Runs cargo-mutants and compares the survivors with the list.
 pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<()> {
     let path = repo.root.join("tests/mutants.toml");
     let list = fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
@@ -147,7 +147,7 @@ fn install(repo: &Repo, console: &Console) -> Result<PathBuf> {
     Ok(tool)
 }
 
-/// Adds what cargo-mutants wrote into its folder: a file for each fate, with a line a mutant.
+/// Adds the files of cargo-mutants: one file per outcome, one line per mutant.
 fn read(out: &Path, found: &mut Found) {
     let lines = |name: &str| -> Vec<String> {
         let text = fs::read_to_string(out.join(name)).unwrap_or_default();
@@ -169,7 +169,7 @@ fn nameless(line: &str) -> String {
     }
 }
 
-/// Says what survived without a reason.
+/// Prints the survivors that the list gives no reason for; an error if there are any.
 fn judge(found: &Found, list: &str) -> Result<()> {
     let accepted = |survivor: &&String| {
         list.lines()

@@ -1,4 +1,4 @@
-//! The names of packages that a command line needs; cargo knows the others.
+//! Names of packages in command lines; cargo knows the others.
 
 /// The command line of odkit, and its program.
 pub(crate) const CLI: (&str, &str) = ("od-cli", "odkit");
@@ -11,11 +11,11 @@ pub(crate) const BENCHES: &str = "od-benches";
 /// A peer whose generated code takes as long to compile as all of odkit.
 pub(crate) const PEER: &str = "od-benches-zencan";
 
-/// What is not for crates.io; the playground is for npm.
+/// Packages that are not for crates.io; the playground is for npm.
 pub(crate) const UNPUBLISHED: [&str; 5] = [BENCHES, PEER, PAGE.0, TESTS, "xtask"];
 
-/// What `cargo xtask mutants` changes: a package, the folder in which, and the tests from
-/// outside that have to notice beside the package's own.
+/// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
+/// tests from outside that have to notice them, beside the package's own.
 pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
     (
         "od-runtime",
@@ -26,7 +26,7 @@ pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
     ("od-eds", "od-eds/src/rules/", &["rules", "cases"]),
 ];
 
-/// What must do without the standard library.
+/// Packages that build without the standard library.
 pub(crate) const NO_STD: [&str; 6] = [
     "od-model",
     "od-wire",

@@ -25,11 +25,11 @@ impl Options {
             match word {
                 "--port" => {
                     let number = words.next().and_then(|text| text.parse().ok());
-                    let wrong = "--port wants a number from 0 to 65535";
+                    let wrong = "--port needs a number from 0 to 65535";
                     port = Some(number.ok_or_else(|| Error::Usage(String::from(wrong)))?);
                 }
                 "--no-serve" => serve = false,
-                _ => return Err(Error::Usage(format!("play does not take `{word}`"))),
+                _ => return Err(Error::Usage(format!("play has no option `{word}`"))),
             }
         }
         Ok(Options { port, serve })

@@ -1,4 +1,4 @@
-//! Where things are in the repository.
+//! Places in the repository.
 
 use std::env;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 
-/// With `CI=true` nothing that can be had is done without.
+/// Whether `CI` is set. Then a missing tool is an error and not a reason to skip.
 pub(crate) fn is_ci() -> bool {
     env::var("CI").is_ok_and(|value| value == "true" || value == "1")
 }
@@ -48,7 +48,7 @@ impl Repo {
         self.root.join(".xtask")
     }
 
-    /// What xtask itself leaves behind: logs, the Python environment, stamps.
+    /// Files that xtask itself makes: logs, the Python environment.
     pub(crate) fn cache(&self) -> PathBuf {
         self.target.join("xtask")
     }
@@ -58,7 +58,7 @@ impl Repo {
         self.root.join("playground").join("web")
     }
 
-    /// Where wasm-bindgen's output goes, before the page is bundled.
+    /// The output of wasm-bindgen, which the page's bundle reads.
     pub(crate) fn bindings(&self) -> PathBuf {
         self.web().join("src").join("wasm")
     }

@@ -1,4 +1,4 @@
-//! `cargo xtask shots`: pictures of the page, for the documentation and for our eyes.
+//! `cargo xtask shots`: screenshots of the page, for the documentation and for reviews.
 
 use std::process::Command;
 

@@ -14,7 +14,7 @@ use crate::lock::SetupLock;
 use crate::repo::{Repo, program};
 use crate::setup::{binaryen, bindgen, node, target};
 
-/// What `cargo xtask wasm-pack` does without arguments.
+/// The arguments of wasm-pack if none are given.
 const DEFAULT: [&str; 4] = ["build", "playground", "--target", "web"];
 
 /// Runs wasm-pack in the repository's root.

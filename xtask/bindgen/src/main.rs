@@ -1,7 +1,7 @@
 //! `wasm-bindgen`, as far as `cargo xtask` and `wasm-pack` call it.
 //!
 //! The official command line brings a test runner and a web server along and takes
-//! minutes to build; the library behind it takes seconds and is locked by Cargo.lock.
+//! minutes to build. The library behind it takes seconds, and Cargo.lock pins it.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -18,7 +18,7 @@ usage: wasm-bindgen INPUT.wasm --out-dir DIR [--target web|bundler|nodejs|no-mod
        [--omit-default-module-path] [--split-linked-modules]
        wasm-bindgen --version";
 
-/// What to do, read from the command line.
+/// A request, read from the command line.
 enum Request {
     Version,
     Help,
@@ -72,7 +72,7 @@ fn parse(mut args: impl Iterator<Item = String>) -> Result<Request, String> {
     let mut omit_default_module_path = false;
     let mut split_linked_modules = false;
     while let Some(arg) = args.next() {
-        let mut value = || args.next().ok_or(format!("{arg} wants a value"));
+        let mut value = || args.next().ok_or(format!("{arg} needs a value"));
         match arg.as_str() {
             "--version" | "-V" => return Ok(Request::Version),
             "--help" | "-h" => return Ok(Request::Help),
@@ -84,17 +84,17 @@ fn parse(mut args: impl Iterator<Item = String>) -> Result<Request, String> {
             "--debug" => debug = true,
             "--keep-debug" => keep_debug = true,
             "--no-demangle" => demangle = false,
-            // The library finds out by itself and uses both where they are there.
+            // The library uses both if the module has them.
             "--reference-types" | "--weak-refs" => {}
             "--omit-default-module-path" => omit_default_module_path = true,
             "--split-linked-modules" => split_linked_modules = true,
             _ if arg.starts_with('-') => return Err(format!("unknown option {arg}")),
             _ if input.is_none() => input = Some(PathBuf::from(arg)),
-            _ => return Err(format!("one input only, and {arg} is a second")),
+            _ => return Err(format!("{arg} is a second input; only one is supported")),
         }
     }
     Ok(Request::Generate(Options {
-        input: input.ok_or("which .wasm file?")?,
+        input: input.ok_or("the .wasm file is missing")?,
         out_dir: out_dir.ok_or("--out-dir is missing")?,
         target,
         out_name,

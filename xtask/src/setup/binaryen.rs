@@ -9,7 +9,8 @@ use crate::console::Console;
 use crate::error::{Error, Result};
 use crate::repo::Repo;
 
-/// What rustc emits for wasm32 since 1.87 and every current browser runs.
+/// Options for the features that rustc emits for wasm32 since 1.87; every current browser
+/// supports them.
 pub(crate) const FLAGS: [&str; 7] = [
     "-Os",
     "--enable-bulk-memory",

@@ -1,9 +1,9 @@
-//! What a stage gets to work with.
+//! The input of a stage.
 
 use crate::console::Console;
 use crate::repo::Repo;
 
-/// What a stage gets to work with.
+/// The input of a stage.
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) repo: &'a Repo,

@@ -1,4 +1,4 @@
-//! How many tests a log reports: cargo's, Node's and Python's closing lines.
+//! The number of tests in a log, from the closing lines of cargo, Node.js and Python.
 
 /// Tests by result.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl Counts {
         self.skipped += other.skipped;
     }
 
-    /// Adds the numbers that stand `by` words beside those for passed, failed and skipped.
+    /// Adds the numbers that are `by` words away from the words for passed, failed and skipped.
     fn add(&mut self, words: &[&str], by: isize, names: [&str; 3]) {
         let number = |name: &str| -> Option<u64> {
             let at = words.iter().position(|word| *word == name)?;
@@ -69,7 +69,7 @@ impl Counts {
     }
 }
 
-/// Letters and digits; what stands between them does not matter here.
+/// The words of letters and digits in a line.
 fn words(line: &str) -> Vec<&str> {
     line.split(|c: char| !c.is_ascii_alphanumeric())
         .filter(|word| !word.is_empty())

@@ -48,7 +48,7 @@ impl Options {
                         options.only.push(known(name)?);
                     }
                 }
-                _ => return Err(Error::Usage(format!("test does not take `{word}`"))),
+                _ => return Err(Error::Usage(format!("test has no option `{word}`"))),
             }
         }
         Ok(options)

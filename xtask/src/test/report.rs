@@ -1,4 +1,4 @@
-//! What `cargo xtask test` prints.
+//! The output of `cargo xtask test`.
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -9,13 +9,13 @@ use super::counts::Counts;
 use crate::console::{say, seconds};
 use crate::repo::is_ci;
 
-/// A failing stage shows at most so many lines; the log has them all.
+/// Number of lines that a failing stage shows at most; the log has all of them.
 const SHOWN: usize = 2000;
 
-/// How a stage ended.
+/// The end of a stage.
 #[derive(Debug)]
 pub(super) enum Outcome {
-    /// All is well; a check has no tests, and counts as one.
+    /// Everything passed. A check has no tests and counts as one.
     Passed(Option<Counts>),
     /// Something failed, in the tests or before them.
     Failed(Counts, String),
@@ -61,8 +61,8 @@ impl Report {
         }
     }
 
-    /// One line for a stage that ended; of a failed one also what it wrote, and how to repeat
-    /// it alone: `log` is its text and place, `command` the last that it ran.
+    /// Prints one line for a stage that ended. After a failed stage follow its output and the
+    /// commands that repeat it: `log` is its text and place, `command` the last one that ran.
     pub(super) fn finish(
         &mut self,
         name: &'static str,

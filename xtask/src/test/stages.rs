@@ -7,7 +7,7 @@ mod rust;
 use super::context::Context;
 use crate::error::Result;
 
-/// What a stage consists of.
+/// The content of a stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// Tests; none at all is a mistake.
@@ -31,15 +31,15 @@ pub(super) enum Lane {
 /// One check with a name.
 #[derive(Debug)]
 pub(super) struct Stage {
-    /// What `--only` takes.
+    /// The name, as `--only` accepts it.
     pub(super) name: &'static str,
     /// One line for `--list`.
     pub(super) about: &'static str,
     /// Tests or a check.
     pub(super) kind: Kind,
-    /// Runs it; the log says how many tests there were.
+    /// Runs it. The log has the number of tests.
     pub(super) run: fn(&Context<'_>) -> Result<()>,
-    /// Part of `--quick`?
+    /// Whether it is part of `--quick`.
     pub(super) quick: bool,
     /// A stage outside [`Lane::Cargo`] starts when those of that lane before it have ended.
     pub(super) lane: Lane,

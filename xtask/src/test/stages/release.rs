@@ -1,4 +1,4 @@
-//! What a release needs.
+//! The stage that packs every crate.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::packages::UNPUBLISHED;
 use crate::test::context::Context;
 
-/// What every package carries.
+/// Files that every package contains.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Every crate is packed, has the texts of its licences, and compiles from what was packed.
@@ -53,7 +53,7 @@ pub(super) fn package(context: &Context<'_>) -> Result<()> {
     context.console.run("what was packed", &mut check)
 }
 
-/// What is in a folder.
+/// The content of a folder.
 fn entries(dir: &Path) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(dir).map_err(|e| Error::io("read", dir, &e))?;
     Ok(entries.flatten().map(|entry| entry.path()).collect())

@@ -48,7 +48,7 @@ impl Request {
     }
 }
 
-/// There is none.
+/// An answer, which never comes.
 pub enum Response {}
 
 impl Response {
