@@ -1,3 +1,4 @@
 //! What the tests of odkit share.
 
+pub mod corpus;
 pub mod scripts;

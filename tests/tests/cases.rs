@@ -2,7 +2,7 @@
 //!
 //! `ODKIT_ACCEPT=1` writes what is found into `diagnostics.txt`; read it before
 //! committing it. The corpus is any folder of EDS and DCF files: `ODKIT_CORPUS`,
-//! or `shared/corpus` beside the workspace; where there is none, nothing is tested.
+//! or `shared/corpus` beside the workspace; without it, only CI fails.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -11,6 +11,7 @@ use std::{env, fs};
 
 use od_eds::{Document, Parsed};
 use od_eds::{Eds, Severity, Tables, check, say};
+use od_tests::corpus;
 
 #[test]
 fn diagnostics_are_as_accepted() {
@@ -47,12 +48,10 @@ fn every_case_comes_back_from_its_own_text() {
 
 #[test]
 fn the_corpus_loads_and_comes_back() {
-    let Some(corpus) = corpus() else {
-        println!("no corpus: set ODKIT_CORPUS to a folder of EDS files");
+    let Some(folder) = corpus::folder() else {
         return;
     };
-    let mut files = Vec::new();
-    eds_files(&corpus, &mut files);
+    let files = corpus::files(&folder, corpus::ALL);
     let mut by_code: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for file in &files {
         let bytes = fs::read(file).expect("a file of the corpus is readable");
@@ -278,31 +277,4 @@ fn cases() -> Vec<Case> {
     }
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
-}
-
-fn corpus() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
-    folder.is_dir().then_some(folder)
-}
-
-fn eds_files(folder: &Path, files: &mut Vec<PathBuf>) {
-    let mut entries: Vec<_> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    entries.sort();
-    for path in entries {
-        let extension = path.extension().unwrap_or_default();
-        if path.is_dir() {
-            eds_files(&path, files);
-        } else if ["eds", "dcf", "xdd", "xdc", "xpd"]
-            .iter()
-            .any(|known| extension.eq_ignore_ascii_case(known))
-        {
-            files.push(path);
-        }
-    }
 }

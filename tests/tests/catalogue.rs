@@ -12,6 +12,7 @@ use od_eds::Document;
 use od_eds::check::{Fixability, RULES, Rule};
 use od_eds::fix::{Applicability, fix};
 use od_eds::{Description, Eds, Finding, say};
+use od_tests::corpus;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../od-eds/cases")
@@ -137,13 +138,9 @@ fn fixes_do_what_they_say() {
 /// Safe fixes change no object, and no fix is of another mind the second time.
 #[test]
 fn fixes_keep_what_was_read() {
-    let mut files = Vec::new();
-    collect(&folder().join(".."), &mut files);
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let corpus = std::env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
-    match corpus.is_dir() {
-        true => collect(&corpus, &mut files),
-        false => println!("no corpus: set ODKIT_CORPUS to a folder of EDS files"),
+    let mut files = corpus::files(&folder().join(".."), corpus::TEXTS);
+    if let Some(folder) = corpus::folder() {
+        files.extend(corpus::files(&folder, corpus::TEXTS));
     }
     assert!(files.len() >= 150);
     for path in files {
@@ -188,23 +185,5 @@ fn same_values(before: &Description, after: &Description, path: &Path) {
     assert_eq!(before.len(), after.len(), "{}", path.display());
     for (before, after) in before.iter().zip(&after) {
         assert_eq!(before, after, "{}", path.display());
-    }
-}
-
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    let mut entries: Vec<_> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    entries.sort();
-    for path in entries {
-        let extension = path.extension().unwrap_or_default();
-        if path.is_dir() {
-            collect(&path, files);
-        } else if extension.eq_ignore_ascii_case("eds") || extension.eq_ignore_ascii_case("dcf") {
-            files.push(path);
-        }
     }
 }

@@ -10,6 +10,7 @@ use std::{env, fs};
 
 use od_eds::Document;
 use od_eds::Tables;
+use od_tests::corpus;
 
 /// A device file of half a megabyte takes a tenth of this in a build without optimization.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -262,35 +263,14 @@ fn rounds(few: usize) -> usize {
 /// The corpus, else the project's own files; by name.
 fn files() -> Vec<(String, Vec<u8>)> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let beside = here.join("../../shared/corpus");
-    let corpus = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
-    let mut files = Vec::new();
-    if corpus.is_dir() {
-        collect(&corpus, &mut files);
-    } else {
-        println!(
-            "no corpus: set ODKIT_CORPUS to a folder of device files; the project's own are used"
-        );
-        collect(&here.join("cases"), &mut files);
-        collect(&here.join("../devices/eds"), &mut files);
-    }
+    let own = || vec![here.join("cases"), here.join("../devices/eds")];
+    let folders = corpus::folder().map_or_else(own, |folder| vec![folder]);
+    let paths = folders
+        .iter()
+        .flat_map(|folder| corpus::files(folder, corpus::ALL));
+    let read = |path: PathBuf| Some((path.display().to_string(), fs::read(path).ok()?));
+    let mut files: Vec<_> = paths.filter_map(read).collect();
     files.sort();
     assert!(!files.is_empty());
     files
-}
-
-fn collect(folder: &Path, files: &mut Vec<(String, Vec<u8>)>) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        if path.is_dir() {
-            collect(&path, files);
-        } else if ["eds", "dcf", "xdd", "xdc", "xpd"]
-            .iter()
-            .any(|known| extension == *known)
-            && let Ok(bytes) = fs::read(&path)
-        {
-            files.push((path.display().to_string(), bytes));
-        }
-    }
 }

@@ -2,7 +2,7 @@
 //! others.
 
 use od_bench::script::{Bench, Console};
-use od_bench::{Bus, VirtualDevice};
+use od_bench::Bus;
 
 use super::bench;
 use super::script::WORDS;

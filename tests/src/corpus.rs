@@ -1,0 +1,47 @@
+//! Device files: those of the corpus, and those of a folder.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Endings of EDS and DCF files.
+pub const TEXTS: &[&str] = &["eds", "dcf"];
+
+/// Endings of all files that odkit reads.
+pub const ALL: &[&str] = &["eds", "dcf", "xdd", "xdc", "xpd"];
+
+/// The folder of the corpus: `ODKIT_CORPUS`, or `shared/corpus` beside the workspace. `None`, with
+/// a message, if it does not exist.
+///
+/// # Panics
+///
+/// If `CI` is set and the folder does not exist: a test must not pass without its input.
+pub fn folder() -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
+    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    let text = "no corpus: set ODKIT_CORPUS to a folder of device files";
+    assert!(env::var_os("CI").is_none(), "{text}");
+    println!("{text}");
+    None
+}
+
+/// The files below a folder with one of these endings, in the order of their paths.
+pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
+    let (mut folders, mut files) = (vec![PathBuf::from(folder)], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+            if path.is_dir() {
+                folders.push(path);
+            } else if endings.iter().any(|known| ending == *known) {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
