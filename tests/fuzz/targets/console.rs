@@ -1,8 +1,8 @@
 //! Lines for a bench that runs already: carried out or refused, and none of them stops the
 //! others.
 
-use od_bench::script::{Bench, Console};
 use od_bench::Bus;
+use od_bench::script::{Bench, Console};
 
 use super::bench;
 use super::script::WORDS;
