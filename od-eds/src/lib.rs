@@ -59,6 +59,7 @@ pub use overlay::{Origin, Overlaid, overlay};
 pub use read::modules::{Count, Extension, Module, connected_modules, modules, with_modules};
 pub use read::parsed::Parsed;
 pub use scan::encoding::{Encoding, decode};
+pub use scan::known::nearest;
 pub use span::{Span, Spanned, token, token_of};
 pub use write::canonical::{canonical, complete};
 pub use write::describe::{About, describe};

@@ -138,24 +138,6 @@ pub(crate) fn distinct<K: Ord + Copy>(
     made
 }
 
-/// Number of letters that differ: inserted, left out, or another (ignoring case).
-pub(crate) fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().map(|c| c.to_ascii_lowercase()).collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().map(|c| c.to_ascii_lowercase()).enumerate() {
-        let mut corner = i;
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let next = (corner + usize::from(x != *y))
-                .min(row[j] + 1)
-                .min(row[j + 1] + 1);
-            corner = row[j + 1];
-            row[j + 1] = next;
-        }
-    }
-    row[b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -199,12 +181,5 @@ mod tests {
         let made = distinct(&wanted, &taken, |k| k.to_string());
         let made: Vec<_> = made.values().map(String::as_str).collect();
         assert_eq!(made, ["A_5", "A_6_", "B_7", "A_6"]);
-    }
-
-    #[test]
-    fn distance_counts_letters() {
-        assert_eq!(distance("uint16", "u16"), 3);
-        assert_eq!(distance("unsigned8", "UNSIGNED8"), 0);
-        assert_eq!(distance("ro", "rw"), 1);
     }
 }

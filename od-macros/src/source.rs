@@ -130,7 +130,7 @@ fn unreadable(shown: &str, path: &Path, error: &std::io::Error) -> String {
 fn beside(path: &Path) -> Result<Option<String>, ()> {
     let wanted = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = std::fs::read_dir(path.parent().ok_or(())?).map_err(|_| ())?;
-    let mut near: Vec<(usize, String)> = folder
+    let mut names: Vec<String> = folder
         .flatten()
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .filter(|name| {
@@ -139,9 +139,8 @@ fn beside(path: &Path) -> Result<Option<String>, ()> {
                 .iter()
                 .any(|end| lower.ends_with(end))
         })
-        .map(|name| (crate::names::distance(&wanted, &name), name))
-        .filter(|(distance, _)| *distance <= 3)
         .collect();
-    near.sort();
-    Ok(near.into_iter().next().map(|(_, name)| name))
+    names.sort();
+    let names = names.iter().map(String::as_str);
+    Ok(od_eds::nearest(&wanted, names, 3).map(Into::into))
 }

@@ -5,48 +5,44 @@ use proc_macro2::Ident;
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 
-use crate::names::distance;
-
 /// One field's vocabulary.
 pub(crate) struct Words<T: 'static> {
     what: &'static str,
     /// Words that a help text lists.
-    shown: &'static [&'static str],
-    of: fn(&str) -> Option<T>,
-    /// Words of other languages, and what they mean here.
+    words: &'static [(&'static str, T)],
+    /// Words of other languages, and the words here that mean the same.
     foreign: &'static [(&'static str, &'static str)],
 }
 
 pub(crate) const TYPES: Words<DataType> = Words {
     what: "a data type",
-    shown: &[
-        "bool",
-        "u8",
-        "u16",
-        "u32",
-        "u64",
-        "i8",
-        "i16",
-        "i32",
-        "i64",
-        "f32",
-        "f64",
-        "str",
-        "UNSIGNED24",
-        "UNSIGNED40",
-        "UNSIGNED48",
-        "UNSIGNED56",
-        "INTEGER24",
-        "INTEGER40",
-        "INTEGER48",
-        "INTEGER56",
-        "TIME_OF_DAY",
-        "TIME_DIFFERENCE",
-        "OCTET_STRING",
-        "UNICODE_STRING",
-        "DOMAIN",
+    words: &[
+        ("bool", DataType::Boolean),
+        ("u8", DataType::Unsigned8),
+        ("u16", DataType::Unsigned16),
+        ("u32", DataType::Unsigned32),
+        ("u64", DataType::Unsigned64),
+        ("i8", DataType::Integer8),
+        ("i16", DataType::Integer16),
+        ("i32", DataType::Integer32),
+        ("i64", DataType::Integer64),
+        ("f32", DataType::Real32),
+        ("f64", DataType::Real64),
+        ("str", DataType::VisibleString),
+        ("UNSIGNED24", DataType::Unsigned24),
+        ("UNSIGNED40", DataType::Unsigned40),
+        ("UNSIGNED48", DataType::Unsigned48),
+        ("UNSIGNED56", DataType::Unsigned56),
+        ("INTEGER24", DataType::Integer24),
+        ("INTEGER40", DataType::Integer40),
+        ("INTEGER48", DataType::Integer48),
+        ("INTEGER56", DataType::Integer56),
+        ("TIME_OF_DAY", DataType::TimeOfDay),
+        ("TIME_DIFFERENCE", DataType::TimeDifference),
+        ("OCTET_STRING", DataType::OctetString),
+        ("UNICODE_STRING", DataType::UnicodeString),
+        ("DOMAIN", DataType::Domain),
     ],
-    of: data_type,
     foreign: &[
         ("uint8", "u8"),
         ("uint16", "u16"),
@@ -73,8 +69,14 @@ pub(crate) const TYPES: Words<DataType> = Words {
 
 pub(crate) const ACCESS: Words<Access> = Words {
     what: "an access type",
-    shown: &["ro", "wo", "rw", "rwr", "rww", "const"],
-    of: access,
+    words: &[
+        ("ro", Access::Ro),
+        ("wo", Access::Wo),
+        ("rw", Access::Rw),
+        ("rwr", Access::Rwr),
+        ("rww", Access::Rww),
+        ("const", Access::Const),
+    ],
     foreign: &[
         ("readonly", "ro"),
         ("read", "ro"),
@@ -88,19 +90,44 @@ pub(crate) const ACCESS: Words<Access> = Words {
 
 pub(crate) const GROUPS: Words<Group> = Words {
     what: "a parameter group",
-    shown: &["communication", "application", "manufacturer", "none"],
-    of: group,
+    words: &[
+        ("communication", Group::Communication),
+        ("application", Group::Application),
+        ("manufacturer", Group::Manufacturer),
+        ("none", Group::None),
+    ],
     foreign: &[],
 };
 
 pub(crate) const CODES: Words<ObjectCode> = Words {
     what: "an object code",
-    shown: &["var", "array", "record", "domain"],
-    of: code,
+    words: &[
+        ("var", ObjectCode::Var),
+        ("array", ObjectCode::Array),
+        ("record", ObjectCode::Record),
+        ("domain", ObjectCode::Domain),
+    ],
     foreign: &[("struct", "record"), ("variable", "var"), ("list", "array")],
 };
 
-impl<T> Words<T> {
+/// A value that can have its name in CiA 301 instead of a word.
+pub(crate) trait Named: Copy + PartialEq {
+    /// The value with this name.
+    fn named(_: &str) -> Option<Self> {
+        None
+    }
+}
+
+impl Named for DataType {
+    fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.name() == name)
+    }
+}
+impl Named for Access {}
+impl Named for Group {}
+impl Named for ObjectCode {}
+
+impl<T: Named> Words<T> {
     /// Reads one of the words; for another one says what is allowed.
     pub(crate) fn read(&self, body: ParseStream) -> syn::Result<T> {
         let what = self.what;
@@ -109,7 +136,7 @@ impl<T> Words<T> {
             syn::Error::new(e.span(), format!("expected {what}\nhelp: one of {list}"))
         })?;
         let text = word.to_string();
-        (self.of)(&text).ok_or_else(|| {
+        self.value(&text).ok_or_else(|| {
             let help = match self.meant(&text) {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!("one of {}", self.list()),
@@ -118,82 +145,41 @@ impl<T> Words<T> {
         })
     }
 
+    fn value(&self, text: &str) -> Option<T> {
+        let known = self.words.iter().find(|(word, _)| *word == text);
+        known.map(|(_, value)| *value).or_else(|| T::named(text))
+    }
+
     /// The word for a value.
-    pub(crate) fn word(&self, value: T) -> Option<&'static str>
-    where
-        T: PartialEq,
-    {
-        let mut words = self.shown.iter().copied();
-        words.find(|word| (self.of)(word).as_ref() == Some(&value))
+    pub(crate) fn word(&self, value: T) -> Option<&'static str> {
+        let known = self.words.iter().find(|(_, known)| *known == value);
+        known.map(|(word, _)| *word)
     }
 
     fn list(&self) -> String {
-        let quoted: Vec<String> = self.shown.iter().map(|word| format!("`{word}`")).collect();
-        quoted.join(", ")
+        let quoted = self.words.iter().map(|(word, _)| format!("`{word}`"));
+        quoted.collect::<Vec<_>>().join(", ")
     }
 
     fn meant(&self, text: &str) -> Option<&'static str> {
         let lower = text.to_ascii_lowercase();
         let plain = lower.strip_suffix("_t").unwrap_or(&lower);
         let foreign = self.foreign.iter().find(|(word, _)| *word == plain);
-        if let Some((_, meant)) = foreign {
-            return Some(meant);
+        match foreign {
+            Some((_, meant)) => Some(meant),
+            None => near(text, self.words.iter().map(|(word, _)| *word)),
         }
-        near(text, self.shown.iter().copied())
     }
 }
 
-/// The word that differs least, if it is not another one altogether.
-pub(crate) fn near<'a>(text: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    words
-        .map(|word| (distance(text, word), word))
-        .filter(|(distance, _)| *distance <= 2.min(text.len() / 2))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, word)| word)
-}
-
-fn data_type(word: &str) -> Option<DataType> {
-    use DataType as T;
-    Some(match word {
-        "bool" => T::Boolean,
-        "u8" => T::Unsigned8,
-        "u16" => T::Unsigned16,
-        "u32" => T::Unsigned32,
-        "u64" => T::Unsigned64,
-        "i8" => T::Integer8,
-        "i16" => T::Integer16,
-        "i32" => T::Integer32,
-        "i64" => T::Integer64,
-        "f32" => T::Real32,
-        "f64" => T::Real64,
-        "str" => T::VisibleString,
-        _ => return DataType::ALL.into_iter().find(|t| t.name() == word),
-    })
-}
-
-fn access(word: &str) -> Option<Access> {
-    let mut all = Access::ALL.into_iter();
-    all.find(|access| access.name() == word)
-}
-
-fn group(word: &str) -> Option<Group> {
-    Some(match word {
-        "communication" => Group::Communication,
-        "application" => Group::Application,
-        "manufacturer" => Group::Manufacturer,
-        "none" => Group::None,
-        _ => return None,
-    })
-}
-
-fn code(word: &str) -> Option<ObjectCode> {
-    Some(match word {
-        "var" => ObjectCode::Var,
-        "array" => ObjectCode::Array,
-        "record" => ObjectCode::Record,
-        "domain" => ObjectCode::Domain,
-        _ => return None,
-    })
+/// The word that differs least, if it is not another one altogether; the same word in other case.
+pub(crate) fn near<'a>(
+    text: &str,
+    words: impl Iterator<Item = &'a str> + Clone,
+) -> Option<&'a str> {
+    let mut same = words.clone().filter(|word| word.eq_ignore_ascii_case(text));
+    same.next()
+        .or_else(|| od_eds::nearest(text, words, 2.min(text.len() / 2)))
 }
 
 #[cfg(test)]
@@ -201,16 +187,11 @@ mod tests {
     use super::*;
 
     #[track_caller]
-    fn check<T>(words: &Words<T>) {
-        let meant = words.foreign.iter().map(|(_, word)| word);
-        assert!(
-            words
-                .shown
-                .iter()
-                .chain(meant)
-                .all(|w| (words.of)(w).is_some())
-        );
-        assert!(words.foreign.iter().all(|(w, _)| (words.of)(w).is_none()));
+    fn check<T: Named>(words: &Words<T>) {
+        for (foreign, meant) in words.foreign {
+            assert!(words.value(meant).is_some(), "{meant}");
+            assert!(words.value(foreign).is_none(), "{foreign}");
+        }
     }
 
     #[test]
@@ -227,7 +208,7 @@ mod tests {
             ("uint16", Some("u16")),
             ("uint16_t", Some("u16")),
             ("unsigned24", Some("UNSIGNED24")),
-            ("UNSIGNED42", Some("UNSIGNED40")),
+            ("UNSIGNED42", Some("UNSIGNED24")),
             ("u15", Some("u16")),
             ("Encoder", None),
         ] {

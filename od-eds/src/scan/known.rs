@@ -286,22 +286,31 @@ fn is(name: &str, pattern: &str) -> bool {
     }
 }
 
-/// The one of these words that `word` is a slip of: one or two letters wrong, missing,
-/// too many or exchanged.
+/// The one of these words that `word` is a slip of, as a file can have it: one or two letters
+/// wrong, missing, too many or exchanged.
 pub(crate) fn near<'a>(word: &str, words: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = match word.len() {
-        0..=3 => return None,
-        4..=6 => 1,
-        _ => 2,
-    };
+    match word.len() {
+        0..=3 => None,
+        4..=6 => nearest(word, words, 1),
+        _ => nearest(word, words, 2),
+    }
+}
+
+/// Returns the word in which the fewest letters differ, at most `most`: wrong, missing, too many
+/// or exchanged. Upper and lower case are the same; a word itself is not near.
+pub fn nearest<'a>(
+    word: &str,
+    words: impl Iterator<Item = &'a str>,
+    most: usize,
+) -> Option<&'a str> {
     words
-        .map(|known| (distance(word, known, allowed), known))
-        .filter(|(distance, _)| (1..=allowed).contains(distance))
+        .map(|known| (distance(word, known, most), known))
+        .filter(|(distance, _)| (1..=most).contains(distance))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, known)| known)
 }
 
-/// How many letters differ; more than `most` is not counted out.
+/// Number of letters that differ; above `most`, any number above it.
 fn distance(a: &str, b: &str, most: usize) -> usize {
     if a.len().abs_diff(b.len()) > most || a.len() > 40 {
         return most + 1;

@@ -14,6 +14,7 @@ use crate::scan::known;
 use crate::scan::known::{Form, Known};
 use crate::scan::number;
 use crate::span::Spanned;
+use crate::write::describe::section;
 
 /// The text of a description as other readers take it: [`write`](crate::write()) of what
 /// [`complete`] makes of it.
@@ -29,7 +30,7 @@ pub fn canonical(description: &Description) -> String {
 pub fn complete(description: &Description) -> Description {
     let made = sections(description).into_iter();
     let mut completed = Description {
-        sections: made.map(Canonical::into_section).collect(),
+        sections: made.map(|made| section(&made.name, made.pairs)).collect(),
         objects: description.objects.clone(),
     };
     for object in completed.objects.values_mut() {
@@ -43,18 +44,6 @@ pub fn complete(description: &Description) -> Description {
 struct Canonical {
     name: String,
     pairs: Vec<(String, String)>,
-}
-
-impl Canonical {
-    fn into_section(self) -> Section {
-        let pairs = self.pairs.into_iter();
-        Section {
-            name: Spanned::from(self.name),
-            pairs: pairs
-                .map(|(key, value)| (Spanned::from(key), Spanned::from(value)))
-                .collect(),
-        }
-    }
 }
 
 /// The sections of a description, those that every file has included.

@@ -191,7 +191,8 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
     sections
 }
 
-fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
+/// A section with these keys and values, which stand in no text.
+pub(super) fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
     Section {
         name: Spanned::from(name.to_string()),
         pairs: pairs
