@@ -23,7 +23,7 @@ use crate::finding::{Finding, Severity};
 use crate::fix::{Applicability, Fix};
 use crate::span::Span;
 
-/// The words of those who read a finding: of an EDS file, of a macro call, of a language.
+/// The words of a finding: those of an EDS file, of a macro call, or of a language.
 pub trait Vocabulary {
     /// A key in a sentence.
     fn key(&self, key: Key) -> &'static str {
@@ -43,7 +43,7 @@ pub trait Vocabulary {
         }
     }
 
-    /// What a value of this type looks like.
+    /// The form of a value of this type.
     fn form_of(&self, data_type: DataType) -> String {
         match (data_type.kind(), data_type.integer_range()) {
             (Kind::Boolean, _) => "`0` or `1`".into(),
@@ -64,7 +64,7 @@ pub trait Vocabulary {
         }
     }
 
-    /// What follows an advice that odkit can apply.
+    /// The words after an advice that odkit can apply.
     fn fix(&self, fix: Applicability) -> &'static str {
         match fix {
             Applicability::Safe => " (safe fix)",
@@ -90,11 +90,11 @@ impl Vocabulary for Eds {}
 pub struct Label {
     /// Place that the label marks.
     pub span: Span,
-    /// What is there, in a few words.
+    /// Description of the place, in a few words.
     pub text: String,
 }
 
-/// A finding in words, for whoever shows it.
+/// A finding in words.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sentence {
@@ -102,15 +102,15 @@ pub struct Sentence {
     pub code: &'static str,
     /// Severity of the finding.
     pub severity: Severity,
-    /// What is wrong, one clause without a full stop.
+    /// The fault, one clause without a full stop.
     pub message: String,
-    /// Where it is; `None` if something is missing altogether.
+    /// Place in the text; `None` if something is missing.
     pub span: Option<Span>,
     /// The object it is about, if it is about one.
     pub address: Option<Address>,
     /// Second places.
     pub labels: Vec<Label>,
-    /// What is allowed, or what to write instead; empty if the message says it.
+    /// The text to write instead, or the values allowed; empty if the message says it.
     pub help: String,
     /// Automatic fix, if there is one.
     pub fix: Option<Fix>,
@@ -135,7 +135,7 @@ pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     }
 }
 
-/// What fills the blanks of one finding.
+/// Source of the blanks of one finding.
 struct Blanks<'a> {
     finding: &'a Finding,
     words: &'a dyn Vocabulary,
@@ -255,7 +255,7 @@ fn pieces(mut text: &str) -> impl Iterator<Item = Piece<'_>> {
     })
 }
 
-/// Where the blank that begins the text ends.
+/// End of the blank at the start of the text.
 fn end(text: &str) -> Option<usize> {
     let mut depth = 0usize;
     text.char_indices().find_map(|(at, c)| {

@@ -18,7 +18,7 @@ mod objects;
 /// findings of that text do. An empty range inserts, an empty text deletes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Edit {
-    /// What is replaced.
+    /// Bytes to replace.
     pub range: Range<usize>,
     /// By what.
     pub text: String,
@@ -43,9 +43,9 @@ pub enum EditError {
     Overlap(Range<usize>, Range<usize>),
     /// The file's encoding has no such character.
     NoCharacter(char, Encoding),
-    /// A name, key or value that cannot stand in one line as what it is.
+    /// A name, key or value that does not fit into one line.
     NotOneLine(String),
-    /// There is no section of this name.
+    /// A section of this name is missing.
     NoSection(String),
     /// There is a section of this name already.
     SectionExists(String),
@@ -56,7 +56,7 @@ impl fmt::Display for EditError {
         match self {
             Self::NoPlace(range) => write!(
                 f,
-                "bytes {} to {} are no place in this text",
+                "bytes {} to {} are not a place in this text",
                 range.start, range.end
             ),
             Self::Overlap(a, b) => write!(
@@ -72,7 +72,7 @@ impl fmt::Display for EditError {
                 f,
                 "{text:?} would not be read back as it is; line ends, `=` in a key and brackets in a name cannot be written"
             ),
-            Self::NoSection(name) => write!(f, "there is no section [{name}]"),
+            Self::NoSection(name) => write!(f, "section [{name}] is missing"),
             Self::SectionExists(name) => write!(f, "there is a section [{name}] already"),
         }
     }
@@ -124,7 +124,7 @@ impl Document {
         &self.bytes
     }
 
-    /// How its characters are written.
+    /// Encoding of its characters.
     pub fn encoding(&self) -> Encoding {
         self.encoding
     }
@@ -134,7 +134,7 @@ impl Document {
         self.mark > 0
     }
 
-    /// The place in the text of the first byte that is no character of the encoding.
+    /// Place of the first byte that is not valid in the encoding.
     pub(crate) fn first_wrong(&self) -> Option<usize> {
         if self.encoding == Encoding::Utf8 {
             let error = core::str::from_utf8(&self.bytes[self.mark..]).err()?;
@@ -147,7 +147,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// A place that is none, edits that overlap, or a character that the file's
+    /// A place outside the text, edits that overlap, or a character that the file's
     /// encoding has not; then nothing has changed. Two insertions at one place stay in
     /// the order they are given in.
     pub fn apply(&mut self, edits: &[Edit]) -> Result<(), EditError> {
@@ -191,7 +191,7 @@ impl Document {
         Ok(())
     }
 
-    /// What ends the lines of this file: that of the line at `at`, else the first there is.
+    /// Line end of the line at `at`, else the first line end of the file.
     fn line_end(&self, at: usize) -> &'static str {
         let behind = &self.text[at..];
         let found = behind
@@ -205,7 +205,7 @@ impl Document {
         }
     }
 
-    /// Where the line behind the one at `at` begins.
+    /// Start of the line after the one at `at`.
     fn next_line(&self, at: usize) -> usize {
         let behind = &self.text[at..];
         match behind.find(['\r', '\n']) {

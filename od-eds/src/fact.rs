@@ -1,4 +1,4 @@
-//! What fills a sentence: facts of a finding, and the keys that it is about.
+//! The content of a sentence: facts of a finding, and keys.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -99,13 +99,13 @@ pub enum Fact {
     Value(Value),
     /// A data type.
     Type(DataType),
-    /// What a value of this type looks like.
+    /// The form of a value of this type.
     FormOf(DataType),
     /// An object code.
     Code(ObjectCode),
     /// An access type.
     Access(Access),
-    /// An object, named by its index alone.
+    /// An object, by its index.
     Index(u16),
     /// A value of an object.
     Object(Address),

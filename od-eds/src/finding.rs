@@ -27,7 +27,7 @@ pub enum Severity {
     Error,
 }
 
-/// What can be done about the findings of a rule without asking.
+/// The fix that the findings of a rule have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -35,7 +35,7 @@ pub enum Severity {
     serde(rename_all = "kebab-case")
 )]
 pub enum Fixability {
-    /// No fix: only who knows the device can correct the file.
+    /// No fix: the user corrects the file.
     None,
     /// A safe fix: every tool then reads what odkit reads now.
     Safe,
@@ -57,14 +57,14 @@ impl Fixability {
     }
 }
 
-/// What a finding says: sentences with blanks such as `{low}`, which facts fill.
+/// The sentences of a finding, with blanks such as `{low}`, which facts fill.
 ///
 /// The catalogue lists what a blank can be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Form {
-    /// What is wrong, one clause without a full stop.
+    /// The fault, one clause without a full stop.
     pub says: &'static str,
-    /// What to write instead, or what is allowed.
+    /// The text to write instead, or the values allowed.
     pub help: &'static str,
 }
 
@@ -73,7 +73,7 @@ impl Form {
     pub(crate) const OWN: Self = Self { says: "", help: "" };
 }
 
-/// How the findings of a rule are found.
+/// The way to the findings of a rule.
 #[derive(Clone, Copy)]
 pub(crate) enum Check {
     /// By looking at each value.
@@ -99,24 +99,24 @@ pub struct Rule {
     pub severity: Severity,
     /// The class of fault, in a few words.
     pub title: &'static str,
-    /// Why it matters, and what odkit does meanwhile.
+    /// The consequence for a master or a tool, then what odkit does.
     pub why: &'static str,
     /// Document and clause.
     pub source: &'static str,
-    /// What `odkit check --fix` can do about it.
+    /// The fix that `odkit check` can apply.
     pub fixability: Fixability,
     /// A statement of a macro call that breaks the rule; empty for a rule with a pair of files.
     pub example: &'static str,
-    /// What is wrong, unless a finding takes one of `also`: one clause without a full stop.
+    /// The fault, unless a finding takes one of `also`: one clause without a full stop.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub says: &'static str,
-    /// What to write instead, or what is allowed.
+    /// The text to write instead, or the values allowed.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub help: &'static str,
-    /// What else a finding of this rule can say.
+    /// Other sentences of its findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub also: &'static [Form],
-    /// How the findings are found.
+    /// The way to the findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) check: Check,
 }
@@ -135,7 +135,7 @@ impl fmt::Debug for Rule {
 }
 
 impl Rule {
-    /// What a rule is unless it says otherwise.
+    /// The defaults of a rule.
     pub(crate) const NEW: Self = Self {
         code: "",
         severity: Severity::Error,
@@ -200,7 +200,7 @@ impl Rule {
     }
 }
 
-/// Where a finding is.
+/// Place of a finding.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Place {
     /// In the text.
@@ -235,15 +235,15 @@ pub struct Related {
 pub struct Finding {
     /// The rule that reports it.
     pub rule: &'static Rule,
-    /// What it says, with blanks.
+    /// Its sentences, with blanks.
     pub form: Form,
-    /// Where it is.
+    /// Place of the finding.
     pub place: Place,
     /// The object it is about, if it is about one.
     pub object: Option<Address>,
     /// The key that is wrong, if it is one of an object.
     pub key: Option<Key>,
-    /// What fills the blanks, by name.
+    /// Content of the blanks, by name.
     pub facts: Vec<(&'static str, Fact)>,
     /// Second places.
     pub related: Vec<Related>,
@@ -267,7 +267,7 @@ impl Finding {
         self.rule.severity == Severity::Error
     }
 
-    /// Where it is; `None` if something is missing altogether.
+    /// Place of the finding; `None` if something is missing.
     pub const fn span(&self) -> Option<Span> {
         match self.place {
             Place::Text(span) => Some(span),
@@ -335,7 +335,7 @@ impl Finding {
     }
 }
 
-/// File order; what stands nowhere comes last.
+/// File order; findings without a place come last.
 pub(crate) fn sort(findings: &mut [Finding]) {
     findings.sort_by_key(|finding| match finding.place {
         Place::Text(span) => (0, span.line, span.column),

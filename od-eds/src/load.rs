@@ -82,7 +82,7 @@ fn ordered(mut parsed: Parsed, text: &str) -> Parsed {
     parsed
 }
 
-/// What other tools may not expect of the characters.
+/// Findings about the encoding.
 fn encoded(document: &Document) -> Vec<Finding> {
     let (text, encoding) = (document.text(), document.encoding());
     let mut found = Vec::new();

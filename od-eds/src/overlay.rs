@@ -81,7 +81,7 @@ impl Overlaid {
 /// Lays an overlay over a base.
 ///
 /// # Errors
-/// What the overlay removes without its being there, a sentence each, with the line of the
+/// Objects and sections that the overlay removes and the base lacks, a sentence each, with the line of the
 /// overlay.
 pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>> {
     let mut sections = read(base, Origin::Base);
@@ -93,7 +93,10 @@ pub fn overlay(base: &str, overlay: &str) -> Result<Overlaid, Vec<(u32, String)>
             sections.retain(|other| !section.removes(other));
             if sections.len() == count {
                 let line = section.lines.first().map_or(0, |line| line.number);
-                faults.push((line, format!("there is no [{}] to remove", section.name)));
+                faults.push((
+                    line,
+                    format!("section [{}] to remove is missing", section.name),
+                ));
             }
             continue;
         }
@@ -134,7 +137,7 @@ impl Line<'_> {
     }
 }
 
-/// A header and what stands below it; the first one of a text has no header.
+/// A header and the lines below it; the first one of a text has no header.
 #[derive(Clone, Debug)]
 struct Part<'t> {
     name: String,
@@ -162,7 +165,7 @@ impl<'t> Part<'t> {
                 && object_of(&other.name) == object_of(&self.name)
     }
 
-    /// Keys of the overlay take the place of the same keys; others stand at the end.
+    /// Keys of the overlay replace the same keys; others come at the end.
     fn take_over(&mut self, overlay: Part<'t>) {
         for line in overlay.lines.into_iter().skip(1) {
             let key = line.key().map(ToString::to_string);
@@ -218,7 +221,7 @@ fn objects(parts: &[Part<'_>]) -> BTreeSet<u16> {
     whole.filter_map(|part| object_of(&part.name)).collect()
 }
 
-/// The three lists anew, where objects came or went; each line stands for the list's header.
+/// The three lists with the objects that came or went; each line has the place of the list's header.
 fn list(parts: &mut Vec<Part<'_>>, objects: &BTreeSet<u16>) {
     for list in List::ALL {
         let own: Vec<u16> = objects

@@ -27,7 +27,7 @@ impl Span {
     }
 }
 
-/// A span that stands for the caller's token number `id`, not for a stretch of text.
+/// A span of the caller's token number `id`, not of a stretch of text.
 ///
 /// The macro numbers its tokens, puts these spans into its edits and finds the
 /// token of a finding again with [`token_of`].

@@ -1,4 +1,4 @@
-//! What a check is about: one value or one object, with the description it belongs to.
+//! Subject of a check: one value or one object, with the description it belongs to.
 
 use core::ops::Deref;
 
@@ -12,7 +12,7 @@ use crate::span::{Span, Spanned};
 pub(crate) trait Subject {
     /// The address that the finding gets.
     fn address(&self) -> Address;
-    /// Where the finding is if its own place is in no text.
+    /// Place of the finding if its own place is in no text.
     fn span(&self) -> Span;
 }
 

@@ -49,9 +49,9 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         "",
         report,
     );
-    let standing = source.findings.iter();
-    let standing = standing.filter(|finding| !mended(finding, &base, &input.statements));
-    let mut eds: Vec<Finding> = standing.cloned().chain(found).collect();
+    let left = source.findings.iter();
+    let left = left.filter(|finding| !fixed(finding, &base, &input.statements));
+    let mut eds: Vec<Finding> = left.cloned().chain(found).collect();
     eds.sort_by_key(|finding| finding.span().map_or(0, |span| span.start));
     source.allows.clone().filter(&mut eds);
     told.tell(&eds, &base, report);
@@ -84,8 +84,8 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
 }
 
 /// Did the module's statements replace what the reader could not read? So a file that
-/// cannot be changed is mended in the call.
-fn mended(finding: &Finding, base: &Description, statements: &[Statement]) -> bool {
+/// cannot be changed is fixed in the call.
+fn fixed(finding: &Finding, base: &Description, statements: &[Statement]) -> bool {
     let Some(address) = finding.object else {
         return false;
     };
@@ -155,8 +155,8 @@ struct Findings<'a> {
 impl Findings<'_> {
     /// Applies statements to `description`, which is still `before`, and checks the result.
     ///
-    /// Faults of the statements are told. What the checks find in a base is
-    /// returned; what they find in a variant that was not there `before` is told
+    /// Faults of the statements are reported. What the checks find in a base is
+    /// returned; what they find in a variant that was not there `before` is reported
     /// at the edit that made it, or at `home`.
     fn patch(
         &self,

@@ -13,10 +13,10 @@ use crate::files::Files;
 use crate::report::{Place, Report};
 use crate::words::{CODES, TYPES};
 
-/// So many faults of one EDS file are shown; the rest is counted.
+/// Errors of one EDS file that are shown; the rest is counted.
 const SHOWN: usize = 20;
 
-/// Tells the findings of the reader and of the checks about the file: those about
+/// Reports the findings about the file: those about
 /// what an edit wrote at its token, the others at `home`, the path.
 pub(crate) fn tell(
     findings: &[Finding],
@@ -44,12 +44,12 @@ pub(crate) fn tell(
     }
 }
 
-/// The edits of one patch: whom to blame for what was sound before them.
+/// The edits of one patch, which made findings that were not there before them.
 pub(crate) struct Patch<'a> {
     pub(crate) edits: &'a [Edit],
     /// The numbers of their tokens.
     pub(crate) tokens: Range<u32>,
-    /// Where nothing better is known: the variant's name, the path.
+    /// The place if nothing better is known: the variant's name, or the path.
     pub(crate) home: Span,
     /// "variant `x`: ", or nothing for the base.
     pub(crate) context: &'a str,
@@ -57,7 +57,7 @@ pub(crate) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Tells what the edits made unsound.
+    /// Reports what the edits made unsound.
     pub(crate) fn blame(
         &self,
         findings: &[Finding],

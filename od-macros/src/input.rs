@@ -322,7 +322,7 @@ fn recover<T>(body: ParseStream, result: syn::Result<T>, report: &mut Report) ->
     None
 }
 
-/// Does a statement begin here? The word alone does not say it: `eds` is also the
+/// Does a statement begin here? The word does not tell: `eds` is also the
 /// end of `device.eds`.
 fn starts_statement(body: ParseStream) -> bool {
     let ahead = body.fork();

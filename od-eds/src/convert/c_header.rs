@@ -113,7 +113,7 @@ fn c_string(text: &str) -> String {
     out
 }
 
-/// What can stand in a C comment of one line.
+/// The text as one line of a C comment.
 fn comment(text: &str) -> String {
     let one_line = text.replace(['\n', '\r'], " ");
     one_line.replace("*/", "* /").replace("/*", "/ *")

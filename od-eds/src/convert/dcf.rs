@@ -1,4 +1,4 @@
-//! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
+//! The content of a DCF that an EDS lacks: one device, configured (CiA 306-1, chapter 5).
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -13,16 +13,13 @@ use crate::span::Spanned;
 ///
 /// # Errors
 ///
-/// The object does not exist or cannot be written, or the value is not one of it; in words.
+/// The object does not exist, is not writable, or the value is not valid; in words.
 pub fn set(description: &mut Description, object: &str, text: &str) -> Result<(), String> {
     let tables = Tables::new(description);
     let entry = values::find(tables.dictionary(), object)?;
     let (address, data_type) = (entry.address, entry.data_type);
     if !entry.access.writable() {
-        return Err(format!(
-            "{object} is {}: it has no value to set",
-            entry.access
-        ));
+        return Err(format!("{object} is `{}` and cannot be set", entry.access));
     }
     let bytes = values::parse(data_type, text).map_err(|why| format!("{object}: {why}"))?;
     let value = Value::from_wire(data_type, bytes);
@@ -31,7 +28,7 @@ pub fn set(description: &mut Description, object: &str, text: &str) -> Result<()
         .objects
         .get_mut(&address.index)
         .and_then(|object| object.entries.get_mut(&address.sub))
-        .ok_or_else(|| format!("there is no object {object}"))?;
+        .ok_or_else(|| format!("object {object} does not exist"))?;
     if let Some(number) = value.integer(node_id) {
         let limit = |limit: &Option<Spanned<Value>>| limit.as_ref()?.integer(node_id);
         let (low, high) = (limit(&described.low), limit(&described.high));

@@ -15,7 +15,7 @@ pub const HEAD: [&str; 9] = [
 /// One row.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Cells {
-    /// Where the value is; `None` for the head of an object with members.
+    /// Address of the value; `None` for the head of an object with sub-objects.
     pub address: Option<Address>,
     /// By [`HEAD`]. Names of members are indented by two blanks.
     pub cells: [String; 9],
@@ -157,7 +157,7 @@ pub fn identity(dictionary: Dictionary<'_>) -> Vec<Vec<String>> {
     lines
 }
 
-/// Adds a section with a table to a page; nothing if there are no lines.
+/// Adds a section with a table to a page; nothing without lines.
 pub fn section(page: &mut String, title: &str, head: &[&str], lines: &[Vec<String>]) {
     if !lines.is_empty() {
         page.push_str(&format!("\n## {title}\n\n"));

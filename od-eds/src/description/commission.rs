@@ -1,4 +1,4 @@
-//! What a DCF says more than an EDS: one device of the kind, configured (CiA 306-1, chapter 5).
+//! The content of a DCF that an EDS lacks: one device, configured (CiA 306-1, chapter 5).
 
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -67,7 +67,7 @@ impl Value {
 
 /// One value of an object: what an EDS section with a DataType says.
 ///
-/// Two are equal if they say the same, wherever they stand.
+/// Two are equal if they say the same, in any place of a text.
 #[derive(Clone, Debug)]
 pub struct EntryDescription {
     /// ParameterName.
@@ -169,7 +169,7 @@ impl EntryDescription {
             .filter(|value| !value.is_empty())
     }
 
-    /// The group that saves this value when it stands at `address`.
+    /// The group that saves this value at `address`.
     pub fn group_at(&self, address: Address) -> Group {
         match &self.group {
             Some(group) => group.value,
@@ -187,7 +187,7 @@ impl EntryDescription {
 
 /// One object: a VAR with its one entry, or an ARRAY or RECORD with its members.
 ///
-/// Two are equal if they say the same, wherever they stand.
+/// Two are equal if they say the same, in any place of a text.
 #[derive(Clone, Debug)]
 pub struct ObjectDescription {
     /// ObjectType; VAR where the text says nothing.
@@ -292,7 +292,7 @@ impl Description {
         })
     }
 
-    /// What a DCF's `[DeviceComissioning]` says of the node and its network, in either
+    /// The node and its network by a DCF's `[DeviceComissioning]`, in either
     /// spelling; what is empty or none of its kind is missing.
     pub fn commissioning(&self) -> Option<Commissioning<'_>> {
         let section = self
@@ -321,7 +321,7 @@ impl Description {
     }
 }
 
-/// What a DCF says of one node and its network (CiA 306-1, DeviceComissioning).
+/// One node and its network in a DCF (CiA 306-1, DeviceComissioning).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Commissioning<'a> {
     /// Node ID, 1–127; `None` for 255, which is a node without one.

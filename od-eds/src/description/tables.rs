@@ -150,7 +150,7 @@ impl Tables {
             offset: if len == 0 { 0 } else { *offset },
             len,
         };
-        // Four gigabytes of values are no device; whoever makes one up gets no panic.
+        // No device has four gigabytes of values; a file that claims them causes no panic.
         *offset = offset.saturating_add(u32::from(len));
         Some(Entry {
             address,

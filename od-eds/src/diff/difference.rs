@@ -18,7 +18,7 @@ pub enum Impact {
     Breaking,
 }
 
-/// What of an object or entry is different.
+/// The property of an object or an entry that differs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -26,13 +26,13 @@ pub enum Impact {
     serde(rename_all = "kebab-case")
 )]
 pub enum Field {
-    /// The whole object stands in the second alone.
+    /// Only the second dictionary has the object.
     ObjectAdded,
-    /// The whole object stands in the first alone.
+    /// Only the first dictionary has the object.
     ObjectRemoved,
-    /// The sub-index stands in the second alone.
+    /// Only the second dictionary has the sub-object.
     EntryAdded,
-    /// The sub-index stands in the first alone.
+    /// Only the first dictionary has the sub-object.
     EntryRemoved,
     /// VAR, ARRAY, RECORD …
     ObjectCode,
@@ -83,13 +83,13 @@ pub struct Difference {
     pub sub: Option<u8>,
     /// Name of the entry or object; the second's, if it has one.
     pub name: String,
-    /// What.
+    /// Property that differs.
     pub field: Field,
-    /// What the first says; empty where it says nothing.
+    /// Value in the first dictionary; empty if missing.
     pub before: String,
-    /// What the second says; empty where it says nothing.
+    /// Value in the second dictionary; empty if missing.
     pub after: String,
-    /// What it means for a master.
+    /// Impact on a master.
     pub impact: Impact,
 }
 

@@ -95,7 +95,7 @@ const fn storage(group: Group) -> &'static str {
     }
 }
 
-/// As an EDS writes it; empty where there is none.
+/// As an EDS writes it; empty if missing.
 fn show(dictionary: Dictionary<'_>, entry: &Entry, literal: Literal) -> String {
     let digits = entry.data_type.size().unwrap_or(1) * 2;
     match literal {

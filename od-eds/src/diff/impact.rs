@@ -16,7 +16,7 @@ pub(super) fn object_code(before: ObjectCode, after: ObjectCode) -> Impact {
     breaking(before.has_members() != after.has_members())
 }
 
-/// What could be read or written cannot any more.
+/// A master can no longer read or write a value.
 pub(super) fn access(before: Access, after: Access) -> Impact {
     breaking(before.readable() && !after.readable() || before.writable() && !after.writable())
 }
@@ -29,7 +29,7 @@ pub(super) fn mapping(before: &Entry, after: &Entry) -> Impact {
     )
 }
 
-/// What was saved is lost at power-off.
+/// A saved value is lost at power-off.
 pub(super) fn storage(after: Group) -> Impact {
     breaking(after == Group::None)
 }
@@ -50,7 +50,7 @@ pub(super) fn limits(before: &Entry, after: &Entry) -> (Impact, Impact) {
     (breaking(low), breaking(high))
 }
 
-/// Smallest and largest value of an integer entry; node ID 1 stands for all.
+/// Smallest and largest value of an integer entry; for node ID 1.
 fn range(entry: &Entry) -> Option<(i128, i128)> {
     let (low, high) = entry.data_type.integer_range()?;
     Some((
@@ -72,7 +72,7 @@ fn reals(entry: &Entry) -> (f64, f64) {
 }
 
 /// A new default breaks a master where the bus depends on it: what the device is, which
-/// identifiers it uses, when it sends and what stands in its PDOs.
+/// identifiers it uses, when it sends and what its PDOs contain.
 pub(super) fn default(after: Dictionary<'_>, address: Address) -> Impact {
     let is_record = after
         .object(address.index)

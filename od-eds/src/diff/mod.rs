@@ -1,4 +1,4 @@
-//! What two dictionaries say differently, and whether a master would notice.
+//! Differences of two dictionaries, and their impact on a master.
 //!
 //! [`compare`] reads two dictionaries entry by entry, whatever they were made from: a file, a
 //! compiled device, a variant. Order, spelling and comments of a text do not count.

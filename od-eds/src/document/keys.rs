@@ -13,7 +13,7 @@ use crate::scan::placed::{Placed, Text};
 use crate::span::Span;
 
 impl Document {
-    /// The value of a key in the sections of a name, both in any case; of keys that stand
+    /// The value of a key in the sections of a name, both in any case; of keys that are there
     /// twice the first counts. With what is behind it on its line, if that is a comment.
     pub fn get(&self, section: &str, key: &str) -> Option<&str> {
         let scan = lines::scan(&self.text);
@@ -28,7 +28,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// There is no such section, or the key or the value cannot stand in a line.
+    /// The section is missing, or the key or the value does not fit into a line.
     pub fn set(&mut self, section: &str, key: &str, value: &str) -> Result<(), EditError> {
         let edit = self.set_edit(section, key, value)?;
         self.apply(&[edit])
@@ -65,7 +65,7 @@ impl Document {
         Ok(self.lines_behind(last.start as usize, &[format!("{key}={value}")]))
     }
 
-    /// Removes a key, however often it stands in the sections of the name; `false` if it does not.
+    /// Removes a key, however often the sections of the name have it; `false` if none has.
     pub fn remove(&mut self, section: &str, key: &str) -> bool {
         let scan = lines::scan(&self.text);
         let edits: Vec<Edit> = pairs(&scan.sections, section, key)
@@ -78,7 +78,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// There is a section of the name, or a name, key or value cannot stand in a line.
+    /// A section of the name exists, or a name, key or value does not fit into a line.
     pub fn add_section(&mut self, name: &str, pairs: &[(&str, &str)]) -> Result<(), EditError> {
         one_line(name, &['[', ']'])?;
         let scan = lines::scan(&self.text);
@@ -95,7 +95,7 @@ impl Document {
         self.apply(&[edit])
     }
 
-    /// Removes the sections of a name with all that is in them; `false` if there is none.
+    /// Removes the sections of a name with all their keys; `false` if the name is missing.
     pub fn remove_section(&mut self, name: &str) -> bool {
         let scan = lines::scan(&self.text);
         let edits: Vec<Edit> = named(&scan.sections, name)

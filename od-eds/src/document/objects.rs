@@ -43,7 +43,7 @@ impl Document {
     }
 
     /// Removes an object: its sections, its members', and its entries in the lists, which
-    /// are numbered anew from there. `false` if there is no such object.
+    /// are numbered from there. `false` if the object does not exist.
     pub fn remove_object(&mut self, index: u16) -> bool {
         let scan = lines::scan(&self.text);
         let mut edits = Vec::new();

@@ -39,13 +39,13 @@ pub enum Applicability {
     Unsafe,
 }
 
-/// What mends one finding: all of its edits together, or none.
+/// The edits that remove one finding: all of them together, or none.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Fix {
     /// May it be applied without looking at it?
     pub applicability: Applicability,
-    /// What to write, and where.
+    /// Edits of the text.
     pub edits: Vec<Edit>,
 }
 
@@ -55,13 +55,13 @@ pub struct Fix {
 pub struct Edit {
     /// The stretch of text that it is about.
     pub span: Span,
-    /// What becomes of that.
+    /// Action on that text.
     pub action: Action,
-    /// What to write, `\n` for the line end of the file.
+    /// Text to write, `\n` for the line end of the file.
     pub text: String,
 }
 
-/// What an edit does with its span.
+/// Action of an edit on its span.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -137,7 +137,7 @@ impl Fix {
         self
     }
 
-    /// The fix, unless one of its edits is about what stands in no text.
+    /// The fix, unless one of its edits has no place in a text.
     pub(crate) fn placed(self) -> Option<Self> {
         let nowhere = |edit: &Edit| edit.span.line == 0 || token_of(edit.span).is_some();
         let placed = !self.edits.is_empty() && !self.edits.iter().any(nowhere);

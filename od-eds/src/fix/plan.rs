@@ -14,7 +14,7 @@ pub struct TextEdit {
     pub start: u32,
     /// The byte behind the last one; `start` where nothing is replaced.
     pub end: u32,
-    /// What to write there, with the line ends of the file.
+    /// Text to write there, with the line ends of the file.
     pub text: String,
 }
 
@@ -31,9 +31,9 @@ impl TextEdit {
     }
 }
 
-/// The replacements that mend what can be mended at once, in the order of the text.
+/// The replacements of all fixes that can be applied at once, in the order of the text.
 ///
-/// Of two fixes that meet, the first is taken; the other is for the next round.
+/// Of two fixes that meet, the first is applied; the other is for the next round.
 pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextEdit> {
     let mut planned: Vec<TextEdit> = Vec::new();
     for fix in findings.iter().filter_map(|d| applies(d, level)) {
@@ -72,7 +72,7 @@ impl Fix {
     }
 }
 
-/// Is the finding one that a run of this level mends?
+/// Does a run of this level fix the finding?
 fn applies(finding: &Finding, level: Applicability) -> Option<&Fix> {
     finding
         .fix
@@ -93,7 +93,7 @@ pub fn apply(text: &str, edits: &[TextEdit]) -> String {
     out
 }
 
-/// Where an edit is in the text.
+/// Place of an edit in the text.
 fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
     let (start, end) = (edit.span.start as usize, edit.span.end as usize);
     let (before, _, behind) = (text.get(..start)?, text.get(start..end)?, text.get(end..)?);
@@ -126,7 +126,7 @@ fn place(edit: &Edit, text: &str) -> Option<TextEdit> {
     })
 }
 
-/// How the first line of the text ends.
+/// Line end of the first line of the text.
 fn common(text: &str) -> &'static str {
     match text.find(['\n', '\r']).map(|at| &text.as_bytes()[at..]) {
         Some([b'\r', b'\n', ..]) => "\r\n",

@@ -97,7 +97,7 @@ fn objects_come_and_go_with_their_places_in_the_lists() {
 fn what_is_not_there_cannot_go() {
     let faults = overlay(BASE, "\n[2005]\nRemove=1\n[2001sub7]\nRemove=1 ; why\n");
     let faults = faults.expect_err("two faults");
-    assert_eq!(faults[0], (2, "there is no [2005] to remove".into()));
+    assert_eq!(faults[0], (2, "section [2005] to remove is missing".into()));
     assert_eq!(faults[1].0, 4);
 }
 

@@ -41,7 +41,7 @@ pub use find::missing;
 pub use raw::Raw;
 pub use target::Target;
 
-/// What an edit does.
+/// Action of an edit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Action {
     /// Makes an object or a member that is not there yet.
@@ -92,7 +92,7 @@ impl Change {
 pub struct Edit {
     /// Add, modify or remove.
     pub action: Action,
-    /// What.
+    /// Object or sub-object.
     pub target: Spanned<Target>,
     /// The fields given, in the order they were given; the span is the value's.
     pub changes: Vec<Spanned<Change>>,

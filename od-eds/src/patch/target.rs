@@ -5,7 +5,7 @@ use core::fmt;
 use crate::fact::Fact;
 use od_model::Address;
 
-/// What an edit is about: a whole object, or one of its members.
+/// The target of an edit: an object, or one of its sub-objects.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Target {
     /// Index.

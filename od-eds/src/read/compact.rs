@@ -47,7 +47,7 @@ pub(crate) fn count(
     count
 }
 
-/// The members that CompactSubObj stands for, with the names and values given for some.
+/// The members that CompactSubObj replaces, with the names and values given for some.
 pub(crate) fn expand(
     address: Address,
     template: (EntryDescription, Unread),
@@ -79,7 +79,7 @@ pub(crate) fn expand(
                 number::integer(key, &mut Vec::new()).and_then(|n| u8::try_from(n.value).ok());
             let entry = sub.and_then(|sub| Some((sub, entries.get_mut(&sub)?)));
             match entry {
-                // Of keys that stand twice, the first counts; that was named.
+                // Of duplicate keys, the first counts; that was reported.
                 Some((sub, _)) if !given.insert((compact, sub)) => {}
                 Some((sub, entry)) => {
                     let address = Address::new(address.index, sub);

@@ -1,6 +1,6 @@
 //! CompactPDO: PDO objects that a file has only by their number (CiA 306-1, DeviceInfo).
 //!
-//! Each bit of CompactPDO stands for a sub-index of the communication parameters,
+//! Each bit of CompactPDO replaces a sub-index of the communication parameters,
 //! bit 0 for sub-index 1. NrOfRXPDO and NrOfTXPDO count all PDOs; those without
 //! sections are made, lowest number first, and so is the half that a PDO lacks.
 
@@ -49,7 +49,7 @@ const DIRECTIONS: [Direction; 2] = [
     },
 ];
 
-/// The objects that CompactPDO stands for.
+/// The objects that CompactPDO replaces.
 pub(crate) fn objects(
     description: &Description,
     log: &mut Vec<Finding>,

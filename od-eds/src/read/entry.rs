@@ -30,7 +30,7 @@ pub(crate) struct Reader<'a> {
 /// Values that could not be read, kept as text.
 pub(crate) type Unread = Vec<(String, String)>;
 
-/// What an object or entry keeps as text: the keys that nobody took, in file
+/// The texts that an object or entry keeps: the keys that nobody took, in file
 /// order, then what could not be read, by key, so that reading again finds the same.
 pub(crate) fn extra(mut rest: Vec<(String, String)>, mut unread: Unread) -> Vec<(String, String)> {
     unread.sort();
@@ -117,7 +117,7 @@ impl Reader<'_> {
         Some(Spanned::new(value, given.span))
     }
 
-    /// What is written as a number, or as a word that another format has for it.
+    /// A value written as a number, or as a word of another format.
     fn coded<T>(
         &mut self,
         key: Key,
@@ -234,7 +234,7 @@ impl Reader<'_> {
         value
     }
 
-    /// The value of a key by its type; named if it is none of it. A HighLimit comes
+    /// The value of a key by its type; reported if it is not valid. A HighLimit comes
     /// with the LowLimit: between 0 and FFh of an INTEGER8, FFh is not -1.
     pub(crate) fn typed(
         &mut self,
@@ -243,7 +243,7 @@ impl Reader<'_> {
         data_type: Option<Spanned<DataType>>,
         low: Option<&Value>,
     ) -> Option<Spanned<Value>> {
-        // Without a type there are no values; that was named, or the checks will.
+        // Without a type there are no values; that was reported, or the checks will.
         let data_type = data_type.filter(|t| t.kind() != Kind::Record)?;
         let mut notes = Vec::new();
         match values::value(given, *data_type, &mut notes) {
@@ -266,7 +266,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Names what was odd about a value that was understood.
+    /// Reports a value that is understood, though not every tool would.
     fn notes(
         &mut self,
         notes: &[Note],
@@ -296,7 +296,7 @@ impl Reader<'_> {
     }
 }
 
-/// The finding about a value that is none of its type.
+/// The finding about a value that is not valid for its type.
 fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
     let formula = given.to_ascii_uppercase().contains("$NODEID");
     if formula && !data_type.holds_node_id() {

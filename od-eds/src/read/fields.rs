@@ -20,12 +20,12 @@ pub(crate) struct Fields<'a> {
     pairs: Vec<(Text<'a>, Text<'a>)>,
     /// The section header.
     pub(crate) header: Span,
-    /// What the `;StorageLocation=` comment says, if it says something known.
+    /// The group of the `;StorageLocation=` comment, if it is a known one.
     pub(crate) group: Option<Spanned<Group>>,
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of a section; of keys that stand twice, the first counts.
+    /// The fields of a section; of duplicate keys, the first.
     pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Finding>) -> Self {
         let mut pairs = placed.pairs;
         let mut twice = duplicates(&pairs, log).into_iter().peekable();
@@ -54,7 +54,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Takes the value of a key; an empty one counts as none.
+    /// Takes the value of a key; an empty one is a missing one.
     pub(crate) fn take(&mut self, key: &str) -> Option<Text<'a>> {
         let at = self
             .pairs
@@ -71,7 +71,7 @@ impl<'a> Fields<'a> {
             .any(|(k, v)| k.eq_ignore_ascii_case(key) && !v.is_empty())
     }
 
-    /// What nobody has taken, in file order; what nobody knows is named.
+    /// The keys that nobody has taken, in file order; unknown ones are reported.
     pub(crate) fn rest(self, address: Address, log: &mut Vec<Finding>) -> Vec<(String, String)> {
         unknown_object_keys(&self.pairs, address, log);
         self.pairs
@@ -105,7 +105,7 @@ pub(crate) const fn location(group: Group) -> &'static str {
     }
 }
 
-/// Names the keys that stand twice, and returns the positions of the later ones.
+/// Reports duplicate keys, and returns the positions of the later ones.
 pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Finding>) -> Vec<usize> {
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {

@@ -39,20 +39,20 @@ pub struct Module {
 /// The sub-indices that a module adds to an object.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Extension {
-    /// What each of them is.
+    /// The description of each of them.
     pub entry: EntryDescription,
-    /// How many there are.
+    /// Number of them.
     pub count: Count,
-    /// ObjExtend as it stands in the file; 0 where it is missing.
+    /// ObjExtend of the file; 0 if it is missing.
     pub extend: u8,
 }
 
-/// How a module's values fill sub-indices.
+/// The way a module's values fill sub-indices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Count {
-    /// So many new sub-indices a module.
+    /// Number of new sub-indices per module.
     Each(u8),
-    /// So many bits a module; a new sub-index when the last one is full.
+    /// Number of bits per module; a new sub-index when the last one is full.
     Bits(u8),
 }
 
@@ -82,7 +82,7 @@ pub fn connected_modules(description: &Description) -> Vec<u16> {
 ///
 /// Fixed objects are added where the device lacks them; extended objects get their
 /// sub-indices behind those that they have, and sub-index 0 counts them. A number
-/// that is no module is passed over, and so is what would go beyond sub-index 254.
+/// of no module is passed over, and so is what would go beyond sub-index 254.
 pub fn with_modules(description: &Description, numbers: &[u16]) -> Description {
     let known = modules(description);
     let mut made = description.clone();

@@ -18,7 +18,7 @@ use od_model::{Address, DataType};
 /// Types of manufacturers and profiles (CiA 301, object dictionary structure).
 const OWN: core::ops::RangeInclusive<u16> = 0x0040..=0x025F;
 
-/// What stands for a type: its number and the limits, as they are written.
+/// A type of the file: its number and the limits, as they are written.
 struct OwnType<'a> {
     data_type: Text<'a>,
     low: Option<Text<'a>>,

@@ -31,7 +31,7 @@ pub(crate) fn eds(text: &str) -> Parsed {
     sorted.parsed()
 }
 
-/// Reads the sections of objects alone, as an XDD and the modules of a device have them: no
+/// Reads only the sections of objects, as an XDD and the modules of a device have them: no
 /// list names them. Findings are in no order yet.
 pub(crate) fn objects(sections: Vec<Placed<'_>>, log: Vec<Finding>) -> Parsed {
     sorted(sections, log).parsed()
@@ -88,7 +88,7 @@ impl<'a> Sorted<'a> {
         }
     }
 
-    /// What a section is about, even if its name is not quite as it should be.
+    /// The place of a section, even if its name is not quite right.
     fn place(&mut self, section: &Placed<'_>) -> Place {
         let name = &section.name;
         let exact = place(name);
@@ -169,7 +169,7 @@ fn counts_members(own: &Placed<'_>) -> bool {
         .is_some_and(|count| count > 0)
 }
 
-/// Names a second section; what the first lacks is taken from it.
+/// Reports a second section, and adds to the first what it lacks.
 fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Finding {
     let contradict = second.pairs.iter().any(|(key, value)| {
         let same = first.get(key);

@@ -8,7 +8,7 @@ use crate::scan::number;
 use crate::scan::number::{Note, Number};
 use od_model::{DataType, Kind};
 
-/// Reads a value of a type; `None` if it is none.
+/// Reads a value of a type; `None` if it is not valid.
 ///
 /// A number that is one but does not fit comes back too, for the checks to name:
 /// as [`Value::Signed`] if it is negative, else as the type's own kind if it can.
@@ -98,7 +98,7 @@ pub(crate) fn pattern(text: &str) -> Option<Value> {
     }
 }
 
-/// The negative number that a bit pattern stands for: one as wide as the type, or
+/// The negative number of a bit pattern: one as wide as the type, or
 /// one that was sign extended to 32 or 64 bits.
 fn twos_complement(pattern: i128, data_type: DataType) -> Option<i64> {
     let (low, high) = data_type.integer_range()?;

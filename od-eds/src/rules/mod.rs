@@ -24,7 +24,7 @@ macro_rules! catalogue {
     };
 }
 
-/// What a rule is explained with: a file that breaks it, and the same file fixed.
+/// The pair of files that explains a rule: one that breaks it, and the same one fixed.
 #[cfg(feature = "explain")]
 pub struct Pair {
     /// The rule's code.

@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-/// How the characters of a file are written.
+/// Encoding of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum Encoding {
     /// ASCII only, which all encodings but UTF-16 share. What CiA 306 asks for.
@@ -58,7 +58,7 @@ impl Encoding {
 
     /// The first character of `bytes`, and how many of them it takes (0 at the end).
     ///
-    /// What is no character becomes U+FFFD; in UTF-8, where one byte of another
+    /// A byte that is not valid becomes U+FFFD; in UTF-8, where one byte of another
     /// encoding is the likeliest reason, the character of that byte in Windows-1252.
     pub(crate) fn next(self, bytes: &[u8]) -> (char, usize) {
         const WRONG: char = char::REPLACEMENT_CHARACTER;
@@ -148,7 +148,7 @@ fn utf16_without_mark(bytes: &[u8]) -> Option<Encoding> {
 /// The text of a file: by its byte order mark, else UTF-16 or UTF-8 where it is that,
 /// else Windows-1252. [`Document`](crate::Document) knows the way back.
 ///
-/// Never fails. A mark is not part of the text; what is no character becomes U+FFFD.
+/// Never fails. A mark is not part of the text; a byte that is not valid becomes U+FFFD.
 pub fn decode(bytes: &[u8]) -> Cow<'_, str> {
     let (encoding, mark) = detect(bytes);
     let rest = &bytes[mark..];

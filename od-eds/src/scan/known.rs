@@ -1,4 +1,4 @@
-//! What CiA 306 knows besides values: the sections that describe no object, and all keys.
+//! Names of CiA 306: the sections that describe no object, and all keys.
 
 use alloc::format;
 use alloc::string::String;
@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use crate::scan::names::{Place, place};
 use crate::scan::number;
 
-/// What a value of a section that describes no object is.
+/// Form of a value in a section that describes no object.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Form {
     Text,
@@ -23,7 +23,7 @@ pub(crate) enum Form {
     Time,
 }
 
-/// A section with its keys; a `#` in a name stands for a number.
+/// A section with its keys; a `#` in a name is a number.
 pub(crate) struct Known {
     pub(crate) name: &'static str,
     pub(crate) keys: &'static [(&'static str, Form)],
@@ -179,7 +179,7 @@ pub(crate) const OBJECT_KEYS: [&str; 16] = [
     "ParamRefd",
 ];
 
-/// What is known of the section of this name, and its place among [`SECTIONS`].
+/// The section of this name, and its place among [`SECTIONS`].
 pub(crate) fn section(name: &str) -> Option<(usize, &'static Known)> {
     SECTIONS
         .iter()
@@ -187,7 +187,7 @@ pub(crate) fn section(name: &str) -> Option<(usize, &'static Known)> {
         .find(|(_, known)| is(name, known.name))
 }
 
-/// What is known of a key: its spelling, unless it has a number in it, and its form.
+/// A known key: its spelling, unless it has a number in it, and its form.
 pub(crate) fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
     known.keys.iter().copied().find(|(name, _)| is(key, name))
 }
@@ -203,7 +203,7 @@ pub(crate) fn is_of_objects(name: &str) -> bool {
     module_part(name).is_some()
 }
 
-/// What a section `[M1Fixed2000]`, `[M1Fixed2000sub1]` or `[M1SubExt6000]` is about.
+/// The subject of a section `[M1Fixed2000]`, `[M1Fixed2000sub1]` or `[M1SubExt6000]`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ModulePart {
     pub(crate) module: u16,
@@ -235,7 +235,7 @@ pub(crate) fn module_part(name: &str) -> Option<ModulePart> {
     }
 }
 
-/// `2026-07-14` as `07-14-2026`; what is no such date stays.
+/// `2026-07-14` as `07-14-2026`; other texts stay.
 pub(crate) fn date(given: &str) -> String {
     let mut parts = given.splitn(3, '-');
     let turned = match (parts.next(), parts.next(), parts.next()) {
@@ -247,7 +247,7 @@ pub(crate) fn date(given: &str) -> String {
     turned.unwrap_or_else(|| given.into())
 }
 
-/// `14:30:00+02:00` as `02:30PM`; what is no such time stays.
+/// `14:30:00+02:00` as `02:30PM`; other texts stay.
 pub(crate) fn time(given: &str) -> String {
     let mut parts = given.splitn(3, ':');
     let number = |part: Option<&str>, end: u8| {

@@ -9,11 +9,11 @@ use alloc::vec::Vec;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
-/// What the scanner makes of a text.
+/// The result of scanning a text.
 pub(crate) struct Scan<'a> {
     /// Sections in file order, duplicates and all.
     pub(crate) sections: Vec<Placed<'a>>,
-    /// What was ignored, or read otherwise than it is written, in file order.
+    /// Lines that were ignored, or read otherwise than they are written, in file order.
     pub(crate) faults: Vec<Fault<'a>>,
 }
 

@@ -1,4 +1,4 @@
-//! What a section is about, by its name.
+//! The subject of a section, by its name.
 
 use alloc::format;
 use alloc::string::String;
@@ -41,7 +41,7 @@ pub(crate) enum Compact {
     Denotation,
 }
 
-/// What a section is about.
+/// Subject of a section.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Place {
     Object(u16),
@@ -62,7 +62,7 @@ impl Place {
     }
 }
 
-/// What the section of this name is about: `1018`, `1018sub2`, `1600Name` …
+/// The subject of the section of this name: `1018`, `1018sub2`, `1600Name` …
 pub(crate) fn place(name: &str) -> Place {
     for list in List::ALL {
         if name.eq_ignore_ascii_case(list.name()) {
@@ -98,7 +98,7 @@ pub(crate) fn place(name: &str) -> Place {
     }
 }
 
-/// What a section is meant to be about whose name is not quite right: `0x1018`,
+/// The likely subject of a section whose name is not quite right: `0x1018`,
 /// `1018 sub 2`, `1018_sub2`, `1018h`, `5`; `A0` only if the section describes something.
 pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
     let plain: String = name

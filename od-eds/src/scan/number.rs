@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// What was odd about a value that was understood all the same.
+/// Peculiarity of a value that is understood all the same.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Note {
     /// `5 ; five`
@@ -18,7 +18,7 @@ pub(crate) enum Note {
     TwosComplement,
     /// `0x180 + $nodeid`
     NodeId,
-    /// An OCTET_STRING that is no hexadecimal bytes.
+    /// An OCTET_STRING that is not hexadecimal.
     Characters,
     /// `true`, `false`
     Word,
@@ -95,7 +95,7 @@ fn hex_digits(text: &str) -> Option<&str> {
     text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
 }
 
-/// The digits of `1Fh` and `FF`; a word such as `add` is none.
+/// The digits of `1Fh` and `FF`; a word such as `add` is not a number.
 fn bare_hex<'a>(text: &'a str, notes: &mut Vec<Note>) -> Option<&'a str> {
     let digits = text.strip_suffix(['h', 'H']);
     let bare = digits.unwrap_or(text);

@@ -152,7 +152,7 @@ fn fill(section: &mut Canonical, description: &Description) {
                     pairs.push((key.into(), count.to_string()));
                 }
             }
-            // What it stands for has sections now.
+            // The objects that it replaces have sections now.
             for (_, value) in pairs.iter_mut().filter(|(key, _)| key == "CompactPDO") {
                 *value = "0".into();
             }

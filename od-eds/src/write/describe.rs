@@ -10,22 +10,22 @@ use crate::span::Spanned;
 use od_model::Object;
 use od_model::{Dictionary, Entry, Group, Literal};
 
-/// What an EDS says of a device besides its objects (CiA 306-1, chapters 4.5 and 4.6).
+/// The facts of a device besides its objects (CiA 306-1, chapters 4.5 and 4.6).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct About<'a> {
     /// Name of the file, `GXMM.eds`.
     pub file: &'a str,
-    /// What the device is, in a line.
+    /// Description of the device, in a line.
     pub description: &'a str,
     /// Day of the facts, `MM-DD-YYYY`: a file that is written twice says the same.
     pub date: &'a str,
-    /// Who makes it.
+    /// Vendor name.
     pub vendor: &'a str,
     /// Bit rates that it has, in kbit/s. CiA 306 has no key for 100 kbit/s.
     pub bit_rates: &'a [u16],
     /// It is an LSS slave.
     pub lss: bool,
-    /// It goes to NMT Operational by itself, if 1F80h says so, and needs no configuration.
+    /// It goes to NMT Operational without a master, if 1F80h says so, and needs no configuration.
     pub simple_boot_up: bool,
     /// Lines of `[Comments]`.
     pub comments: &'a [&'a str],

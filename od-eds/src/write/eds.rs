@@ -16,7 +16,7 @@ use crate::span::Spanned;
 /// gives the same description. For a file that other tools are to take, see
 /// [`canonical`](crate::canonical()).
 ///
-/// Reals are written in decimal, as vendors do; Lely alone expects the bit pattern.
+/// Reals are written in decimal, as vendors do; only Lely expects the bit pattern.
 pub fn write(description: &Description) -> String {
     let mut out = Text(String::new());
     for section in &description.sections {
@@ -88,7 +88,7 @@ impl Text {
         }
     }
 
-    /// A field, unless the text of what could not be read stands in its place.
+    /// A field, unless `extra` has the text that could not be read.
     fn field(&mut self, key: &str, value: &str, extra: &[(String, String)]) {
         if !extra.iter().any(|(k, _)| k.eq_ignore_ascii_case(key)) {
             self.pair(key, value);

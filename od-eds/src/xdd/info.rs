@@ -1,4 +1,4 @@
-//! What an XDD says besides its objects, as the sections that an EDS has for it.
+//! The content of an XDD besides its objects, as the sections that an EDS has for it.
 
 use alloc::format;
 use alloc::string::{String, ToString};

@@ -1,4 +1,4 @@
-//! What the device profile says of a value: its parameter, and the parameter's template.
+//! A value in the device profile: its parameter, and the parameter's template.
 
 use alloc::string::String;
 
@@ -32,7 +32,7 @@ impl<'a, 'i> Parameter<'a, 'i> {
         core::iter::once(self.own).chain(self.template)
     }
 
-    /// `access`; `read` where there is none, as the schema has it.
+    /// `access`; `read` if it is missing, as the schema has it.
     pub(super) fn access(&self, reader: &Reader<'_>) -> Option<Spanned<String>> {
         self.both()
             .find_map(|node| reader.attribute(node, "access"))
@@ -50,7 +50,7 @@ impl<'a, 'i> Parameter<'a, 'i> {
     }
 
     /// `minValue` or `maxValue` of the one range of the allowed values. Several ranges
-    /// and single values are no limits that an object dictionary has.
+    /// and single values are not limits of an object dictionary.
     pub(super) fn limit(&self, name: &'static str, reader: &Reader<'_>) -> Option<Spanned<String>> {
         let allowed = self
             .both()

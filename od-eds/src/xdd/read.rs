@@ -13,7 +13,7 @@ use crate::xdd::{info, objects};
 
 /// Reads an XDD or an XDC. Findings are in no order yet.
 ///
-/// Never fails, never panics. A text that is no well-formed XML gives an empty
+/// Never fails, never panics. A text that is not well-formed XML gives an empty
 /// description and the place where it breaks.
 pub(crate) fn parse(text: &str) -> Parsed {
     let xml = match Document::parse(text) {

@@ -9,7 +9,7 @@ use roxmltree::Node;
 use crate::finding::Finding;
 use crate::span::{Span, Spanned};
 
-/// What the parts of this module share: places and findings.
+/// Shared by the parts of this module: places and findings.
 pub(super) struct Reader<'a> {
     places: Places<'a>,
     pub(super) log: Vec<Finding>,
@@ -18,7 +18,7 @@ pub(super) struct Reader<'a> {
 /// Lines and columns of bytes.
 pub(super) struct Places<'a> {
     text: &'a str,
-    /// Where each line begins.
+    /// Start of each line.
     lines: Vec<usize>,
 }
 

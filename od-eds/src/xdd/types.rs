@@ -5,7 +5,7 @@ use roxmltree::Node;
 use crate::xdd::source::{Ids, children};
 use od_model::DataType;
 
-/// What stands for a type in an element.
+/// The type of an element.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Found {
     Type(DataType),

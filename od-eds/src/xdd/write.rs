@@ -13,7 +13,7 @@ use crate::read::values::text as value_text;
 use crate::span::Spanned;
 use od_model::{Access, Address, DataType};
 
-/// What stands around the objects.
+/// The head of the text.
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745ProfileContainer \
     xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
     xmlns=\"http://www.canopen.org/xml/1.1\">\n";
@@ -336,7 +336,7 @@ fn id(address: Address) -> String {
     format!("UID_{:04X}{:02X}", address.index, address.sub)
 }
 
-/// A value of a section; empty where there is none.
+/// A value of a section; empty if missing.
 fn value(description: &Description, section: &str, key: &str) -> String {
     description
         .section(section)
@@ -349,7 +349,7 @@ fn text_of(section: &Section, key: &str) -> String {
         .map_or(String::new(), |value| value.value.trim().into())
 }
 
-/// `07-14-2026` as `2026-07-14`; `None` for what is no such date.
+/// `07-14-2026` as `2026-07-14`; `None` for other texts.
 fn date(text: &str) -> Option<String> {
     let parts: Vec<&str> = text.split('-').collect();
     let digits = |part: &str, len| part.len() == len && part.bytes().all(|b| b.is_ascii_digit());

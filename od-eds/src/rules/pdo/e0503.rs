@@ -17,7 +17,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What an RPDO says.
+/// The sentences for an RPDO.
 const RPDO: Form = Form {
     says: "{object} \"{name}\" is `{access}` and cannot be mapped into an RPDO",
     help: "map an object with {AccessType} `wo`, `rw` or `rww`",

@@ -22,7 +22,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What a value of another type says.
+/// The sentences for a value of another type.
 const TYPE: Form = Form {
     says: "{what} is {given} but must be {right}",
     help: "write `{DataType={right}}`{fix}",

@@ -1,4 +1,4 @@
-//! What the rules about PDOs share: the entries of a mapping.
+//! Shared by the rules about PDOs: the entries of a mapping.
 
 use alloc::vec::Vec;
 
@@ -24,7 +24,7 @@ pub(crate) const fn is_communication(index: u16) -> bool {
     matches!(index, 0x1400..=0x15FF | 0x1800..=0x19FF)
 }
 
-/// How many objects a mapping says that it maps; an error if so many do not fit into a PDO. 254
+/// Number of objects that a mapping maps; an error if they do not fit into a PDO. 254
 /// and 255 are multiplexed PDOs, of which nothing is known, as of a mapping without a number.
 pub(super) fn count(object: &Object<'_>) -> Result<u8, Spanned<u64>> {
     let address = Address::new(object.index, 0);
@@ -74,7 +74,7 @@ pub(super) struct Mapped<'a> {
     pub(super) bits: u8,
 }
 
-/// What a mapping maps.
+/// The entries of a mapping.
 pub(super) fn mapped<'a>(object: &Object<'a>) -> Vec<Mapped<'a>> {
     let rpdo = maps_rpdo(object.index) == Some(true);
     let numbers = numbers(object).filter(|(_, number)| number.value != 0);
@@ -92,7 +92,7 @@ pub(super) fn mapped<'a>(object: &Object<'a>) -> Vec<Mapped<'a>> {
     mapped.collect()
 }
 
-/// What an entry with another length says.
+/// The sentence for an entry with another length.
 pub(super) const WRONG_LENGTH: &str =
     "{object} is mapped with {bits:bit|bits} but is {right:bit|bits} long";
 

@@ -17,7 +17,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What an RPDO says.
+/// The help for an RPDO.
 const RPDO: Form = Form {
     help: "write 0 to 240, 254 or 255",
     ..Form::OWN

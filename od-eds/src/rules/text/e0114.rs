@@ -15,7 +15,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What an element without the attribute says.
+/// The sentence for an element without the attribute.
 const MISSING: Form = Form {
     says: "{name} is missing",
     ..Form::OWN

@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What a file with a byte order mark says.
+/// The sentence for a file with a byte order mark.
 const MARKED: Form = Form {
     says: "file is encoded in {encoding}, with a byte order mark",
     ..Form::OWN

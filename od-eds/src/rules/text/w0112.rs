@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the first byte that is none of the encoding's characters.
+/// The finding about the first byte that is not valid in the encoding.
 pub(crate) fn finding(at: Span, encoding: Encoding) -> Finding {
     RULE.at(at).fact("encoding", encoding.name())
 }

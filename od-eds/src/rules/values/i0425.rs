@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a type that stands for one of CiA 301.
+/// The finding about a type of the file, with the place of its basic type.
 pub(crate) fn finding(given: &Text<'_>, stands_for: &Text<'_>) -> Finding {
     let finding = RULE
         .given(given)

@@ -1,4 +1,4 @@
-//! What the rules about values share: the values of an entry, and what does not fit a type.
+//! Shared by the rules about values: the values of an entry, and values that do not fit their type.
 
 use core::cmp::Ordering;
 
@@ -15,19 +15,19 @@ use crate::subject::Entry;
 /// The label at a DataType.
 pub(crate) const DECLARED: &str = "declared as {type} here";
 
-/// What a value says that is not valid for its type.
+/// The sentence for a value that is not valid for its type.
 pub(crate) const NOT_VALID: &str = "{key} `{given}` is not a valid {type}";
 
 /// The help for a value that odkit reads, though not every tool does.
 pub(super) const WRITE: &str = "write `{key={right}}`{fix}";
 
-/// What a type says that only a whole object has.
+/// The sentences for a type that only a whole object has.
 pub(crate) const WHOLE: Form = Form {
     says: "{type} is the type of a whole object",
     help: "write the type of a single value, such as `{DataType={right}}` ({right})",
 };
 
-/// What a value says that is written as a formula and is not a valid one.
+/// The help for a formula that is not valid.
 pub(super) const FORMULA: Form = Form {
     help: "write `$NODEID` and a number, such as `$NODEID+0x180`",
     ..Form::OWN
@@ -127,13 +127,13 @@ pub(super) struct Outside<'a> {
     pub(super) side: Key,
 }
 
-/// What a value below its limit says.
+/// The sentence for a value below its limit.
 pub(super) const BELOW: &str = "{key} `{value}` is less than {LowLimit} `{limit}`";
 
 /// The help for a value outside its limits.
 pub(super) const WITHIN: &str = "write {key} within the limits, or correct the limit";
 
-/// What a value above its limit says.
+/// The sentence for a value above its limit.
 pub(super) const ABOVE: Form = Form {
     says: "{key} `{value}` is greater than {HighLimit} `{limit}`",
     ..Form::OWN
@@ -188,7 +188,7 @@ pub(super) fn crossed(low: Option<&Spanned<Value>>, high: Option<&Spanned<Value>
     order == Some(Ordering::Greater)
 }
 
-/// How two values compare for every node ID; `None` if that depends on it, or they do not compare.
+/// Order of two values for every node ID; `None` if that depends on it, or they do not compare.
 fn order(a: &Value, b: &Value) -> Option<Ordering> {
     if let (Value::Real(a), Value::Real(b)) = (a, b) {
         return a.partial_cmp(b);

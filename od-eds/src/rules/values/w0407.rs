@@ -15,7 +15,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about ObjFlags that are no number.
+/// The finding about ObjFlags that are not a number.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
     RULE.given(given)
         .key(Key::ObjFlags)

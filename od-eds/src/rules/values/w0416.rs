@@ -23,7 +23,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// What a limit says whose type has no order.
+/// The sentences for a limit whose type has no order.
 const NO_LIMITS: Form = Form {
     says: "{type} has no limits, but {key} is `{given}`",
     help: "write `{key=}`{fix}, or remove the line",
@@ -37,7 +37,7 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The finding with a fix: a limit that is no value limits nothing, and others leave it out.
+/// The finding with a fix: the limit is emptied, for it limits nothing.
 pub(crate) fn emptied(finding: Finding) -> Finding {
     match finding.span() {
         Some(span) => finding.fix(Fix::unsafe_fix().replace(span, "")),

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// Names and values; an empty value is none.
+/// Names and values; an empty value is left out.
 pub(super) type Attributes = Vec<(&'static str, String)>;
 
 pub(super) fn vec_of<const N: usize>(pairs: [(&'static str, String); N]) -> Attributes {
