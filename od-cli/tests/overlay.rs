@@ -65,7 +65,7 @@ fn findings_stand_in_the_file_that_they_are_about() {
     let check = odkit(&["dump", &format!("{base}+{gone}")], "");
     assert_eq!(check.code, 1);
     assert!(
-        check.err.contains("there is no [5001] to remove"),
+        check.err.contains("section [5001] to remove is missing"),
         "{}",
         check.err
     );
