@@ -77,7 +77,7 @@ fn what_cannot_be_set_is_said() {
         (&["--to", "dcf"][..], "--node-id 5"),
         (
             &["--to", "dcf", "--node-id", "5", "--set", "6004h=1"],
-            "6004h is ro",
+            "6004h is `ro` and cannot be set",
         ),
         (
             &["--to", "dcf", "--node-id", "5", "--set", "6001h=9999999"],
