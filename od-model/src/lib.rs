@@ -21,6 +21,7 @@ mod dictionary;
 mod entry;
 mod index;
 mod needs;
+mod restricted;
 pub mod typed;
 mod types;
 mod value;
@@ -32,6 +33,7 @@ pub use address::Address;
 pub use dictionary::Dictionary;
 pub use entry::{Entry, Missing, Object, Slot};
 pub use index::{Place, bucket_count, buckets, places};
+pub use restricted::is_restricted;
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
 

@@ -95,15 +95,11 @@ impl CobId {
         self.0 & 1 << 29 != 0 || self.0 & 0x1FFF_F800 == 0
     }
 
-    /// Returns whether CiA 301 (table 40) reserves the CAN-ID for NMT, SDO, error control or LSS.
-    ///
-    /// 000h, 001h–07Fh, 101h–180h, 581h–5FFh, 601h–67Fh, 6E0h–6FFh, 701h–7FFh.
+    /// Returns whether CiA 301 reserves the CAN-ID for NMT, SDO, error control or LSS
+    /// ([`od_model::is_restricted`]); one of 29 bits never is.
     pub const fn is_restricted(self) -> bool {
         match self.can_id().as_standard() {
-            Some(id) => matches!(
-                id,
-                0x000..=0x07F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x7FF
-            ),
+            Some(id) => od_model::is_restricted(id as u32),
             None => false,
         }
     }

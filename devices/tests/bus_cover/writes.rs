@@ -50,7 +50,7 @@ fn cob_id(value: u32, has_valid_bit: bool) -> Result<(), u32> {
     let is_extended = value & 1 << 29 != 0;
     let is_kept = matches!(
         id,
-        0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x7FF
+        0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..=0x7FF
     );
     let is_off = has_valid_bit && value & 1 << 31 != 0;
     listed(is_extended || (id < 1 << 11 && (is_off || !is_kept)))

@@ -148,21 +148,22 @@ fn mapped(
     let data = frame.data();
     for (address, first, bits) in parts {
         let (from, to) = (*first as usize / 8, (first + bits).div_ceil(8) as usize);
-        let Some(bytes) = data.get(from..to) else {
+        if data.len() < to {
             break;
-        };
+        }
+        // A mapped object takes bits, wherever they begin.
+        let value = number(data, 8) >> first & (u64::MAX >> (64 - (*bits).clamp(1, 64)));
+        let value = value.to_le_bytes();
+        let bytes = &value[..bits.div_ceil(8) as usize];
         let dictionaries = devices.iter().map(VirtualDevice::dictionary);
         let entry = dictionaries
             .filter_map(|dictionary| Some((dictionary, dictionary.find(*address).ok()?)))
             .next();
         let (name, value) = match entry {
-            Some((dictionary, entry)) if first % 8 == 0 => (
+            Some((dictionary, entry)) => (
                 dictionary.text(entry.name).to_owned(),
                 values::show(entry.data_type, bytes),
             ),
-            Some((dictionary, entry)) => {
-                (dictionary.text(entry.name).to_owned(), values::hex(bytes))
-            }
             None => (address.to_string(), values::hex(bytes)),
         };
         fields.push(from, to, name, value, Some(*address));
@@ -328,5 +329,21 @@ mod tests {
             ],
         );
         check("181#05000000", &["0-4 Position value: 5 @6004h:00"]);
+    }
+
+    #[test]
+    fn a_mapped_object_has_its_own_bits() {
+        let kind = od_devices::find("gxmm").expect("it is built in");
+        let device = VirtualDevice::new(kind, NodeId::ONE);
+        let register = Address::new(0x1001, 0);
+        let frame = parse_frame("181#0AFF").expect("a frame");
+        let mut fields = Fields {
+            len: 2,
+            all: Vec::new(),
+        };
+        let parts = [(register, 0, 1), (register, 1, 3), (register, 4, 8)];
+        mapped(&mut fields, &[device], &frame, &parts);
+        let values = fields.all.into_iter().map(|field| field.value);
+        assert_eq!(values.collect::<Vec<_>>(), ["0", "5", "240 (F0h)"]);
     }
 }

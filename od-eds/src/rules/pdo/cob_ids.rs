@@ -32,7 +32,7 @@ impl CobId<'_> {
 
     /// Is it an identifier that CiA 301 keeps for another service?
     pub(super) const fn is_restricted(&self) -> bool {
-        !self.extended && !self.formula && restricted(self.identifier)
+        !self.extended && !self.formula && od_model::is_restricted(self.identifier)
     }
 
     /// Is it the COB-ID of a PDO that can be used?
@@ -76,31 +76,4 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
             formula,
         })
     })
-}
-
-/// Identifiers that CiA 301 keeps for its services: NMT, SDO, error control, LSS and others.
-const fn restricted(identifier: u32) -> bool {
-    matches!(
-        identifier,
-        0 | 0x001..=0x07F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..=0x77F | 0x780..=0x7FF
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::restricted;
-
-    #[test]
-    fn what_cia_301_keeps() {
-        for free in [
-            0x080, 0x100, 0x181, 0x57F, 0x580, 0x600, 0x680, 0x6DF, 0x700,
-        ] {
-            assert!(!restricted(free), "{free:X}");
-        }
-        for kept in [
-            0x000, 0x001, 0x101, 0x180, 0x581, 0x601, 0x6E0, 0x701, 0x7E5,
-        ] {
-            assert!(restricted(kept), "{kept:X}");
-        }
-    }
 }
