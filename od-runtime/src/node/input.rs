@@ -21,13 +21,10 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         let Some((node, mut objects)) = self.open(device, now) else {
             return;
         };
-        let id = frame.id();
         if node.state == State::Initialising || node.mute.is_some() {
-            if node.is_unconfigured() && id == CanId::standard(od_wire::lss::MASTER) {
-                node.handle_lss(&mut objects, frame);
-            }
-            return;
+            return node.handle_unconfigured(&mut objects, frame);
         }
+        let id = frame.id();
         if id == CanId::standard(0) {
             if !frame.is_remote() {
                 node.handle_nmt(&mut objects, frame);
@@ -134,6 +131,14 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
         self.finish(objects);
         self.reset_if_due(objects);
+    }
+
+    /// A frame before the boot-up message: a node without a node ID knows LSS only.
+    #[cold]
+    fn handle_unconfigured(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+        if self.is_unconfigured() && frame.id() == CanId::standard(od_wire::lss::MASTER) {
+            self.handle_lss(objects, frame);
+        }
     }
 
     /// 7E5h: LSS, where the device has it and the state allows it.
