@@ -137,8 +137,8 @@ impl Bus {
             _ => self.wiring.beside(device),
         };
         all.retain(|other| self.devices[*other].channels() > 1);
-        all.push(device);
-        all.sort_unstable();
+        let at = all.partition_point(|other| *other < device);
+        all.insert(at, device);
         all
     }
 
@@ -188,11 +188,22 @@ impl Bus {
         device: usize,
         act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
     ) -> Option<R> {
+        let (mut act, mut result) = (Some(act), None);
+        self.with_it(device, &mut |one, now| {
+            result = act.take().map(|act| act(one, now));
+        });
+        result
+    }
+
+    /// As [`with`](Self::with), once for all types of results.
+    fn with_it(&mut self, device: usize, act: &mut dyn FnMut(&mut VirtualDevice, Instant)) {
         let now = self.now;
-        let one = self.devices.get_mut(device)?;
+        let Some(one) = self.devices.get_mut(device) else {
+            return;
+        };
         let before = one.shaft_now();
         let was_powered = one.is_powered();
-        let result = act(one, now);
+        act(one, now);
         let turned = one.shaft_now() != before;
         if one.is_powered() && !was_powered {
             self.line.restart(device + 1);
@@ -202,7 +213,6 @@ impl Bus {
             self.turn_along(device);
         }
         self.tell_controllers();
-        Some(result)
     }
 
     /// A frame from outside: every device receives it, and each other's answers. Answers

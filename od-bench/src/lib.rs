@@ -18,6 +18,7 @@ mod eeprom;
 pub mod faults;
 pub mod grammar;
 mod identity;
+pub mod journal;
 mod leds;
 pub mod lesson;
 pub mod links;

@@ -1,31 +1,31 @@
 //! What a person does at the bench: power, shafts, switches, faults, EEPROMs, the wire.
 
-use od_bench::VirtualDevice;
+use od_bench::journal::frame;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
-use crate::packed;
-use crate::record::Record;
 
 #[wasm_bindgen]
 impl Bus {
     /// Switches the power.
     #[wasm_bindgen(js_name = setPower)]
     pub fn set_power(&mut self, device: usize, on: bool) {
-        self.rig.set_power(device, on);
+        self.journal.rig.set_power(device, on);
     }
 
     /// Lets the shaft run.
     #[wasm_bindgen(js_name = setRpm)]
     pub fn set_rpm(&mut self, device: usize, rpm: f64) {
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, now| device.set_rpm(rpm, now));
     }
 
     /// Brings the shaft to a number of revolutions from the sensor's zero point, at once.
     #[wasm_bindgen(js_name = turnTo)]
     pub fn turn_to(&mut self, device: usize, turns: f64) {
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, now| device.turn_to(turns, now));
     }
 
@@ -33,7 +33,7 @@ impl Bus {
     /// (0–7); they are read at the next start.
     #[wasm_bindgen(js_name = setSwitches)]
     pub fn set_switches(&mut self, device: usize, node: u8, rate: u8) {
-        self.rig.with(device, |device, now| {
+        self.journal.rig.with(device, |device, now| {
             device.set_node_switch(node, now);
             device.set_bitrate_switch(rate, now);
         });
@@ -43,6 +43,7 @@ impl Bus {
     #[wasm_bindgen(js_name = setFault)]
     pub fn set_fault(&mut self, device: usize, name: &str, broken: bool) -> bool {
         let found = self
+            .journal
             .rig
             .with(device, |device, now| device.set_fault(name, broken, now));
         found.unwrap_or_default()
@@ -51,7 +52,7 @@ impl Bus {
     /// Lets a shaft follow a profile from now on: pairs of rpm and milliseconds. An empty one
     /// leaves the shaft as it is.
     pub fn follow(&mut self, device: usize, steps: &[f64], repeats: bool) {
-        self.rig.follow(device, steps, repeats);
+        self.journal.rig.follow(device, steps, repeats);
     }
 
     /// Sends a frame every `micros` from now on; 0 ends it. `key` tells rhythms apart.
@@ -64,44 +65,42 @@ impl Bus {
         remote: bool,
         micros: f64,
     ) {
-        if let Some(frame) = packed::make(id, data, extended, remote) {
-            self.rig.repeat(key, frame, micros.max(0.0) as u64);
+        if let Some(frame) = frame(id, data, extended, remote) {
+            self.journal.rig.repeat(key, frame, micros.max(0.0) as u64);
         }
-    }
-
-    /// The bytes of a device's EEPROM.
-    pub fn eeprom(&mut self, device: usize) -> Vec<u8> {
-        self.rig
-            .with(device, |device, _| device.eeprom())
-            .unwrap_or_default()
     }
 
     /// The bytes that the EEPROM would hold if everything were saved as it is now.
     pub fn image(&mut self, device: usize) -> Vec<u8> {
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, _| device.image())
             .unwrap_or_default()
     }
 
     /// Hands a frame to one device alone, beside the wire; what it answers goes on the bus.
     pub fn deliver(&mut self, device: usize, id: u32, data: &[u8]) {
-        let Some(frame) = packed::make(id, data, false, false) else {
+        let Some(frame) = frame(id, data, false, false) else {
             return;
         };
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, now| device.handle_frame(now, &frame));
     }
 
     /// Puts bytes into a device's EEPROM; they act at the next start.
     #[wasm_bindgen(js_name = setEeprom)]
     pub fn set_eeprom(&mut self, device: usize, bytes: &[u8]) {
-        self.rig.with(device, |device, _| device.set_eeprom(bytes));
+        self.journal
+            .rig
+            .with(device, |device, _| device.set_eeprom(bytes));
     }
 
     /// Lets a device's power go in the middle of a write to its EEPROM, after so many more bytes.
     #[wasm_bindgen(js_name = cutPowerAfter)]
     pub fn cut_power_after(&mut self, device: usize, bytes: usize) {
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, _| device.cut_power_after(bytes));
     }
 
@@ -109,53 +108,26 @@ impl Bus {
     /// (none: that of the first device).
     #[wasm_bindgen(js_name = setLine)]
     pub fn set_line(&mut self, real: bool, terminators: u8, rate: Option<u16>) {
-        let line = &mut self.rig.bus.line;
+        let line = &mut self.journal.rig.bus.line;
         (line.is_real, line.terminators, line.bit_rate) = (real, terminators, rate);
     }
 
     /// Begins a new row of chances for what disturbs the wire; the same seed, the same row.
     #[wasm_bindgen(js_name = setSeed)]
     pub fn set_seed(&mut self, seed: u32) {
-        self.rig.bus.line.set_seed(seed.into());
+        self.journal.rig.bus.line.set_seed(seed.into());
     }
 
     /// Plugs a station in or out: 0 is the outside, devices count from 1.
     #[wasm_bindgen(js_name = setPlugged)]
     pub fn set_plugged(&mut self, station: usize, plugged: bool) {
-        self.rig.bus.line.set_plugged(station, plugged);
+        self.journal.rig.bus.line.set_plugged(station, plugged);
     }
 
     /// Starts the CAN controller of a station again after bus-off.
     #[wasm_bindgen(js_name = restartController)]
     pub fn restart_controller(&mut self, station: usize) {
-        self.rig.bus.restart_controller(station);
-        self.rig.settle();
+        self.journal.rig.bus.restart_controller(station);
+        self.journal.rig.settle();
     }
-
-    /// How the wire is, with the controller of the outside.
-    #[wasm_bindgen(unchecked_return_type = "LineStatus")]
-    pub fn line(&self) -> JsValue {
-        let line = &self.rig.bus.line;
-        let outside = line.controller(0);
-        let rate = line
-            .bit_rate
-            .or_else(|| self.rig.bus.devices().iter().find_map(powered_rate));
-        Record::new()
-            .with("real", line.is_real)
-            .with("terminators", line.terminators)
-            .with(
-                "fixedRate",
-                line.bit_rate.map_or(JsValue::NULL, JsValue::from),
-            )
-            .with("rate", rate.map_or(JsValue::NULL, JsValue::from))
-            .with("transmitErrors", outside.transmit)
-            .with("receiveErrors", outside.receive)
-            .with("controller", outside.condition().name())
-            .with("plugged", line.is_plugged(0))
-            .done()
-    }
-}
-
-fn powered_rate(device: &VirtualDevice) -> Option<u16> {
-    device.bit_rate().filter(|_| device.is_powered())
 }

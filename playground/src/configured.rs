@@ -1,5 +1,6 @@
 //! A device as it is set up, as a file.
 
+use od_bench::journal::Source;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
@@ -8,7 +9,7 @@ use crate::bus::Bus;
 impl Bus {
     /// A DCF (CiA 306-1) of a device: what it is, with its node ID, its bit rate and every
     /// value that is not the factory's. `name` says which of ours it is, `text` what EDS or
-    /// DCF text it was made of; one of the two.
+    /// DCF text it was made of; none of the two: what the journal says.
     ///
     /// # Errors
     /// Where there is no such device.
@@ -19,6 +20,12 @@ impl Bus {
         name: Option<String>,
         text: Option<String>,
     ) -> Result<String, JsError> {
+        let placed = self.journal.devices().get(device);
+        let (name, text) = match placed.map(|placed| &placed.source) {
+            Some(Source::Builtin { name }) if text.is_none() => (Some(name.clone()), None),
+            Some(Source::Eds { text, .. }) if name.is_none() => (None, Some(text.clone())),
+            _ => (name, text),
+        };
         let text = match (name, text) {
             (_, Some(text)) => text,
             (Some(name), None) => {
@@ -29,7 +36,8 @@ impl Bus {
             (None, None) => return Err(JsError::new("say which device it is, or its text")),
         };
         let mut description = od_eds::load(&text).description;
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, _| device.configure(&mut description))
             .ok_or_else(|| JsError::new("there is no device with this number"))?;
         Ok(od_eds::write(&description))

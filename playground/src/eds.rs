@@ -1,10 +1,9 @@
 //! EDS and DCF texts, and what odkit finds in them.
 
-use od_eds::{Eds, Finding, Severity, say};
 use wasm_bindgen::prelude::*;
 
+use crate::diagnostics::finding;
 use crate::fixes::Places;
-use crate::record::{self, Record};
 
 /// What there is to say about an EDS or DCF text.
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
@@ -13,7 +12,7 @@ pub fn check_eds(text: &str) -> Vec<JsValue> {
     od_eds::load(text)
         .findings
         .iter()
-        .map(|one| diagnostic(one, &places))
+        .map(|one| finding(one, &places))
         .collect()
 }
 
@@ -34,36 +33,4 @@ pub fn mend_eds(text: &str, guess: bool) -> String {
 #[wasm_bindgen(js_name = decodeEds)]
 pub fn decode_eds(bytes: &[u8]) -> String {
     od_eds::decode(bytes).into()
-}
-
-pub(crate) fn diagnostics(found: &[Finding], text: &str) -> JsValue {
-    let places = Places::of(text);
-    record::list(found.iter().map(|one| diagnostic(one, &places)))
-}
-
-fn diagnostic(one: &Finding, places: &Places<'_>) -> JsValue {
-    let one = say(one, &Eds);
-    let span = one.span.unwrap_or_default();
-    Record::new()
-        .with("code", one.code)
-        .with(
-            "severity",
-            match one.severity {
-                Severity::Error => "error",
-                Severity::Warning => "warning",
-                Severity::Info => "info",
-            },
-        )
-        .with("message", one.message.as_str())
-        .with("help", one.help.as_str())
-        .with("line", span.line)
-        .with("column", span.column)
-        .with(
-            "object",
-            one.address
-                .map(|address| address.to_string())
-                .unwrap_or_default(),
-        )
-        .with("fix", places.fix(one.fix.as_ref()))
-        .done()
 }

@@ -15,34 +15,14 @@ impl Bus {
     #[wasm_bindgen(js_name = describeAll)]
     pub fn describe_all(&self, frames: &[u8]) -> Vec<String> {
         let frames = frames.chunks_exact(packed::LEN);
-        frames.map(|frame| self.describe(frame)).collect()
-    }
-
-    /// One packed frame in plain words, with the names of the objects.
-    pub fn describe(&self, frame: &[u8]) -> String {
-        packed::frame(frame)
-            .map(|frame| sentence(words::explain(self.rig.bus.devices(), &frame)))
-            .unwrap_or_default()
-    }
-
-    /// The objects in a packed PDO by the mapping that stands, three numbers each:
-    /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
-    pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
-        packed::frame(frame)
-            .and_then(|frame| words::layout(self.rig.bus.devices(), &frame))
-            .unwrap_or_default()
-            .into_iter()
-            .flat_map(|(at, first, bits)| {
-                [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
-            })
-            .collect()
+        frames.map(|frame| self.words(frame)).collect()
     }
 
     /// The fields of a packed frame, one after the other; none for a frame that was disturbed.
     #[wasm_bindgen(unchecked_return_type = "Field[]")]
     pub fn fields(&self, frame: &[u8]) -> Vec<JsValue> {
         let known = packed::frame(frame).filter(|_| !packed::is_disturbed(frame));
-        let fields = known.map(|frame| words::fields(self.rig.bus.devices(), &frame));
+        let fields = known.map(|frame| words::fields(self.journal.rig.bus.devices(), &frame));
         let record = |field: words::Field| {
             let key = |at: Address| u32::from(at.index) << 8 | u32::from(at.sub);
             Record::new()
@@ -57,6 +37,15 @@ impl Bus {
                 .done()
         };
         fields.unwrap_or_default().into_iter().map(record).collect()
+    }
+}
+
+impl Bus {
+    /// A packed frame in plain words.
+    pub(crate) fn words(&self, frame: &[u8]) -> String {
+        packed::frame(frame)
+            .map(|frame| sentence(words::explain(self.journal.rig.bus.devices(), &frame)))
+            .unwrap_or_default()
     }
 }
 

@@ -17,14 +17,23 @@ impl Bus {
     /// What is wrong with the text, or with its set-up.
     #[wasm_bindgen(js_name = startLesson)]
     pub fn start_lesson(&mut self, text: &str) -> Result<(), JsError> {
-        let started = self.rig.start_lesson(text, &mut Bare(od_devices::DEVICES));
+        let started = self
+            .journal
+            .rig
+            .start_lesson(text, &mut Bare(od_devices::DEVICES));
         started.map(|_| ()).map_err(|all| error(all.first()))
+    }
+
+    /// The lesson of the journal; `null` where none is taken.
+    #[wasm_bindgen(js_name = takenLesson, unchecked_return_type = "Lesson | null")]
+    pub fn taken_lesson(&self) -> JsValue {
+        self.journal.lesson().map_or(JsValue::NULL, record)
     }
 
     /// How far the lesson is; `null` where none is taken.
     #[wasm_bindgen(unchecked_return_type = "LessonState | null")]
     pub fn lesson(&mut self) -> JsValue {
-        let Some((progress, bus)) = self.rig.lesson() else {
+        let Some((progress, bus)) = self.journal.rig.lesson() else {
             return JsValue::NULL;
         };
         let requirements = progress.requirements(bus);
@@ -47,7 +56,7 @@ impl Bus {
     /// The steps whose checkpoints were reached since the last call, counted from 0.
     #[wasm_bindgen(js_name = lessonEvents)]
     pub fn lesson_events(&mut self) -> Vec<u32> {
-        let Some((progress, _)) = self.rig.lesson() else {
+        let Some((progress, _)) = self.journal.rig.lesson() else {
             return Vec::new();
         };
         std::iter::from_fn(|| progress.poll().map(|step| step as u32)).collect()
@@ -56,7 +65,7 @@ impl Bus {
     /// Goes to a step, as if those before it had just been done; also to begin it again.
     #[wasm_bindgen(js_name = beginStep)]
     pub fn begin_step(&mut self, step: usize) {
-        if let Some((progress, bus)) = self.rig.lesson() {
+        if let Some((progress, bus)) = self.journal.rig.lesson() {
             progress.begin(step, bus);
         }
     }
@@ -64,7 +73,7 @@ impl Bus {
     /// Ends the lesson; what is on the bus stays.
     #[wasm_bindgen(js_name = endLesson)]
     pub fn end_lesson(&mut self) {
-        self.rig.end_lesson();
+        self.journal.rig.end_lesson();
     }
 
     /// Plays lines of a script, such as the solution of a step; time passes where it says so.
@@ -74,7 +83,10 @@ impl Bus {
     /// Which line cannot be read, or does not work; what the lines before it did stays done.
     #[wasm_bindgen(js_name = runScript)]
     pub fn run_script(&mut self, text: &str) -> Result<(), JsError> {
-        let result = self.rig.run_script(text, &mut Bare(od_devices::DEVICES));
+        let result = self
+            .journal
+            .rig
+            .run_script(text, &mut Bare(od_devices::DEVICES));
         result.map_err(|why| JsError::new(&why))
     }
 }

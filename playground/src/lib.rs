@@ -17,17 +17,22 @@
 
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+#[cfg(feature = "direct")]
 mod bench;
 mod bus;
 mod codec;
 #[cfg(feature = "eds")]
 mod configured;
 mod device;
+mod diagnostics;
+#[cfg(feature = "direct")]
+mod direct;
 #[cfg(feature = "eds")]
 mod eds;
 #[cfg(feature = "eds")]
 mod fixes;
 mod frames;
+mod journal;
 #[cfg(feature = "lessons")]
 mod lesson;
 #[cfg(feature = "logs")]
@@ -46,6 +51,7 @@ pub use codec::{Transfers, decode_value, encode_value, read_line, tag_names, tag
 pub use device::builtin_devices;
 #[cfg(feature = "eds")]
 pub use eds::{check_eds, decode_eds, mend_eds};
+pub use journal::read_input;
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson};
 #[cfg(feature = "logs")]

@@ -9,21 +9,12 @@ use crate::values;
 
 #[wasm_bindgen]
 impl Bus {
-    /// The object dictionary of a device, one row for each value.
-    #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
-    pub fn dictionary(&self, device: usize) -> Vec<JsValue> {
-        let Some(device) = self.rig.bus.devices().get(device) else {
-            return Vec::new();
-        };
-        values::dictionary(device.dictionary(), device.node_id().raw())
-    }
-
     /// The value of an object as a master would read it now, without a frame on the bus;
     /// `null` where there is none.
     #[wasm_bindgen(unchecked_return_type = "Value")]
     pub fn read(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
         let address = Address::new(index, sub);
-        let value = self.rig.with(device, |device, now| {
+        let value = self.journal.rig.with(device, |device, now| {
             let data_type = device.dictionary().find(address).ok()?.data_type;
             device
                 .is_powered()
@@ -47,7 +38,8 @@ impl Bus {
             let key = |address: Address| u32::from(address.index) << 8 | u32::from(address.sub);
             addresses.filter(wanted).map(key).collect()
         };
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, _| look(device))
             .unwrap_or_default()
     }
@@ -62,7 +54,8 @@ impl Bus {
             let data_type = device.dictionary().find(address).ok()?.data_type;
             Some(values::value(data_type, &saved.bytes(device, address)?))
         };
-        self.rig
+        self.journal
+            .rig
             .with(device, |device, _| look(device))
             .flatten()
             .unwrap_or(JsValue::NULL)

@@ -14,9 +14,10 @@
 //! bit rate, 3 reflections), failed attempts, 1 if it came through in the end, 1 if its
 //! sender went bus-off, and the sender's transmit error counter in two bytes.
 
+use od_bench::journal;
 use od_bench::rig::Seen;
 use od_bench::wire::Trouble;
-use od_runtime::{CanId, Frame, Instant};
+use od_runtime::{Frame, Instant};
 
 /// Bytes of a packed frame.
 pub(crate) const LEN: usize = 24;
@@ -107,27 +108,12 @@ pub(crate) fn frame(packed: &[u8]) -> Option<Frame> {
     let packed: &[u8; LEN] = packed.get(..LEN)?.try_into().ok()?;
     let raw = u32::from_le_bytes([packed[8], packed[9], packed[10], packed[11]]);
     let (flags, dlc) = (packed[12], packed[13].min(8));
-    make(
+    journal::frame(
         raw,
         &packed[16..16 + usize::from(dlc)],
         flags & EXTENDED != 0,
         flags & REMOTE != 0,
     )
-}
-
-/// A frame from its parts; of a remote one only the number of bytes counts. `None` for more
-/// than eight bytes.
-pub(crate) fn make(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame> {
-    let id = if extended {
-        CanId::extended(id)
-    } else {
-        CanId::standard(id as u16)
-    };
-    if remote {
-        Frame::remote(id, u8::try_from(data.len()).ok()?)
-    } else {
-        Frame::new(id, data)
-    }
 }
 
 #[cfg(test)]
@@ -137,9 +123,9 @@ mod tests {
     #[test]
     fn a_frame_comes_back() -> Result<(), &'static str> {
         for sent in [
-            make(0x601, &[0x40, 4, 0x60, 0], false, false),
-            make(0x701, &[0; 3], false, true),
-            make(0x1234_5678, &[1, 2, 3, 4, 5, 6, 7, 8], true, false),
+            journal::frame(0x601, &[0x40, 4, 0x60, 0], false, false),
+            journal::frame(0x701, &[0; 3], false, true),
+            journal::frame(0x1234_5678, &[1, 2, 3, 4, 5, 6, 7, 8], true, false),
         ] {
             let sent = sent.ok_or("eight bytes at most")?;
             let mut batch = Vec::new();

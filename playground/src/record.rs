@@ -1,18 +1,23 @@
 //! Plain JavaScript values: objects, byte arrays, numbers of any width.
 
+use od_bench::journal::{Sink, Value};
+use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen]
 extern "C" {
     /// A plain object.
     #[wasm_bindgen(js_name = Object)]
-    type Object;
+    pub(crate) type Object;
 
     #[wasm_bindgen(constructor, js_class = "Object")]
     fn empty_object() -> Object;
 
     #[wasm_bindgen(method, structural, indexing_setter)]
     fn set(this: &Object, key: &str, value: &JsValue);
+
+    #[wasm_bindgen(method, structural, indexing_getter)]
+    pub(crate) fn field(this: &Object, key: &str) -> JsValue;
 
     /// An array.
     #[wasm_bindgen(js_name = Array)]
@@ -30,6 +35,23 @@ extern "C" {
 
     #[wasm_bindgen(constructor, js_class = "Uint8Array")]
     fn copy_of(bytes: &[u8]) -> Bytes;
+
+    #[wasm_bindgen(method, js_class = "Uint8Array")]
+    fn slice(this: &Bytes) -> Vec<u8>;
+
+    /// Numbers that JavaScript owns.
+    #[wasm_bindgen(js_name = Float64Array)]
+    type Floats;
+
+    #[wasm_bindgen(static_method_of = Floats, js_class = "Float64Array", js_name = from)]
+    fn of(values: &Array) -> Vec<f64>;
+}
+
+impl Object {
+    /// A value as an object, if it is one.
+    pub(crate) fn of(value: &JsValue) -> Option<Self> {
+        value.is_object().then(|| value.clone().unchecked_into())
+    }
 }
 
 /// A plain object under construction.
@@ -48,6 +70,46 @@ impl Record {
 
     pub(crate) fn done(self) -> JsValue {
         self.0.into()
+    }
+}
+
+/// A field of an input, as it comes from JavaScript.
+pub(crate) fn value(found: &JsValue) -> Value {
+    if found.is_undefined() {
+        Value::Missing
+    } else if let Some(flag) = found.as_bool() {
+        Value::Flag(flag)
+    } else if let Some(number) = found.as_f64() {
+        Value::Number(number)
+    } else if let Some(text) = found.as_string() {
+        Value::Text(text)
+    } else if let Some(bytes) = found.dyn_ref::<Bytes>() {
+        Value::Bytes(bytes.slice())
+    } else if let Some(numbers) = found.dyn_ref::<Array>() {
+        Value::Numbers(Floats::of(numbers))
+    } else {
+        Value::Null
+    }
+}
+
+/// A field of an input goes to JavaScript. One of a field is named `source.name`.
+impl Sink for Record {
+    fn put(&mut self, key: &str, value: Value) {
+        let value = match value {
+            Value::Missing => return,
+            Value::Null => JsValue::NULL,
+            Value::Flag(flag) => flag.into(),
+            Value::Number(number) => number.into(),
+            Value::Text(text) => text.into(),
+            Value::Bytes(all) => bytes(&all),
+            Value::Numbers(all) => list(all.into_iter().map(JsValue::from)),
+        };
+        let Some((outer, inner)) = key.split_once('.') else {
+            return self.0.set(key, &value);
+        };
+        let object = Object::of(&self.0.field(outer)).unwrap_or_else(Object::empty_object);
+        object.set(inner, &value);
+        self.0.set(outer, &object);
     }
 }
 

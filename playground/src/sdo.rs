@@ -12,7 +12,6 @@ use wasm_bindgen::prelude::*;
 use crate::bus::Bus;
 use crate::device::valid;
 use crate::frames::sentence;
-use crate::packed;
 use crate::record::{Record, bytes, list};
 
 #[wasm_bindgen]
@@ -31,25 +30,20 @@ impl Bus {
         bytes: Option<Vec<u8>>,
     ) -> Result<u32, JsError> {
         let (node, address) = (valid(node)?, Address::new(index, sub));
-        Ok(match bytes {
-            Some(bytes) => self.rig.write(node, address, &bytes),
-            None => self.rig.read(node, address),
-        })
-    }
-
-    /// The next frame that the SDO client wants to send, packed.
-    pub fn request(&mut self) -> Option<Vec<u8>> {
-        let frame = self.rig.request()?;
-        let mut batch = Vec::new();
-        packed::push(&mut batch, self.rig.bus.now(), None, &frame);
-        Some(batch)
+        let rig = &mut self.journal.rig;
+        let job = match bytes {
+            Some(bytes) => rig.write(node, address, &bytes),
+            None => rig.read(node, address),
+        };
+        self.journal.send_requests();
+        Ok(job)
     }
 
     /// The transfers that ended since the last call.
     #[wasm_bindgen(unchecked_return_type = "Outcome[]")]
     pub fn outcomes(&mut self) -> Vec<JsValue> {
         let mut all = Vec::new();
-        while let Some(one) = self.rig.outcome() {
+        while let Some(one) = self.journal.rig.outcome() {
             all.push(self.outcome(one));
         }
         all
@@ -58,7 +52,7 @@ impl Bus {
     /// The PDOs of a device as they are now, TPDOs first.
     #[wasm_bindgen(unchecked_return_type = "Pdo[]")]
     pub fn pdos(&self, device: usize) -> Vec<JsValue> {
-        let device = self.rig.bus.devices().get(device);
+        let device = self.device(device);
         let all = device.map(pdos::pdos).unwrap_or_default();
         all.iter().map(pdo).collect()
     }
@@ -73,7 +67,7 @@ impl Bus {
         entries: &[u32],
         cob_id: Option<u32>,
     ) -> Vec<JsValue> {
-        let devices = self.rig.bus.devices();
+        let devices = self.journal.rig.bus.devices();
         let (Some(device), Some(_)) = (devices.get(device), pdos::of_mapping(mapping)) else {
             return Vec::new();
         };
@@ -102,7 +96,7 @@ impl Bus {
                 let address = one.address;
                 let abort = Response::Abort { address, code }.emit();
                 let frame = Frame::full(Channel::of(one.node).response, abort);
-                let text = sentence(words::explain(self.rig.bus.devices(), &frame));
+                let text = sentence(words::explain(self.journal.rig.bus.devices(), &frame));
                 ("aborted", JsValue::NULL, text, code)
             }
             // A `Response` in words would be a lot of code for what no node does.

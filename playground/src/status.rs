@@ -15,13 +15,7 @@ impl Bus {
     /// The NMT state, or `off`.
     #[wasm_bindgen(unchecked_return_type = "Nmt")]
     pub fn nmt(&self, device: usize) -> String {
-        let Some(device) = self
-            .rig
-            .bus
-            .devices()
-            .get(device)
-            .filter(|device| device.is_powered())
-        else {
+        let Some(device) = self.device(device).filter(|device| device.is_powered()) else {
             return "off".into();
         };
         match device.state() {
@@ -36,31 +30,23 @@ impl Bus {
     /// What the two lamps do.
     #[wasm_bindgen(unchecked_return_type = "Leds")]
     pub fn leds(&self, device: usize) -> JsValue {
-        let (green, red) = self
-            .rig
-            .bus
-            .devices()
-            .get(device)
-            .map_or(("off", "off"), |device| {
-                let (green, red) = device.leds();
-                (green.name(), red.name())
-            });
+        let (green, red) = self.device(device).map_or(("off", "off"), |device| {
+            let (green, red) = device.leds();
+            (green.name(), red.name())
+        });
         Record::new().with("green", green).with("red", red).done()
     }
 
     /// Is there power?
     pub fn powered(&self, device: usize) -> bool {
-        self.rig
-            .bus
-            .devices()
-            .get(device)
-            .is_some_and(VirtualDevice::is_powered)
+        self.device(device).is_some_and(VirtualDevice::is_powered)
     }
 
     /// Where the shaft is, or `null` where there is none.
     #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
     pub fn shaft(&mut self, device: usize) -> JsValue {
         let shaft = self
+            .journal
             .rig
             .with(device, |device, now| device.shaft(now))
             .flatten();
@@ -86,7 +72,8 @@ impl Bus {
             };
             Some((number(0x6000), number(0x6001), number(0x6004)))
         };
-        let Some((operating, per_turn, position)) = self.rig.with(device, read).flatten() else {
+        let Some((operating, per_turn, position)) = self.journal.rig.with(device, read).flatten()
+        else {
             return JsValue::NULL;
         };
         let bit = |bit: u64| operating.map(|operating| operating & bit != 0);
@@ -106,8 +93,8 @@ impl Bus {
     #[wasm_bindgen(unchecked_return_type = "Status")]
     pub fn status(&mut self, device: usize) -> JsValue {
         let (shaft, leds, nmt) = (self.shaft(device), self.leds(device), self.nmt(device));
-        let controller = self.rig.bus.line.controller(device + 1);
-        let Some(one) = self.rig.bus.devices().get(device) else {
+        let controller = self.journal.rig.bus.line.controller(device + 1);
+        let Some(one) = self.device(device) else {
             return JsValue::NULL;
         };
         let (node, rate) = one.switches();
@@ -130,8 +117,43 @@ impl Bus {
             .with("transmitErrors", controller.transmit)
             .with("receiveErrors", controller.receive)
             .with("controller", controller.condition().name())
-            .with("plugged", self.rig.bus.line.is_plugged(device + 1))
-            .with("moves", self.rig.moves(device))
+            .with("plugged", self.journal.rig.bus.line.is_plugged(device + 1))
+            .with("moves", self.journal.rig.moves(device))
             .done()
     }
+
+    /// The bytes of a device's EEPROM.
+    pub fn eeprom(&mut self, device: usize) -> Vec<u8> {
+        self.journal
+            .rig
+            .with(device, |device, _| device.eeprom())
+            .unwrap_or_default()
+    }
+
+    /// How the wire is, with the controller of the outside.
+    #[wasm_bindgen(unchecked_return_type = "LineStatus")]
+    pub fn line(&self) -> JsValue {
+        let line = &self.journal.rig.bus.line;
+        let outside = line.controller(0);
+        let rate = line
+            .bit_rate
+            .or_else(|| self.journal.rig.bus.devices().iter().find_map(powered_rate));
+        Record::new()
+            .with("real", line.is_real)
+            .with("terminators", line.terminators)
+            .with(
+                "fixedRate",
+                line.bit_rate.map_or(JsValue::NULL, JsValue::from),
+            )
+            .with("rate", rate.map_or(JsValue::NULL, JsValue::from))
+            .with("transmitErrors", outside.transmit)
+            .with("receiveErrors", outside.receive)
+            .with("controller", outside.condition().name())
+            .with("plugged", line.is_plugged(0))
+            .done()
+    }
+}
+
+fn powered_rate(device: &VirtualDevice) -> Option<u16> {
+    device.bit_rate().filter(|_| device.is_powered())
 }

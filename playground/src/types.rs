@@ -276,6 +276,67 @@ export interface FrameTemplate {
   frame: Uint8Array;
 }
 
+export interface DeviceInfo {
+  /** Short name: `gxmm`, or the file's product name. */
+  name: string;
+  /** One line for people. */
+  title: string;
+  /** The node ID that it was put on the bus with. */
+  nodeId: number;
+  source: Source;
+  objects: ObjectRecord[];
+}
+
+export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
+
+/**
+ * What changes the simulation. The journal keeps every one with its virtual moment, so
+ * that a run can be made again: for a step back, for a link, after a reload.
+ */
+export type Input =
+  | { op: 'add'; source: Source; nodeId: number; place?: number }
+  | { op: 'remove'; node: number }
+  | { op: 'send'; id: number; data: Uint8Array; extended: boolean; remote: boolean }
+  | { op: 'repeat'; key: number; id: number; data: Uint8Array; extended: boolean; remote: boolean; micros: number }
+  | { op: 'power'; node: number; on: boolean }
+  | { op: 'turn'; node: number; turns: number }
+  | { op: 'rpm'; node: number; rpm: number }
+  | { op: 'follow'; node: number; steps: number[]; repeats: boolean }
+  | { op: 'switches'; node: number; id?: number; dip?: { bit: number; on: boolean } }
+  | { op: 'fault'; node: number; name: string; on: boolean }
+  | { op: 'line'; real: boolean; terminators: number; rate: number | null }
+  | { op: 'seed'; seed: number }
+  | { op: 'plug'; station: number; on: boolean }
+  | { op: 'restart'; station: number }
+  | { op: 'cut'; node: number; bytes: number }
+  | { op: 'eeprom'; node: number; bytes: Uint8Array }
+  /** A frame for one device alone, beside the wire. */
+  | { op: 'deliver'; node: number; id: number; data: Uint8Array }
+  /** Its bench takes the place of all that was there. */
+  | { op: 'lesson'; text: string }
+  | { op: 'leave' }
+  /** Lines of a script, such as the solution of a step. */
+  | { op: 'script'; text: string };
+
+/** An input and its virtual moment in microseconds. */
+export interface Entry {
+  at: number;
+  input: Input;
+}
+
+/** What came of an input that puts a device on the bus, begins a lesson, or plays a script. */
+export interface Added {
+  /** Its number, or null where it cannot run. */
+  node: number | null;
+  diagnostics: Diagnostic[];
+}
+
+/** Entries that are new, and how many stand before them. */
+export interface JournalNews {
+  from: number;
+  entries: Entry[];
+}
+
 /** A frame that was typed, or what is wrong with it and where. Data of a remote frame: its length. */
 export type LineResult =
   | { id: number; extended: boolean; remote: boolean; data: Uint8Array; error?: undefined }

@@ -71,6 +71,13 @@ impl Rig {
         (self.asker, self.outcomes) = (asker, outcomes);
     }
 
+    /// Takes over the SDO client of a bench that goes: its transfers end.
+    pub(crate) fn take_client(&mut self, before: &mut Self) {
+        before.clear();
+        std::mem::swap(&mut self.asker, &mut before.asker);
+        std::mem::swap(&mut self.outcomes, &mut before.outcomes);
+    }
+
     /// Sends a frame from outside.
     pub fn send(&mut self, frame: &Frame) {
         let now = self.bus.now();

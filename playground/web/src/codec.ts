@@ -6,14 +6,19 @@ import type { FrameTemplate, ObjectRecord, Value } from './sim/api';
 import { T } from './texts';
 import { grouped } from './format';
 
-export { Transfers } from './wasm/core/od_playground';
+export { readInput, Transfers } from './wasm/core/od_playground';
 
 /** Before the worker has sent the module there is nothing to ask. */
 const isReady = signal(false);
 
+let arrived: () => void;
+/** Resolves when there is something to ask. */
+export const loaded = new Promise<void>((resolve) => (arrived = resolve));
+
 export function begin(module: WebAssembly.Module): void {
   if (!isReady.peek()) initSync({ module });
   isReady.value = true;
+  arrived();
 }
 
 export interface Tag {

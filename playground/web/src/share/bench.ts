@@ -2,6 +2,7 @@
 // files and the autosave; what comes in is checked to the last field, for it comes from outside.
 
 import type { Entry, Input } from '../sim/api';
+import { readInput } from '../codec';
 
 export const VERSION = 1;
 
@@ -22,36 +23,10 @@ export class NoBench extends Error {}
 
 /** Inputs of one bench; more would take minutes to make again. */
 const MOST_ENTRIES = 200_000;
-/** Longest EDS text, and longest lesson. */
-const LONGEST_TEXT = 8_000_000;
+/** Fields of inputs that are bytes. */
+const BYTES: ReadonlySet<string> = new Set(['data', 'bytes']);
 /** Latest moment: a year. */
 const LATEST = 366 * 86_400e6;
-
-type Kind = 'text' | 'place' | 'count' | 'number' | 'flag' | 'bytes' | 'name' | 'steps' | 'source' | 'dip';
-
-/** The fields of each input; those with a question mark may be missing, those with a bar null. */
-const FIELDS: Record<Input['op'], Record<string, Kind | `${Kind}?` | `${Kind}|`>> = {
-  add: { source: 'source', nodeId: 'place', place: 'place?' },
-  remove: { node: 'place' },
-  send: { id: 'count', data: 'bytes', extended: 'flag', remote: 'flag' },
-  repeat: { key: 'count', id: 'count', data: 'bytes', extended: 'flag', remote: 'flag', micros: 'count' },
-  power: { node: 'place', on: 'flag' },
-  turn: { node: 'place', turns: 'number' },
-  rpm: { node: 'place', rpm: 'number' },
-  follow: { node: 'place', steps: 'steps', repeats: 'flag' },
-  switches: { node: 'place', id: 'place?', dip: 'dip?' },
-  fault: { node: 'place', name: 'name', on: 'flag' },
-  line: { real: 'flag', terminators: 'place', rate: 'count|' },
-  seed: { seed: 'count' },
-  plug: { station: 'place', on: 'flag' },
-  restart: { station: 'place' },
-  cut: { node: 'place', bytes: 'count' },
-  eeprom: { node: 'place', bytes: 'bytes' },
-  deliver: { node: 'place', id: 'count', data: 'bytes' },
-  lesson: { text: 'text' },
-  leave: {},
-  script: { text: 'text' },
-};
 
 export function write(bench: Bench): string {
   const { entries, ...rest } = bench;
@@ -63,7 +38,7 @@ export function write(bench: Bench): string {
 export function read(text: string): Bench {
   let all: unknown;
   try {
-    all = JSON.parse(text);
+    all = JSON.parse(text, (key, value: unknown) => (BYTES.has(key) && typeof value === 'string' ? fromBase64(value) : value));
   } catch {
     throw new NoBench('cut');
   }
@@ -74,7 +49,7 @@ export function read(text: string): Bench {
   if (!Array.isArray(list) || list.length > MOST_ENTRIES) throw new NoBench('cut');
   const entries = list.map((pair: unknown): Entry => {
     if (!Array.isArray(pair)) throw new NoBench('cut');
-    return { at: number(pair[0], 0, LATEST), input: input(pair[1]) };
+    return { at: number(pair[0], 0, LATEST), input: checked(pair[1]) };
   });
   if (entries.some(({ at }, i) => i > 0 && at < entries[i - 1]!.at)) throw new NoBench('cut');
   return {
@@ -87,49 +62,12 @@ export function read(text: string): Bench {
   };
 }
 
-function input(value: unknown): Input {
-  const it = record(value);
-  const op = it['op'];
-  if (typeof op !== 'string' || !Object.hasOwn(FIELDS, op)) throw new NoBench('newer');
-  const made: Record<string, unknown> = { op };
-  for (const [name, wanted] of Object.entries(FIELDS[op as Input['op']])) {
-    const given = it[name];
-    if (given === undefined && wanted.endsWith('?')) continue;
-    made[name] = given === null && wanted.endsWith('|') ? null : field(given, wanted.replace(/[?|]$/, '') as Kind);
-  }
-  return made as Input;
-}
-
-function field(value: unknown, kind: Kind): unknown {
-  switch (kind) {
-    case 'place':
-      return whole(value, 255);
-    case 'count':
-      return whole(value, 0xffff_ffff);
-    case 'number':
-      return number(value, -1e9, 1e9);
-    case 'flag':
-      return flag(value);
-    case 'text':
-      return text(value, LONGEST_TEXT);
-    case 'name':
-      return text(value, 64);
-    case 'bytes':
-      return fromBase64(text(value, 200_000));
-    case 'steps':
-      if (!Array.isArray(value) || value.length > 2000) throw new NoBench('cut');
-      return value.map((one) => number(one, -1e9, 1e9));
-    case 'dip': {
-      const it = record(value);
-      return { bit: whole(it['bit'], 7), on: flag(it['on']) };
-    }
-    case 'source': {
-      const it = record(value);
-      const name = text(it['name'], 200);
-      if (it['kind'] === 'builtin') return { kind: 'builtin', name };
-      if (it['kind'] !== 'eds') throw new NoBench('newer');
-      return { kind: 'eds', name, text: text(it['text'], LONGEST_TEXT), lenient: flag(it['lenient']) };
-    }
+/** The module knows the inputs, and what is allowed in their fields. */
+function checked(value: unknown): Input {
+  try {
+    return readInput(value);
+  } catch (error) {
+    throw new NoBench(error instanceof Error ? error.message : 'cut');
   }
 }
 
@@ -143,18 +81,8 @@ function number(value: unknown, low: number, high: number): number {
   return value;
 }
 
-function whole(value: unknown, high: number): number {
-  if (!Number.isInteger(value)) throw new NoBench('cut');
-  return number(value, 0, high);
-}
-
 function flag(value: unknown): boolean {
   if (typeof value !== 'boolean') throw new NoBench('cut');
-  return value;
-}
-
-function text(value: unknown, longest: number): string {
-  if (typeof value !== 'string' || value.length > longest) throw new NoBench('cut');
   return value;
 }
 

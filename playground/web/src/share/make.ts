@@ -2,6 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import { setRunning, setSpeed } from '../actions';
+import { loaded } from '../codec';
 import { restore, select, still } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
@@ -58,6 +59,8 @@ export async function openText(text: string, name: string): Promise<boolean> {
 
 async function tried(action: () => void | Promise<void>, message: (why: string) => string): Promise<boolean> {
   try {
+    // The module checks what comes in.
+    await loaded;
     await action();
     return true;
   } catch (error) {

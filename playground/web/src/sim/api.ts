@@ -1,61 +1,13 @@
 // The seam between the page and the simulation: what a bus can do, and the messages
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
-import type { Builtin, Bus, Chain, decodeEds, Diagnostic, judgeAnswer, Lesson, LessonState, LineStatus, ObjectRecord, readLog, Status, Value, writeLog } from '../wasm/od_playground';
+import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
-export type { Builtin, Chain, Diagnostic, Field, FrameTemplate, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Status, Transfer, Value } from '../wasm/od_playground';
-
-export interface DeviceInfo {
-  /** Short name: `gxmm`, or the file's product name. */
-  name: string;
-  /** One line for people. */
-  title: string;
-  /** The node ID that it was put on the bus with. */
-  nodeId: number;
-  source: Source;
-  objects: ObjectRecord[];
-}
-
-export type Source = { kind: 'builtin'; name: string } | { kind: 'eds'; name: string; text: string; lenient: boolean };
+export type { Added, Builtin, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Source, Status, Transfer, Value } from '../wasm/od_playground';
 
 export interface Address {
   index: number;
   sub: number;
-}
-
-/**
- * What changes the simulation. The journal keeps every one with its virtual moment, so
- * that a run can be made again: for a step back, for a link, after a reload.
- */
-export type Input =
-  | { op: 'add'; source: Source; nodeId: number; place?: number }
-  | { op: 'remove'; node: number }
-  | { op: 'send'; id: number; data: Uint8Array; extended: boolean; remote: boolean }
-  | { op: 'repeat'; key: number; id: number; data: Uint8Array; extended: boolean; remote: boolean; micros: number }
-  | { op: 'power'; node: number; on: boolean }
-  | { op: 'turn'; node: number; turns: number }
-  | { op: 'rpm'; node: number; rpm: number }
-  | { op: 'follow'; node: number; steps: number[]; repeats: boolean }
-  | { op: 'switches'; node: number; id?: number; dip?: { bit: number; on: boolean } }
-  | { op: 'fault'; node: number; name: string; on: boolean }
-  | { op: 'line'; real: boolean; terminators: number; rate: number | null }
-  | { op: 'seed'; seed: number }
-  | { op: 'plug'; station: number; on: boolean }
-  | { op: 'restart'; station: number }
-  | { op: 'cut'; node: number; bytes: number }
-  | { op: 'eeprom'; node: number; bytes: Uint8Array }
-  /** A frame for one device alone, beside the wire. */
-  | { op: 'deliver'; node: number; id: number; data: Uint8Array }
-  /** Its bench takes the place of all that was there. */
-  | { op: 'lesson'; text: string }
-  | { op: 'leave' }
-  /** Lines of a script, such as the solution of a step. */
-  | { op: 'script'; text: string };
-
-/** An input and its virtual moment in microseconds. */
-export interface Entry {
-  at: number;
-  input: Input;
 }
 
 /** What the page asks of the bus: it changes nothing. */
@@ -93,13 +45,6 @@ export type Command =
   | { op: 'replay'; frames: Uint8Array; speed: number }
   | { op: 'drawn' };
 
-/** What came of an input that puts a device on the bus, begins a lesson, or plays a script. */
-export interface Added {
-  /** Its number, or null where it cannot run. */
-  node: number | null;
-  diagnostics: Diagnostic[];
-}
-
 /** What the worker tells the page. */
 export type Report =
   | { op: 'ready'; builtins: Builtin[]; module: WebAssembly.Module }
@@ -129,7 +74,7 @@ export interface Snapshot {
   /** The words of the last frames of the batch. */
   words: string[];
   /** The journal from here on has changed. */
-  journal: { from: number; entries: Entry[] } | null;
+  journal: JournalNews | null;
   /** Of the selected node: from the raw position to the position value; null without a shaft. */
   chain: Chain | null;
   /** Of the selected node: values of the watched objects, when they were read again. */

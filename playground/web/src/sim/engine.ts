@@ -1,7 +1,7 @@
 // The clock of the simulation. It advances the bench in slices that never take longer
 // than a budget, and hands the page one snapshot per drawn picture.
 
-import type { Address, Command, Input, Report, Snapshot, Value } from './api';
+import type { Address, Command, Input, Report, Value } from './api';
 import { FRAME_BYTES } from './packed';
 import { Replay } from './replay';
 import type { World } from './world';
@@ -84,13 +84,13 @@ export class Engine {
         this.rateFrom = { wall: performance.now(), virtual: world.bus.now() };
         break;
       case 'step':
-        world.advance(command.frames ? FARTHEST : command.micros, command.frames || MOST_FRAMES);
+        world.bus.advance(command.frames ? FARTHEST : command.micros, command.frames || MOST_FRAMES);
         this.pauseAtGoal();
         break;
       case 'back':
         this.until = null;
         world.drain();
-        world.rewind(Math.max(0, command.to));
+        world.bus.rewind(command.to);
         world.reachedGoal();
         this.tellDevices();
         this.report({ op: 'rewound', to: world.bus.now() });
@@ -112,6 +112,7 @@ export class Engine {
         this.watchedAgain = true;
         break;
       case 'transfer':
+        this.until = null;
         world.transfer(command);
         break;
       case 'ask': {
@@ -125,11 +126,9 @@ export class Engine {
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
         break;
-      case 'still': {
-        const { still } = await import('./still');
-        this.answer(command.ticket, still(world));
+      case 'still':
+        this.answer(command.ticket, world.bus.still());
         return;
-      }
       case 'dcf':
         this.isBusy = true;
         this.answer(command.ticket, await world.dcf(command.node));
@@ -147,7 +146,7 @@ export class Engine {
   }
 
   private tellDevices(): void {
-    this.report({ op: 'devices', devices: this.world.infos(), lesson: this.world.lesson });
+    this.report({ op: 'devices', devices: this.world.bus.devices(), lesson: this.world.lesson() });
     this.watchedAgain = true;
   }
 
@@ -163,7 +162,7 @@ export class Engine {
     const wall = performance.now();
     const gap = Math.min(wall - this.last, LONGEST_GAP);
     this.last = wall;
-    if (world.devices.length === 0 && world.done === world.journal.length) {
+    if (world.bus.deviceCount() === 0 && world.bus.toCome() === 0) {
       if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
       return;
     }
@@ -172,7 +171,7 @@ export class Engine {
       if (world.bus.now() >= this.until) {
         this.until = null;
         // Inputs of that very moment are part of it.
-        world.advance(0, MOST_FRAMES);
+        world.bus.advance(0, MOST_FRAMES);
         // Goals of a run that is made again were reached before.
         world.reachedGoal();
         this.tellDevices();
@@ -190,17 +189,17 @@ export class Engine {
   private pass(wall: number, micros: number): void {
     const { world } = this;
     let left = micros;
-    const known = world.devices.length;
+    const known = world.bus.deviceCount();
     while (left > 0 && world.bus.pending() < MOST_FRAMES && performance.now() - wall < BUDGET) {
-      const before = world.done;
+      const before = world.bus.toCome();
       const due = this.replay?.due ?? Infinity;
-      const passed = world.advance(Math.max(0, Math.min(left, SLICE, due - world.bus.now())), 256);
+      const passed = world.bus.advance(Math.max(0, Math.min(left, SLICE, due - world.bus.now())), 256);
       left -= passed;
       if (this.until === null && this.pauseAtGoal()) break;
       if (this.replay && world.bus.now() >= due) this.sendNext(this.replay);
-      else if (passed <= 0 && world.done === before) break;
+      else if (passed <= 0 && world.bus.toCome() === before) break;
     }
-    if (world.devices.length !== known) this.tellDevices();
+    if (world.bus.deviceCount() !== known) this.tellDevices();
   }
 
   /** A checkpoint that is reached stops time: there is something to read. */
@@ -225,15 +224,6 @@ export class Engine {
     this.rateFrom = { wall, virtual: now };
   }
 
-  /** Journal entries that the page does not know yet. */
-  private journal(): Snapshot['journal'] {
-    const { world } = this;
-    if (world.told === world.journal.length) return null;
-    const from = world.told;
-    world.told = world.journal.length;
-    return { from, entries: world.journal.slice(from) };
-  }
-
   private snapshot(wall: number): void {
     const { world, selected } = this;
     const { bus } = world;
@@ -252,8 +242,8 @@ export class Engine {
       this.watchedAt = wall;
       this.watchedAgain = false;
     }
-    const nodes = world.devices.map((_, number) => bus.status(number));
-    for (const { ticket, outcome } of world.outcomes()) this.answer(ticket, outcome);
+    const nodes = Array.from({ length: bus.deviceCount() }, (_, number) => bus.status(number));
+    for (const [ticket, outcome] of world.outcomes()) this.answer(ticket, outcome);
     this.changed = false;
     this.undrawn += 1;
     this.report(
@@ -270,7 +260,7 @@ export class Engine {
           lesson: world.lessonState(),
           frames,
           words,
-          journal: this.journal(),
+          journal: bus.news(),
           chain: bus.chain(selected),
           values,
           saved,

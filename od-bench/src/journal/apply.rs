@@ -1,0 +1,264 @@
+//! What an input does.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_wire::NodeId;
+
+use super::input::{Input, frame};
+use super::parts::{Dip, Rate, Source};
+use super::{Journal, Placed};
+use crate::device::VirtualDevice;
+use crate::grammar::problem::Problem;
+#[cfg(feature = "lessons")]
+use crate::script::Bare;
+
+/// What came of an input that puts a device on the bus, starts a lesson or runs a script.
+#[derive(Debug, Default)]
+pub struct Added {
+    /// Number of the device, 0 for a lesson; `None` if it cannot run.
+    pub node: Option<usize>,
+    /// What is wrong with it.
+    pub trouble: Trouble,
+}
+
+/// What is wrong with an EDS text, a lesson or a script.
+#[derive(Debug, Default)]
+pub enum Trouble {
+    /// Nothing.
+    #[default]
+    None,
+    /// A sentence.
+    Message(String),
+    /// Findings in the text of a device.
+    #[cfg(feature = "eds")]
+    Findings(Vec<od_eds::Finding>),
+    /// Problems in the text of a lesson.
+    Problems(Vec<Problem>),
+}
+
+impl Added {
+    fn failed(why: impl Into<String>) -> Self {
+        Self {
+            node: None,
+            trouble: Trouble::Message(why.into()),
+        }
+    }
+}
+
+impl Journal {
+    pub(super) fn apply(&mut self, input: &Input) -> Added {
+        let rig = &mut self.rig;
+        match *input {
+            Input::Add {
+                ref source,
+                node_id,
+                place,
+            } => return self.add(source, node_id, place.map(usize::from)),
+            Input::Remove { node } => {
+                rig.remove(node.into());
+                if usize::from(node) < self.devices.len() {
+                    self.devices.remove(node.into());
+                }
+            }
+            Input::Send {
+                id,
+                ref data,
+                extended,
+                remote,
+            } => {
+                if let Some(frame) = frame(id, data, extended, remote) {
+                    rig.send(&frame);
+                }
+            }
+            Input::Repeat {
+                key,
+                id,
+                ref data,
+                extended,
+                remote,
+                micros,
+            } => {
+                if let Some(frame) = frame(id, data, extended, remote) {
+                    rig.repeat(key, frame, micros.into());
+                }
+            }
+            Input::Power { node, on } => rig.set_power(node.into(), on),
+            Input::Turn { node, turns } => {
+                rig.with(node.into(), |device, now| device.turn_to(turns, now));
+            }
+            Input::Rpm { node, rpm } => {
+                rig.follow(node.into(), &[], false);
+                rig.with(node.into(), |device, now| device.set_rpm(rpm, now));
+            }
+            Input::Follow {
+                node,
+                ref steps,
+                repeats,
+            } => rig.follow(node.into(), steps, repeats),
+            Input::Switches { node, id, dip } => {
+                rig.with(node.into(), |device, now| {
+                    let (before, rate) = device.switches();
+                    let rate = match dip {
+                        Some(Dip { bit, on: true }) => rate | bit,
+                        Some(Dip { bit, on: false }) => rate & !bit,
+                        None => rate,
+                    };
+                    device.set_node_switch(id.unwrap_or(before), now);
+                    device.set_bitrate_switch(rate, now);
+                });
+            }
+            Input::Fault { node, ref name, on } => {
+                rig.with(node.into(), |device, now| device.set_fault(name, on, now));
+            }
+            Input::Line {
+                real,
+                terminators,
+                rate: Rate(rate),
+            } => {
+                let line = &mut rig.bus.line;
+                line.is_real = real;
+                line.terminators = terminators;
+                line.bit_rate = rate.map(|rate| rate as u16);
+            }
+            Input::Seed { seed } => rig.bus.line.set_seed(seed.into()),
+            Input::Plug { station, on } => rig.bus.line.set_plugged(station.into(), on),
+            Input::Restart { station } => {
+                rig.bus.restart_controller(station.into());
+                rig.settle();
+            }
+            Input::Cut { node, bytes } => {
+                let cut = |device: &mut VirtualDevice, _| device.cut_power_after(bytes as usize);
+                rig.bus.with(node.into(), cut);
+            }
+            Input::Eeprom { node, ref bytes } => {
+                rig.bus
+                    .with(node.into(), |device, _| device.set_eeprom(bytes));
+            }
+            Input::Deliver { node, id, ref data } => {
+                if let Some(frame) = frame(id, data, false, false) {
+                    rig.with(node.into(), |device, now| device.handle_frame(now, &frame));
+                }
+            }
+            Input::Lesson { ref text } => return self.start_lesson(text),
+            Input::Leave {} => self.end_lesson(),
+            Input::Script { ref text } => return self.run_script(text),
+        }
+        Added::default()
+    }
+
+    fn add(&mut self, source: &Source, node_id: u8, place: Option<usize>) -> Added {
+        let Some(id) = NodeId::new(node_id) else {
+            return Added::failed("a node ID is 1 to 127");
+        };
+        let mut added = match source {
+            Source::Builtin { name } => match self.roster.iter().find(|kind| kind.name == name) {
+                Some(kind) => Added {
+                    node: Some(self.rig.put_kind(kind, id, place)),
+                    trouble: Trouble::None,
+                },
+                None => Added::failed(format!("there is no device `{name}`")),
+            },
+            #[cfg(feature = "eds")]
+            Source::Eds { text, lenient, .. } => {
+                let options = crate::device::EdsOptions {
+                    node_id: Some(id),
+                    lenient: *lenient,
+                };
+                let (device, findings) = VirtualDevice::read_eds(text, options);
+                Added {
+                    node: device.map(|device| self.rig.put(device, place)),
+                    trouble: Trouble::Findings(findings),
+                }
+            }
+            #[cfg(not(feature = "eds"))]
+            Source::Eds { .. } => Added::failed("EDS texts are not supported"),
+        };
+        let devices = self.rig.bus.devices();
+        if let Some(node) = added.node {
+            let name = match source {
+                Source::Builtin { name } => name.clone(),
+                Source::Eds { .. } => devices.get(node).map_or("", |one| one.title()).into(),
+            };
+            let source = source.clone();
+            let placed = Placed {
+                source,
+                node_id: id,
+                name,
+            };
+            match self.devices.get_mut(node) {
+                Some(there) => *there = placed,
+                None => self.devices.push(placed),
+            }
+            // The further channels of a redundant encoder are nodes of their own.
+            for (channel, device) in (2..).zip(devices.iter().skip(self.devices.len())) {
+                self.devices.push(Placed {
+                    source: source_of(&self.devices, node),
+                    node_id: device.node_id(),
+                    name: format!("{}.{channel}", self.devices[node].name),
+                });
+            }
+            added.node = Some(node);
+        }
+        added
+    }
+}
+
+fn source_of(devices: &[Placed], node: usize) -> Source {
+    devices[node].source.clone()
+}
+
+#[cfg(feature = "lessons")]
+impl Journal {
+    fn start_lesson(&mut self, text: &str) -> Added {
+        match self.rig.start_lesson(text, &mut Bare(self.roster)) {
+            Ok(lesson) => self.lesson = Some(lesson),
+            Err(problems) => {
+                return Added {
+                    node: None,
+                    trouble: Trouble::Problems(problems),
+                };
+            }
+        }
+        let kind_of = |title: &str| self.roster.iter().find(|kind| kind.title == title);
+        let placed = |device: &VirtualDevice| {
+            let name = kind_of(device.title()).map_or(device.title(), |kind| kind.name);
+            let name = String::from(name);
+            Placed {
+                source: Source::Builtin { name: name.clone() },
+                node_id: device.node_id(),
+                name,
+            }
+        };
+        self.devices = self.rig.bus.devices().iter().map(placed).collect();
+        Added {
+            node: Some(0),
+            trouble: Trouble::None,
+        }
+    }
+
+    fn end_lesson(&mut self) {
+        self.rig.end_lesson();
+        self.lesson = None;
+    }
+
+    fn run_script(&mut self, text: &str) -> Added {
+        match self.rig.run_script(text, &mut Bare(self.roster)) {
+            Ok(()) => Added::default(),
+            Err(why) => Added::failed(why),
+        }
+    }
+}
+
+#[cfg(not(feature = "lessons"))]
+impl Journal {
+    fn start_lesson(&mut self, _: &str) -> Added {
+        Added::failed("lessons are not supported")
+    }
+
+    fn end_lesson(&mut self) {}
+
+    fn run_script(&mut self, _: &str) -> Added {
+        Added::failed("scripts are not supported")
+    }
+}

@@ -1,0 +1,214 @@
+//! A bench, and all that was done to it. What happened is told by the journal, so that the bench
+//! can be made again up to any moment: for a step back, from a link, after a reload.
+
+mod apply;
+mod field;
+mod input;
+mod parts;
+mod still;
+#[cfg(test)]
+mod tests;
+
+use std::prelude::v1::*;
+
+use od_runtime::DeviceKind;
+use od_wire::{Instant, NodeId};
+
+use crate::rig::Rig;
+
+pub use self::apply::{Added, Trouble};
+pub use self::field::{Fault, Fields, Sink, Value};
+pub use self::input::{Entry, Input, frame};
+pub use self::parts::{Dip, Rate, Source};
+
+/// Things in one portion of a run that is made again: they are thrown away in between.
+const PORTION: usize = 5000;
+
+/// A device that the journal put on the bus.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Placed {
+    /// What it was made of.
+    pub source: Source,
+    /// The node ID that it got.
+    pub node_id: NodeId,
+    /// Name of the built-in device, title of the one of a file; of a further channel `name.2`.
+    pub name: String,
+}
+
+/// A bench and its journal.
+pub struct Journal {
+    /// The bench. What is done to it from outside the journal is not made again.
+    pub rig: Rig,
+    /// The built-in devices.
+    roster: &'static [DeviceKind],
+    devices: Vec<Placed>,
+    #[cfg(feature = "lessons")]
+    lesson: Option<crate::lesson::Lesson>,
+    entries: Vec<Entry>,
+    /// Entries that have taken effect; those behind are still to come.
+    done: usize,
+    /// Entries that [`news`](Self::news) returned.
+    told: usize,
+}
+
+impl Journal {
+    /// An empty bench with these built-in devices.
+    pub fn new(roster: &'static [DeviceKind]) -> Self {
+        Self {
+            rig: Rig::default(),
+            roster,
+            devices: Vec::new(),
+            #[cfg(feature = "lessons")]
+            lesson: None,
+            entries: Vec::new(),
+            done: 0,
+            told: 0,
+        }
+    }
+
+    /// The devices on the bus.
+    pub fn devices(&self) -> &[Placed] {
+        &self.devices
+    }
+
+    /// The lesson that is taken.
+    #[cfg(feature = "lessons")]
+    pub fn lesson(&self) -> Option<&crate::lesson::Lesson> {
+        self.lesson.as_ref()
+    }
+
+    /// All entries, those that are still to come as well.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// Entries that are still to come.
+    pub fn to_come(&self) -> usize {
+        self.entries.len() - self.done
+    }
+
+    /// Returns the entries that are new since the last call, and how many stand before them;
+    /// `None` if there are none.
+    pub fn news(&mut self) -> Option<(usize, &[Entry])> {
+        let from = std::mem::replace(&mut self.told, self.entries.len());
+        (from != self.told).then(|| (from, &self.entries[from.min(self.told)..]))
+    }
+
+    /// Something is done now. What was still to come of a run before does not come any more.
+    pub fn act(&mut self, input: Input) -> Added {
+        if let Input::Lesson { .. } = input {
+            return self.begin_lesson(input);
+        }
+        self.entries.truncate(self.done);
+        self.told = self.told.min(self.done);
+        // Time passes in a script.
+        let at = self.rig.bus.now();
+        let added = self.apply(&input);
+        if added.node.is_some() || !matches!(input, Input::Add { .. }) {
+            self.record(at, input);
+        }
+        self.send_requests();
+        added
+    }
+
+    fn record(&mut self, at: Instant, input: Input) {
+        self.entries.push(Entry { at, input });
+        self.done += 1;
+    }
+
+    /// A lesson starts at zero, and what was before is gone; a wrong one leaves all as it is.
+    fn begin_lesson(&mut self, input: Input) -> Added {
+        let mut fresh = Self::new(self.roster);
+        fresh.rig.bus.line.is_real = true;
+        let added = fresh.apply(&input);
+        if added.node.is_some() {
+            fresh.rig.take_client(&mut self.rig);
+            fresh.record(Instant::ZERO, input);
+            *self = fresh;
+        }
+        added
+    }
+
+    /// Sends what the SDO client has to send, as an input like any other.
+    pub fn send_requests(&mut self) -> bool {
+        let mut any = false;
+        while let Some(frame) = self.rig.request() {
+            self.entries.truncate(self.done);
+            self.told = self.told.min(self.done);
+            let at = self.rig.bus.now();
+            self.rig.send(&frame);
+            self.record(at, Input::send(&frame));
+            any = true;
+        }
+        any
+    }
+
+    /// Lets `micros` pass, with what the journal has for them, or less if `frames` are seen
+    /// before. Returns how many passed.
+    pub fn advance(&mut self, micros: u64, frames: usize) -> u64 {
+        let start = self.rig.bus.now();
+        let end = start.plus_micros(micros);
+        let full = self.rig.pending().saturating_add(frames);
+        loop {
+            let next = self.entries.get(self.done).map(|entry| entry.at);
+            let until = next.filter(|at| *at <= end).unwrap_or(end);
+            if until > self.rig.bus.now() {
+                self.rig.pass(until, full);
+            }
+            if self.send_requests() {
+                continue;
+            }
+            let now = self.rig.bus.now();
+            if next.is_none_or(|at| now < at) || self.rig.pending() >= full {
+                return now.micros_since(start);
+            }
+            let input = &mut self.entries[self.done].input;
+            let input = std::mem::replace(input, Input::Leave {});
+            self.apply(&input);
+            self.entries[self.done].input = input;
+            self.done += 1;
+        }
+    }
+
+    /// Makes the bench as it was at `to`; what came after stays in the journal and comes again.
+    pub fn rewind(&mut self, to: Instant) {
+        self.begin();
+        self.catch_up(to);
+    }
+
+    /// Makes an empty bench, and a run that is made again as time passes. A `quiet` one does not
+    /// show what happens at its first moment.
+    pub fn restore(&mut self, entries: Vec<Entry>, quiet: bool) {
+        self.entries = entries;
+        self.told = 0;
+        self.begin();
+        if quiet {
+            self.catch_up(Instant::ZERO);
+        }
+    }
+
+    fn begin(&mut self) {
+        self.rig.clear();
+        self.rig.bus.line.is_real = true;
+        self.devices.clear();
+        #[cfg(feature = "lessons")]
+        {
+            self.lesson = None;
+        }
+        self.done = 0;
+    }
+
+    /// Goes on to `to`, and throws away what is seen.
+    fn catch_up(&mut self, to: Instant) {
+        while self.rig.bus.now() < to || self.entries.get(self.done).is_some_and(|one| one.at == to)
+        {
+            let before = self.done;
+            let left = to.micros_since(self.rig.bus.now());
+            let passed = self.advance(left, PORTION);
+            self.rig.drain();
+            if passed == 0 && self.done == before {
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! A bench without its past: what has to be done to an empty one so that it is as this one is now.
+//! Shorter than a long run, and quicker to make again.
+
+use std::prelude::v1::*;
+use std::vec;
+
+use od_wire::Instant;
+use od_wire::nmt::{Command, State};
+
+use super::input::{Entry, Input};
+use super::parts::{Dip, Rate};
+use super::{Journal, Placed};
+
+/// A device as it is now.
+struct Station {
+    turns: Option<f64>,
+    rpm: f64,
+    image: Vec<u8>,
+    eeprom: Vec<u8>,
+    /// Of the node ID, and of the bit rate.
+    switches: (u8, u8),
+    is_powered: bool,
+    broken: Vec<&'static str>,
+    state: State,
+    /// The profile that its shaft follows.
+    profile: Option<Input>,
+}
+
+impl Journal {
+    /// Returns what makes an empty bench as this one is; `None` if the devices are in an order
+    /// that adding them does not give.
+    pub fn still(&mut self) -> Option<Vec<Entry>> {
+        if !self.is_regular() {
+            return None;
+        }
+        let stations: Vec<_> = (0..self.devices.len())
+            .filter_map(|node| self.station(node))
+            .collect();
+        let mut inputs = Vec::new();
+        // While it is set up, every frame comes through.
+        inputs.push(Input::Line {
+            real: false,
+            terminators: 2,
+            rate: Rate(None),
+        });
+        let firsts = self.devices.iter().filter(|device| !is_channel(device));
+        inputs.extend(firsts.map(|device| Input::Add {
+            source: device.source.clone(),
+            node_id: device.node_id.raw(),
+            place: None,
+        }));
+        let mut each = |made: &dyn Fn(u8, &Station) -> Vec<Input>| {
+            let all = (0..).zip(&stations);
+            inputs.extend(all.flat_map(|(node, station)| made(node, station)));
+        };
+        each(&|node, one| {
+            one.turns
+                .map(|turns| Input::Turn { node, turns })
+                .into_iter()
+                .collect()
+        });
+        // What is not saved comes from a memory that it is saved in; the true one is put back
+        // afterwards, and acts at the next start.
+        each(&|node, one| {
+            vec![Input::Eeprom {
+                node,
+                bytes: one.image.clone(),
+            }]
+        });
+        each(&switches);
+        each(&|node, _| vec![Input::Power { node, on: false }]);
+        each(&|node, one| match one.is_powered {
+            true => vec![Input::Power { node, on: true }],
+            false => Vec::new(),
+        });
+        each(&|node, one| {
+            vec![Input::Eeprom {
+                node,
+                bytes: one.eeprom.clone(),
+            }]
+        });
+        each(&|node, one| {
+            let broken = one.broken.iter().map(|name| String::from(*name));
+            broken
+                .map(|name| Input::Fault {
+                    node,
+                    name,
+                    on: true,
+                })
+                .collect()
+        });
+        each(&|node, one| {
+            let data = match one.state {
+                State::Operational if one.is_powered => vec![Command::Start as u8, 0],
+                State::Stopped if one.is_powered => vec![Command::Stop as u8, 0],
+                _ => return Vec::new(),
+            };
+            vec![Input::Deliver { node, id: 0, data }]
+        });
+        // A shaft that follows a profile begins it again.
+        each(&|node, one| match &one.profile {
+            Some(profile) => vec![profile.clone()],
+            None if one.rpm != 0.0 => vec![Input::Rpm { node, rpm: one.rpm }],
+            None => Vec::new(),
+        });
+        let past = self.past();
+        inputs.extend(rhythms(&past));
+        let line = &self.rig.bus.line;
+        inputs.push(Input::Line {
+            real: line.is_real,
+            terminators: line.terminators,
+            rate: Rate(line.bit_rate.map(u32::from)),
+        });
+        let is_seed = |input: &&&Input| matches!(input, Input::Seed { .. });
+        inputs.extend(past.iter().rev().find(is_seed).map(|seed| (*seed).clone()));
+        let all = (1..=self.devices.len()).chain([0]);
+        let unplugged = all.filter(|station| !line.is_plugged(*station));
+        inputs.extend(unplugged.map(|station| Input::Plug {
+            station: station as u8,
+            on: false,
+        }));
+        let at = Instant::ZERO;
+        let entry = |input| Entry { at, input };
+        Some(inputs.into_iter().map(entry).collect())
+    }
+
+    fn station(&mut self, node: usize) -> Option<Station> {
+        let is_its = |input: &&&Input| matches!(input, Input::Follow { node: one, .. } if usize::from(*one) == node);
+        let profile = match self.rig.moves(node) {
+            true => self
+                .past()
+                .iter()
+                .rev()
+                .find(is_its)
+                .map(|input| (*input).clone()),
+            false => None,
+        };
+        self.rig.bus.with(node, |device, now| {
+            let shaft = device.shaft(now);
+            let broken = device.faults().into_iter();
+            Station {
+                turns: shaft.as_ref().map(|shaft| shaft.turns),
+                rpm: shaft.map_or(0.0, |shaft| shaft.rpm),
+                image: device.image(),
+                eeprom: device.eeprom(),
+                switches: device.switches(),
+                is_powered: device.is_powered(),
+                broken: broken.filter(|name| device.is_broken(name)).collect(),
+                state: device.state(),
+                profile,
+            }
+        })
+    }
+
+    /// What was done so far.
+    fn past(&self) -> Vec<&Input> {
+        let done = self.entries.iter().take(self.done);
+        done.map(|entry| &entry.input).collect()
+    }
+
+    /// The channels of an encoder come with its first one, behind all that is there by then.
+    fn is_regular(&self) -> bool {
+        let devices = &self.devices;
+        let is_in_place = |at: usize| {
+            !is_channel(&devices[at])
+                || at > 0 && devices[at - 1].source.name() == devices[at].source.name()
+        };
+        let moved = |input: &&Input| {
+            matches!(
+                input,
+                Input::Remove { .. } | Input::Add { place: Some(_), .. }
+            )
+        };
+        !devices.iter().any(is_channel)
+            || (0..devices.len()).all(is_in_place) && !self.past().iter().any(moved)
+    }
+}
+
+fn switches(node: u8, station: &Station) -> Vec<Input> {
+    let (id, rate) = station.switches;
+    let switches = |id, dip| Input::Switches { node, id, dip };
+    let dip = |bit| {
+        let on = rate & bit != 0;
+        switches(None, Some(Dip { bit, on }))
+    };
+    vec![switches(Some(id), None), dip(1), dip(2), dip(4)]
+}
+
+fn is_channel(device: &Placed) -> bool {
+    let rest = device.name.strip_prefix(device.source.name());
+    rest.is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Frames that are sent again and again, in the order in which their rhythms began.
+fn rhythms(past: &[&Input]) -> Vec<Input> {
+    let mut latest: Vec<(u32, &Input)> = Vec::new();
+    for input in past {
+        let Input::Repeat { key, .. } = input else {
+            continue;
+        };
+        match latest.iter_mut().find(|(one, _)| one == key) {
+            Some((_, there)) => *there = input,
+            None => latest.push((*key, input)),
+        }
+    }
+    let goes = |input: &Input| matches!(input, Input::Repeat { micros, .. } if *micros > 0);
+    let going = latest.into_iter().filter(|(_, input)| goes(input));
+    going.map(|(_, input)| input.clone()).collect()
+}

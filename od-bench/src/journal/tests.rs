@@ -1,0 +1,338 @@
+use std::collections::BTreeMap;
+
+use od_devices::DEVICES;
+use od_model::Address;
+
+use super::*;
+use crate::rig::Seen;
+
+/// Fields by name, as a program outside has them.
+#[derive(Clone, Default, PartialEq, Debug)]
+struct Record(BTreeMap<String, Value>);
+
+impl Fields for Record {
+    fn get(&self, key: &str) -> Value {
+        self.0.get(key).cloned().unwrap_or(Value::Missing)
+    }
+}
+
+impl Sink for Record {
+    fn put(&mut self, key: &str, value: Value) {
+        self.0.insert(key.into(), value);
+    }
+}
+
+fn add(name: &str, node_id: u8) -> Input {
+    let name = name.into();
+    Input::Add {
+        source: Source::Builtin { name },
+        node_id,
+        place: None,
+    }
+}
+
+/// A bench on a real line, with these inputs, a millisecond after each.
+fn bench(inputs: Vec<Input>) -> Journal {
+    let mut journal = Journal::new(DEVICES);
+    journal.restore(Vec::new(), false);
+    for input in inputs {
+        journal.act(input);
+        journal.advance(1000, usize::MAX);
+    }
+    journal
+}
+
+fn frames(journal: &mut Journal) -> Vec<String> {
+    let line = |seen: Seen| match seen {
+        Seen::Frame { at, frame, .. } => Some(format!("{} {frame}", at.as_micros())),
+        Seen::Disturbed(..) => None,
+    };
+    journal.rig.drain().into_iter().filter_map(line).collect()
+}
+
+#[test]
+fn every_input_comes_back_as_it_went() {
+    let text = || String::from("text");
+    let source = Source::Eds {
+        name: "ü.eds".into(),
+        text: text(),
+        lenient: true,
+    };
+    let place = Some(1);
+    let all = [
+        add("gxmm", 5),
+        Input::Add {
+            source,
+            node_id: 6,
+            place,
+        },
+        Input::Remove { node: 1 },
+        Input::Send {
+            id: 0x605,
+            data: vec![0x40, 4],
+            extended: false,
+            remote: true,
+        },
+        Input::Repeat {
+            key: 3,
+            id: 0x80,
+            data: Vec::new(),
+            extended: true,
+            remote: false,
+            micros: 500,
+        },
+        Input::Power { node: 0, on: false },
+        Input::Turn {
+            node: 0,
+            turns: -1.25,
+        },
+        Input::Rpm { node: 0, rpm: 60.0 },
+        Input::Follow {
+            node: 0,
+            steps: vec![60.0, 2000.0],
+            repeats: true,
+        },
+        Input::Switches {
+            node: 0,
+            id: Some(7),
+            dip: None,
+        },
+        Input::Switches {
+            node: 0,
+            id: None,
+            dip: Some(Dip { bit: 4, on: true }),
+        },
+        Input::Fault {
+            node: 0,
+            name: text(),
+            on: true,
+        },
+        Input::Line {
+            real: true,
+            terminators: 1,
+            rate: Rate(None),
+        },
+        Input::Line {
+            real: true,
+            terminators: 1,
+            rate: Rate(Some(500)),
+        },
+        Input::Seed { seed: u32::MAX },
+        Input::Plug {
+            station: 0,
+            on: false,
+        },
+        Input::Restart { station: 1 },
+        Input::Cut { node: 0, bytes: 9 },
+        Input::Eeprom {
+            node: 0,
+            bytes: vec![255; 3],
+        },
+        Input::Deliver {
+            node: 0,
+            id: 0,
+            data: vec![1, 0],
+        },
+        Input::Lesson { text: text() },
+        Input::Leave {},
+        Input::Script { text: text() },
+    ];
+    for input in all {
+        let mut record = Record::default();
+        input.clone().write(&mut record);
+        let Value::Text(op) = record.get("op") else {
+            panic!("{input:?} has no name");
+        };
+        assert_eq!(Input::read(&op, &record), Ok(input.clone()));
+        // No field may be missing, but those that say so, nor have a value of another kind.
+        for key in record.0.keys().filter(|key| *key != "op") {
+            let mut other = record.clone();
+            other.put(key, Value::Numbers(vec![f64::NAN]));
+            assert!(Input::read(&op, &other).is_err(), "{input:?}: {key}");
+        }
+    }
+}
+
+#[test]
+fn numbers_have_their_range() {
+    let turn = |node: f64, turns: f64| {
+        let mut record = Record::default();
+        record.put("node", Value::Number(node));
+        record.put("turns", Value::Number(turns));
+        Input::read("turn", &record)
+    };
+    assert_eq!(
+        turn(255.0, -1e9),
+        Ok(Input::Turn {
+            node: 255,
+            turns: -1e9
+        })
+    );
+    for (node, turns) in [
+        (-1.0, 0.0),
+        (0.5, 0.0),
+        (256.0, 0.0),
+        (0.0, 1e300),
+        (0.0, f64::NAN),
+    ] {
+        assert_eq!(turn(node, turns), Err(Fault::Cut), "{node} {turns}");
+    }
+    assert_eq!(
+        Input::read("explode", &Record::default()),
+        Err(Fault::Newer)
+    );
+}
+
+#[test]
+fn a_run_is_made_again_frame_by_frame() {
+    let sync = Input::Repeat {
+        key: 1,
+        id: 0x80,
+        data: Vec::new(),
+        extended: false,
+        remote: false,
+        micros: 700,
+    };
+    let start = Input::Send {
+        id: 0,
+        data: vec![1, 0],
+        extended: false,
+        remote: false,
+    };
+    let mut first = bench(vec![
+        add("gxmm", 5),
+        start,
+        sync,
+        Input::Rpm { node: 0, rpm: 30.0 },
+    ]);
+    // What the SDO client sends is part of the run.
+    let node = NodeId::new(5).unwrap();
+    first.rig.write(node, Address::new(0x1017, 0), &[5, 0]);
+    first.send_requests();
+    first.advance(20_000, usize::MAX);
+    assert!(first.rig.outcome().is_some_and(|one| one.result.is_ok()));
+    let run = frames(&mut first);
+    assert!(
+        run.len() > 30
+            && run
+                .iter()
+                .any(|line| line.ends_with("605#2B17100005000000"))
+    );
+
+    let mut second = Journal::new(DEVICES);
+    second.restore(first.entries().to_vec(), false);
+    second.advance(first.rig.bus.now().as_micros(), usize::MAX);
+    assert_eq!(frames(&mut second), run);
+
+    // A step back: the rest comes again, until something else is done.
+    let half = Instant::from_micros(second.rig.bus.now().as_micros() / 2);
+    second.rewind(half);
+    assert!(frames(&mut second).is_empty());
+    second.advance(first.rig.bus.now().micros_since(half), usize::MAX);
+    let rest: Vec<_> = run
+        .iter()
+        .filter(|line| {
+            let at: u64 = line.split(' ').next().unwrap().parse().unwrap();
+            at > half.as_micros()
+        })
+        .cloned()
+        .collect();
+    assert_eq!(frames(&mut second), rest);
+    second.rewind(Instant::ZERO);
+    assert!(second.to_come() > 0);
+    second.act(Input::Power { node: 0, on: false });
+    assert_eq!(second.to_come(), 0);
+}
+
+#[test]
+fn news_are_told_once_and_begin_where_they_differ() {
+    let mut journal = bench(vec![add("gxmm", 5), Input::Seed { seed: 1 }]);
+    assert_eq!(
+        journal.news().map(|(from, all)| (from, all.len())),
+        Some((0, 2))
+    );
+    assert_eq!(journal.news(), None);
+    journal.rewind(Instant::ZERO);
+    journal.act(Input::Seed { seed: 2 });
+    assert_eq!(
+        journal.news().map(|(from, all)| (from, all.len())),
+        Some((1, 1))
+    );
+    assert!(journal.act(add("none", 5)).node.is_none());
+    assert!(matches!(
+        journal.act(add("gxmm", 0)).trouble,
+        Trouble::Message(_)
+    ));
+    assert_eq!(journal.news(), None);
+}
+
+#[test]
+fn a_bench_without_its_past_is_as_it_was() {
+    let write = Input::Send {
+        id: 0x605,
+        data: vec![0x2B, 0x17, 0x10, 0, 0xF4, 1, 0, 0],
+        extended: false,
+        remote: false,
+    };
+    let start = Input::Send {
+        id: 0,
+        data: vec![1, 5],
+        extended: false,
+        remote: false,
+    };
+    let mut first = bench(vec![
+        add("gxmm", 5),
+        Input::Turn {
+            node: 0,
+            turns: 3.25,
+        },
+        Input::Switches {
+            node: 0,
+            id: None,
+            dip: Some(Dip { bit: 2, on: true }),
+        },
+        Input::Fault {
+            node: 0,
+            name: "battery-low".into(),
+            on: true,
+        },
+        write,
+        start,
+        Input::Plug {
+            station: 0,
+            on: false,
+        },
+    ]);
+    first.advance(1_000_000, usize::MAX);
+    let entries = first.still().expect("devices in order");
+    let mut second = Journal::new(DEVICES);
+    second.restore(entries, true);
+    assert!(frames(&mut second).is_empty());
+    let seen = |journal: &mut Journal| {
+        let plugged = journal.rig.bus.line.is_plugged(0);
+        let device = &journal.rig.bus.devices()[0];
+        let shaft = device.shaft(journal.rig.bus.now()).unwrap().turns;
+        let values = [0x1017, 0x6004].map(|index| device.stored(index, 0));
+        (
+            device.state(),
+            device.switches(),
+            device.is_broken("battery-low"),
+            shaft,
+            values,
+            plugged,
+        )
+    };
+    assert_eq!(seen(&mut first), seen(&mut second));
+    // A channel that is not behind its encoder cannot be put there again.
+    let mut moved = bench(vec![
+        add("gmm_r", 5),
+        add("gxmm", 9),
+        Input::Remove { node: 0 },
+    ]);
+    let channels = moved
+        .devices()
+        .iter()
+        .filter(|one| one.name.contains('.'))
+        .count();
+    assert_eq!(moved.still().is_none(), channels > 0);
+}

@@ -1,0 +1,121 @@
+//! Devices and frames past the journal, for a page that needs none.
+
+#[cfg(feature = "eds")]
+use od_bench::VirtualDevice;
+use od_bench::journal::frame;
+use od_bench::words;
+use wasm_bindgen::prelude::*;
+
+use crate::bus::Bus;
+use crate::device::valid;
+#[cfg(feature = "eds")]
+use crate::diagnostics::findings;
+#[cfg(feature = "eds")]
+use crate::record::Record;
+use crate::{packed, values};
+
+#[wasm_bindgen]
+impl Bus {
+    /// Puts a device of ours on the bus and gives it power; answers with its number.
+    /// `builtinDevices` lists the names. With a `place` it takes the place of the device
+    /// with that number. A redundant encoder puts its further channels behind all devices.
+    ///
+    /// # Errors
+    /// Where there is no such device, or the node ID is not 1 to 127.
+    #[wasm_bindgen(js_name = addDevice)]
+    pub fn add_device(
+        &mut self,
+        name: &str,
+        node_id: u8,
+        place: Option<usize>,
+    ) -> Result<usize, JsError> {
+        let node_id = valid(node_id)?;
+        let kind = od_devices::find(name)
+            .ok_or_else(|| JsError::new(&format!("there is no device `{name}`")))?;
+        Ok(self.journal.rig.put_kind(kind, node_id, place))
+    }
+
+    /// Puts the device that an EDS or DCF text describes on the bus and gives it power.
+    /// The answer has its number, or `null` and what is wrong with the text. A lenient bus
+    /// runs what can be run of a text with errors.
+    ///
+    /// # Errors
+    /// Where the node ID is not 1 to 127.
+    #[cfg(feature = "eds")]
+    #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
+    pub fn add_eds(
+        &mut self,
+        text: &str,
+        node_id: u8,
+        lenient: Option<bool>,
+        place: Option<usize>,
+    ) -> Result<JsValue, JsError> {
+        let options = od_bench::EdsOptions {
+            node_id: Some(valid(node_id)?),
+            lenient: lenient.unwrap_or_default(),
+        };
+        let (device, found) = VirtualDevice::read_eds(text, options);
+        let device = device.map_or(JsValue::NULL, |device| {
+            JsValue::from_f64(self.journal.rig.put(device, place) as f64)
+        });
+        Ok(Record::new()
+            .with("device", device)
+            .with("diagnostics", findings(&found, text))
+            .done())
+    }
+
+    /// Takes a device off the bus; the numbers of those behind it go down by one.
+    #[wasm_bindgen(js_name = removeDevice)]
+    pub fn remove_device(&mut self, device: usize) {
+        self.journal.rig.remove(device);
+    }
+
+    /// A name for people.
+    pub fn title(&self, device: usize) -> String {
+        self.device(device)
+            .map(|device| device.title().into())
+            .unwrap_or_default()
+    }
+
+    /// The active node ID.
+    #[wasm_bindgen(js_name = nodeId)]
+    pub fn node_id(&self, device: usize) -> u8 {
+        self.device(device)
+            .map_or(0, |device| device.node_id().raw())
+    }
+
+    /// Sends a frame from outside at the present moment. Of a remote frame only the
+    /// number of bytes counts.
+    pub fn send(&mut self, id: u32, data: &[u8], extended: bool, remote: bool) {
+        if let Some(frame) = frame(id, data, extended, remote) {
+            self.journal.rig.send(&frame);
+        }
+    }
+
+    /// One packed frame in plain words, with the names of the objects.
+    pub fn describe(&self, frame: &[u8]) -> String {
+        self.words(frame)
+    }
+
+    /// The objects in a packed PDO by the mapping that stands, three numbers each:
+    /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
+    pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
+        packed::frame(frame)
+            .and_then(|frame| words::layout(self.journal.rig.bus.devices(), &frame))
+            .unwrap_or_default()
+            .into_iter()
+            .flat_map(|(at, first, bits)| {
+                [u32::from(at.index) << 8 | u32::from(at.sub), first, bits]
+            })
+            .collect()
+    }
+
+    /// The object dictionary of a device, one row for each value.
+    #[wasm_bindgen(unchecked_return_type = "ObjectRecord[]")]
+    pub fn dictionary(&self, device: usize) -> Vec<JsValue> {
+        let Some(device) = self.device(device) else {
+            return Vec::new();
+        };
+        values::dictionary(device.dictionary(), device.node_id().raw())
+    }
+}
