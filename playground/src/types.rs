@@ -371,3 +371,27 @@ export interface Builtin {
   title: string;
 }
 "#;
+
+#[cfg(test)]
+mod tests {
+    use od_bench::journal::Input;
+
+    /// `Input` is declared as the journal reads it.
+    #[test]
+    fn inputs_are_declared_as_they_are_read() -> Result<(), String> {
+        let (_, rest) = include_str!("types.rs")
+            .split_once("export type Input =")
+            .ok_or("Input is declared")?;
+        let (declared, _) = rest.split_once("};\n").ok_or("it has an end")?;
+        let declared: Vec<_> = format!("{declared}}}")
+            .lines()
+            .filter_map(|line| Some(line.trim().strip_prefix("| ")?.to_owned()))
+            .collect();
+        let read: Vec<_> = Input::OPS
+            .iter()
+            .filter_map(|op| Input::declaration(op))
+            .collect();
+        assert_eq!(declared, read);
+        Ok(())
+    }
+}

@@ -157,7 +157,7 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
   await stays(page, 'the number of frames', () => captured(page), 300);
   await what.fill('read zz');
   await what.press('Tab');
-  await page.getByText('An object is written as').waitFor();
+  await page.getByText('is not an object address').waitFor();
   await what.fill('write 6001 = 4096');
   await what.press('Enter');
   await row(page, 'the write', (one) => one.id === '601' && one.data === '23 01 60 00 00 10 00 00');

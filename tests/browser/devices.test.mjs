@@ -67,15 +67,15 @@ DefaultValue=Pump room, second floor
 PDOMapping=0
 `;
 
-/** Drops a text as a file on the page. */
-async function drop(page, name, text) {
+/** Drops a text, or bytes, as a file on the page. */
+async function drop(page, name, content) {
   const transfer = await page.evaluateHandle(
-    ([name, text]) => {
+    ([name, bytes]) => {
       const transfer = new DataTransfer();
-      transfer.items.add(new File([text], name, { type: 'text/plain' }));
+      transfer.items.add(new File([Uint8Array.from(bytes)], name, { type: 'text/plain' }));
       return transfer;
     },
-    [name, text],
+    [name, [...Buffer.from(content)]],
   );
   await page.dispatchEvent('body', 'dragover', { dataTransfer: transfer });
   await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
@@ -98,6 +98,26 @@ check('an EDS file that is dropped runs', {}, async (page) => {
   await note(page, /0609003[01]/);
   await row(page, 'the object by its name', (one) => /Lamp brightness/.test(one.words));
 });
+
+// Windows saves with umlauts in one byte, or in UTF-16 with a mark in front.
+const UMLAUTS = GOOD.replace('Lamp brightness', 'Türöffner').replace('Little node', 'Kleines Gerät');
+for (const [coding, encode] of [
+  ['latin1', (text) => Buffer.from(text, 'latin1')],
+  ['utf16le', (text) => Buffer.from(`\uFEFF${text}`, 'utf16le')],
+]) {
+  check(`an EDS file in ${coding} runs, and its findings are in their places`, {}, async (page) => {
+    await booted(page);
+    await drop(page, 'umlauts.eds', encode(UMLAUTS));
+    await becomes('the name of the device', () => deviceName(page), /Kleines Gerät/);
+    await sdo(page, 'Türöffner');
+    await note(page, /2000h = 40/);
+    await drop(page, 'broken.eds', encode(UMLAUTS.replace('DefaultValue=40', 'DefaultValue=für 40')));
+    const faults = page.getByRole('alert', { name: 'What is wrong with the file' });
+    await until('the faults', () => faults.isVisible());
+    const line = UMLAUTS.split('\n').findIndex((one) => one === 'DefaultValue=40') + 1;
+    await becomes('the finding', () => faults.locator('li', { hasText: 'E0412' }).textContent(), new RegExp(`${line}:14[^]*DefaultValue=für 40`));
+  });
+}
 
 check('long texts go in segments, both ways', {}, async (page) => {
   await booted(page);

@@ -139,6 +139,21 @@ impl Field<'_> {
         Ok(())
     }
 
+    /// The mark of a field that may be missing, and its type in TypeScript.
+    pub(super) fn declaration(&self) -> (&'static str, &'static str) {
+        match self {
+            Self::Place(_) | Self::Count(_) | Self::Number(_) => ("", "number"),
+            Self::MaybePlace(_) => ("?", "number"),
+            Self::Flag(_) => ("", "boolean"),
+            Self::Text(_) => ("", "string"),
+            Self::Bytes(_) => ("", "Uint8Array"),
+            Self::Steps(_) => ("", "number[]"),
+            Self::Source(_) => ("", "Source"),
+            Self::Dip(_) => ("?", "{ bit: number; on: boolean }"),
+            Self::Rate(_) => ("", "number | null"),
+        }
+    }
+
     /// Writes the field.
     pub(super) fn write(self, to: &mut dyn Sink, key: &str) {
         let mut part = |part, value| to.put(&format!("{key}.{part}"), value);

@@ -1,5 +1,6 @@
 //! What is done to a bench.
 
+use std::format;
 use std::prelude::v1::*;
 
 use od_wire::{CanId, Frame, Instant};
@@ -20,6 +21,9 @@ macro_rules! inputs {
         }
 
         impl Input {
+            /// Names of all inputs.
+            pub const OPS: &[&str] = &[$($op),*];
+
             /// An input with this name, its fields empty.
             fn named(op: &str) -> Option<Self> {
                 Some(match op {
@@ -122,6 +126,16 @@ impl Input {
     pub fn write(mut self, to: &mut dyn Sink) {
         to.put("op", Value::Text(self.op().into()));
         self.fields(&mut |key, field| field.write(to, key));
+    }
+
+    /// Returns an input as TypeScript declares it; `None` if there is no such input.
+    pub fn declaration(op: &str) -> Option<String> {
+        let mut text = format!("{{ op: '{op}'");
+        Self::named(op)?.fields(&mut |key, field| {
+            let (mark, kind) = field.declaration();
+            text += &format!("; {key}{mark}: {kind}");
+        });
+        Some(text + " }")
     }
 
     /// Sends a frame from outside.

@@ -87,6 +87,7 @@ class Mapping extends View {
   /** The frames that lead to these entries, with their words. */
   private async plan(): Promise<void> {
     const { pdo, entries, isOff } = this;
+    this.steps = [];
     const packed = Uint32Array.from(entries, ({ index, sub, bits }) => index * 0x1_0000 + sub * 256 + bits);
     const steps = pdo ? await askBus('mappingSteps', state.selectedNode.peek(), pdo.mapping, packed, isOff ? pdo.cobId?.raw : null) : [];
     if (entries === this.entries && isOff === this.isOff) this.steps = steps ?? [];
@@ -197,7 +198,7 @@ class Mapping extends View {
         <button ?disabled=${this.isBusy} @click=${() => this.load(pdo.mapping)}>${t.reload}</button>
         <button @click=${() => this.showFrames(pdo)}>${icons.console} ${T.objects.frames}</button>
         <div class="spacer"></div>
-        <button class="primary" ?disabled=${this.isBusy} @click=${() => this.send()}>${icons.send} ${t.send(steps.length)}</button>
+        <button class="primary" ?disabled=${this.isBusy || steps.length === 0} @click=${() => this.send()}>${icons.send} ${t.send(steps.length)}</button>
       </div>`;
   }
 

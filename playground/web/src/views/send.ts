@@ -120,7 +120,7 @@ class RawFrame extends View {
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
         <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
         <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} ${T.send.send}</button>
-        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`COB-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> asks with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
+        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`CAN-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> requests with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
       </div>
     </form>`;
   }
