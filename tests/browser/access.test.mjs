@@ -111,7 +111,7 @@ test('the keyboard reaches every control, in a sensible order', async () => {
     assert.ok(name.ring, `${name.name} shows its focus`);
     names.push(name.name);
   }
-  const order = ['Stop time', 'Power', 'Shaft', 'Search objects', 'Frame', 'Object', 'Read', 'Write', 'NMT Start'].map((name) => names.indexOf(name));
+  const order = ['Pause time', 'Power', 'Shaft', 'Search objects', 'Frame', 'Object', 'Read', 'Write', 'NMT Start'].map((name) => names.indexOf(name));
   assert.ok(order.every((place) => place >= 0), `all in ${names}`);
   assert.deepEqual([...order].sort((a, b) => a - b), order);
   await close();

@@ -55,7 +55,7 @@ export async function pass(page, milliseconds) {
 
 /** Stops time. Pictures that are under way still come, so it is stopped when the clock has stood still for half a second. */
 export async function stopTime(page) {
-  await page.getByRole('button', { name: 'Stop time' }).click();
+  await page.getByRole('button', { name: 'Pause time' }).click();
   let [at, since] = [-1, 0];
   await until('time to stop', async () => {
     const now = await clock(page);

@@ -50,8 +50,8 @@ check('a filter that cannot be read says so as it is typed', {}, async (page) =>
 
 check('one row for each identifier, and back to order without loss', {}, async (page) => {
   await traffic(page);
-  await page.getByRole('button', { name: 'By COB-ID' }).click();
-  const table = page.getByRole('region', { name: 'By COB-ID' });
+  await page.getByRole('button', { name: 'By CAN-ID' }).click();
+  const table = page.getByRole('region', { name: 'By CAN-ID' });
   const line = table.getByRole('row').filter({ hasText: '701' });
   await becomes('the rhythm', () => line.textContent(), /100\.0 ms/);
   const count = async () => Number((await line.getByRole('cell').nth(2).textContent()).replace(/\D/g, ''));
@@ -148,12 +148,12 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
   await what.press('Tab');
   await page.locator('.send-list').getByRole('button', { name: 'Send', exact: true }).click();
   await row(page, 'the answer', (one) => one.id === '581' && one.data.startsWith('43 04 60 00'));
-  await page.getByRole('spinbutton', { name: 'Every so many milliseconds' }).fill('50');
-  await page.getByRole('spinbutton', { name: 'Every so many milliseconds' }).press('Tab');
+  await page.getByRole('spinbutton', { name: 'Cycle in milliseconds' }).fill('50');
+  await page.getByRole('spinbutton', { name: 'Cycle in milliseconds' }).press('Tab');
   const before = await captured(page);
-  await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
+  await page.getByRole('switch', { name: 'Send cyclically' }).click();
   await until('many answers', async () => (await captured(page)) > before + 10);
-  await page.getByRole('switch', { name: 'Send in this rhythm' }).click();
+  await page.getByRole('switch', { name: 'Send cyclically' }).click();
   await stays(page, 'the number of frames', () => captured(page), 300);
   await what.fill('read zz');
   await what.press('Tab');
@@ -166,7 +166,7 @@ check('the send list sends by click and in a rhythm, and is kept', {}, async (pa
 });
 
 check('frames that are hard to remember are offered', {}, async (page) => {
-  await page.getByRole('combobox', { name: 'Frames to begin with' }).selectOption({ label: 'Node guarding: request the state' });
+  await page.getByRole('combobox', { name: 'Frame templates' }).selectOption({ label: 'Node guarding: request the state' });
   const line = page.getByRole('textbox', { name: 'Frame', exact: true });
   await becomes('the send line', () => line.inputValue(), '701#R1');
   await line.press('Enter');

@@ -112,7 +112,7 @@ for (const [coding, encode] of [
     await sdo(page, 'Türöffner');
     await note(page, /2000h = 40/);
     await drop(page, 'broken.eds', encode(UMLAUTS.replace('DefaultValue=40', 'DefaultValue=für 40')));
-    const faults = page.getByRole('alert', { name: 'What is wrong with the file' });
+    const faults = page.getByRole('alert', { name: 'Findings in the file' });
     await until('the faults', () => faults.isVisible());
     const line = UMLAUTS.split('\n').findIndex((one) => one === 'DefaultValue=40') + 1;
     await becomes('the finding', () => faults.locator('li', { hasText: 'E0412' }).textContent(), new RegExp(`${line}:14[^]*DefaultValue=für 40`));
@@ -135,7 +135,7 @@ check('an EDS file that cannot run says where and why', {}, async (page) => {
   await booted(page);
   const bad = GOOD.replace('DefaultValue=40', 'DefaultValue=forty').replace('DataType=0x0005\nAccessType=rw', 'DataType=0x00FF\nAccessType=rw');
   await drop(page, 'broken.eds', bad);
-  const faults = page.getByRole('alert', { name: 'What is wrong with the file' });
+  const faults = page.getByRole('alert', { name: 'Findings in the file' });
   await until('the faults', () => faults.isVisible());
   await becomes('the file', () => faults.textContent(), /broken\.eds/);
   const line = bad.split('\n').findIndex((text) => text === 'DataType=0x00FF') + 1;

@@ -105,7 +105,7 @@ check('a mapping that does not fit is refused in words, at its step', { hash: '#
   await becomes('an abort', () => dialog.locator('.mapping-steps').textContent(), /0604004[12]/);
   await becomes('steps that failed', () => dialog.locator('.mapping-steps li[data-tone=error]').count(), 1);
   // With the PDO off meanwhile there are two more frames.
-  await dialog.getByRole('checkbox', { name: /Switch the PDO off/ }).check();
+  await dialog.getByRole('checkbox', { name: /Disable the PDO/ }).check();
   await becomes('the frames', async () => (await dialog.locator('.mapping-steps code span').allTextContents()).join(), /^23 00 18 01 81 01 00 [C8]0,.*,23 00 18 01 81 01 00 [04]0$/);
 });
 

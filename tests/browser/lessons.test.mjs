@@ -89,7 +89,7 @@ for (const name of BY_HAND) {
       await becomes(`step ${i + 1} is done before anything was done`, isDone, false);
       for (const line of lines) if (!(await isDone())) await act(page, line.trim(), labels);
       await until(`step ${i + 1} of ${name} to be done`, isDone);
-      if (i + 1 < solutions.length) await lesson.getByRole('button', { name: 'Go on' }).click();
+      if (i + 1 < solutions.length) await lesson.getByRole('button', { name: 'Continue' }).click();
     }
     await lesson.getByText('You did it').waitFor();
     assert.deepEqual(faults, [], 'the page complained');
@@ -121,7 +121,7 @@ for (const name of files.map(nameOf).filter((name) => !BY_HAND.includes(name))) 
       await takeHints(lesson);
       await lesson.getByRole('button', { name: 'Show me' }).click();
       await becomes(`step ${step} of ${name} is done`, () => lesson.locator('.happened').count(), 1);
-      if (step < steps) await lesson.getByRole('button', { name: 'Go on' }).click();
+      if (step < steps) await lesson.getByRole('button', { name: 'Continue' }).click();
     }
     await lesson.getByText('You did it').waitFor();
     assert.deepEqual(faults, [], 'the page complained');
@@ -146,7 +146,7 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   const answer = lesson.getByRole('textbox', { name: 'Your frame' });
   await answer.fill('704#00');
   await answer.press('Enter');
-  await lesson.getByText('Not quite: look at the identifier again.').waitFor();
+  await lesson.getByText('Not quite: look at the CAN-ID again.').waitFor();
   await answer.fill('705#00');
   await answer.press('Enter');
   await lesson.getByText('That is it.').waitFor();
@@ -162,8 +162,8 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
   await beside.getByRole('button', { name: 'Objects' }).click();
   await page.getByRole('searchbox', { name: 'Search objects' }).waitFor();
   await beside.getByRole('button', { name: 'Lesson' }).click();
-  await lesson.getByRole('button', { name: 'Go on' }).click();
-  await page.getByRole('button', { name: 'Stop time' }).waitFor();
+  await lesson.getByRole('button', { name: 'Continue' }).click();
+  await page.getByRole('button', { name: 'Pause time' }).waitFor();
 
   // A requirement is ticked as soon as it holds, though others are open: time runs slowly
   // here, so that the heartbeat does not come before one has looked.
@@ -177,7 +177,7 @@ test('a lesson is chosen from the list, asks, gives hints one by one, stops time
 
   // From here on it is shown how: the hints end with that.
   for (let step = 3; step <= 5; step++) {
-    await lesson.getByRole('button', { name: 'Go on' }).click();
+    await lesson.getByRole('button', { name: 'Continue' }).click();
     await becomes('the step', () => lesson.locator('.lesson-step h3 .num').textContent(), String(step));
     await takeHints(lesson);
     await lesson.getByRole('button', { name: 'Show me' }).click();

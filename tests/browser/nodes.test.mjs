@@ -39,7 +39,7 @@ check('up to four nodes, each with its own panels', {}, async (page) => {
   await becomes('ways to add a node', () => page.getByRole('button', { name: 'Add a node' }).count(), 0);
   await becomes('the address', () => page.url(), /#device=gxmm&node=1&device=gxam&node=2&device=gdmm&node=3&device=gbam&node=4/);
   await page.locator('.device-button').click();
-  await page.getByRole('button', { name: 'Take it off the bus' }).click();
+  await page.getByRole('button', { name: 'Remove from the bus' }).click();
   await becomes('nodes', () => nodes.getByRole('button', { name: /node \d/ }).count(), 3);
   await page.reload();
   await row(page, 'all boot-ups after loading', (one) => one.id === '703');
@@ -48,7 +48,7 @@ check('up to four nodes, each with its own panels', {}, async (page) => {
 check('two nodes with one node ID both answer', {}, async (page) => {
   await page.getByRole('button', { name: 'Add a node' }).click();
   await page.getByRole('dialog').getByRole('spinbutton', { name: 'Node ID' }).fill('1');
-  await page.getByText('both will answer').waitFor();
+  await page.getByText('both nodes will respond').waitFor();
   await page.getByRole('dialog').getByRole('button', { name: 'gxam' }).click();
   await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 2);
   await sendRaw(page, '601#4000100000000000');
@@ -80,7 +80,7 @@ check('another bit rate makes a stranger on the bus, and bus-off of who talks', 
   // Bus-off ends when the bus was recessive for long enough.
   await becomes('the controller', () => page.locator('[data-controller=node]').textContent(), /error active/);
   await sdo(page, '1000');
-  await note(page, /No answer/);
+  await note(page, /No response/);
   await page.getByRole('group', { name: 'Devices on the bus' }).getByRole('button', { name: /gxmm/ }).click();
   await sdo(page, '1000');
   await note(page, /1000h = /);
@@ -124,7 +124,7 @@ check('the EEPROM shows what is not saved, and a save can be cut short', {}, asy
   await note(page, /6003h = 0/);
   await written(page, '6003', '1000');
   await written(page, '1010:01', '"save"');
-  await page.getByText('Everything is saved').waitFor();
+  await page.getByText('All current values are saved').waitFor();
   await page.getByRole('button', { name: 'Power cycle' }).click();
   await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 3);
   await sdo(page, '6003');

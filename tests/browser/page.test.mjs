@@ -62,7 +62,7 @@ check('NMT start makes PDOs run, stop silences them', async (page) => {
   await becomes('the state', () => state(page), 'Stopped');
   await stays(page, 'the number of frames', () => captured(page), 1200);
   await sdo(page, '6004');
-  await becomes('no answer', () => sdoNote(page), /No answer/);
+  await becomes('no answer', () => sdoNote(page), /No response/);
 });
 
 check('the shaft turns by key', async (page) => {

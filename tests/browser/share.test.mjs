@@ -156,7 +156,7 @@ test('bad links get a message and a fresh bench', async () => {
   for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900']) {
     const { page, faults, close } = await open({ hash });
     await booted(page);
-    if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link holds no bench').isVisible());
+    if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link cannot be opened').isVisible());
     await becomes('the state', () => state(page), 'Pre-operational');
     assert.deepEqual(faults, []);
     await close();
@@ -194,9 +194,9 @@ check('a bench is kept, and offered at the next visit', async (page) => {
   await page.reload();
   await booted(page);
   await becomes('the position', () => position(page), 0);
-  await page.getByRole('button', { name: 'Go on with it' }).click();
+  await page.getByRole('button', { name: 'Continue with it' }).click();
   await isUsed(page, at);
-  await becomes('what is offered', () => page.getByRole('button', { name: 'Go on with it' }).count(), 0);
+  await becomes('what is offered', () => page.getByRole('button', { name: 'Continue with it' }).count(), 0);
 });
 
 check('nothing is offered where nothing was done', async (page) => {
@@ -205,7 +205,7 @@ check('nothing is offered where nothing was done', async (page) => {
   await page.reload();
   await booted(page);
   await pass(page, 400);
-  assert.equal(await page.getByRole('button', { name: 'Go on with it' }).count(), 0);
+  assert.equal(await page.getByRole('button', { name: 'Continue with it' }).count(), 0);
   assert.equal(await keptAt(page), 0);
 });
 
@@ -227,7 +227,7 @@ test('it loads without a network after the first visit', async () => {
   await page.locator('.device-button').click();
   await page.getByLabel('EDS or DCF file').setInputFiles(eds);
   await until('the file in the module that reads it', async () =>
-    /Offline/.test(await page.locator('.topbar').textContent()) || (await page.getByRole('alert', { name: 'What is wrong with the file' }).isVisible()));
+    /Offline/.test(await page.locator('.topbar').textContent()) || (await page.getByRole('alert', { name: 'Findings in the file' }).isVisible()));
   assert.deepEqual(faults, []);
   await close();
 });

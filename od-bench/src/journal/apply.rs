@@ -161,7 +161,7 @@ impl Journal {
             },
             #[cfg(feature = "eds")]
             Source::Eds { text, lenient, .. } => {
-                let options = crate::device::EdsOptions {
+                let options = crate::loaded::EdsOptions {
                     node_id: Some(id),
                     lenient: *lenient,
                 };
