@@ -39,7 +39,7 @@ check('the filter shows what passes, by service, node, identifier, object and wo
 
 check('a filter that cannot be read says so as it is typed', {}, async (page) => {
   const box = page.getByRole('searchbox', { name: 'Filter frames' });
-  for (const [text, error] of [['node:', /missing/], ['node:200', /1 to 127/], ['nod:5', /no field/], ['(sdo', /not closed/]]) {
+  for (const [text, error] of [['node:', /missing/], ['node:200', /1 to 127/], ['nod:5', /not a field/], ['(sdo', /not closed/]]) {
     await box.fill(text);
     await becomes(`what stands under “${text}”`, () => page.locator('#filter-note').textContent(), error);
     await becomes('aria-invalid', () => box.getAttribute('aria-invalid'), 'true');

@@ -65,7 +65,7 @@ test('mistakes say where', () => {
   for (const [text, at, error] of [
     ['node:200', 5, /1 to 127/],
     ['node:', 5, /missing/],
-    ['nod:5', 0, /no field/],
+    ['nod:5', 0, /not a field/],
     ['sdo (pdo', 4, /not closed/],
     ['sdo)', 3, /open/],
     ['sdo or', 6, /missing/],
