@@ -13,6 +13,8 @@ mod said;
 mod sdo;
 mod sorted;
 mod tag;
+#[cfg(all(test, feature = "eds"))]
+mod tests;
 
 use std::prelude::v1::*;
 
