@@ -1,8 +1,11 @@
 //! The object or sub-object that an edit is about.
 
+use alloc::string::ToString;
 use core::fmt;
 
 use crate::fact::Fact;
+use crate::finding::{Finding, Rule};
+use crate::span::{Span, Spanned};
 use od_model::Address;
 
 /// The target of an edit: an object, or one of its sub-objects.
@@ -45,6 +48,18 @@ impl Target {
             Some(_) => Fact::Object(self.address()),
             None => Fact::Index(self.index),
         }
+    }
+}
+
+impl Spanned<Target> {
+    /// A finding about the target.
+    pub(crate) fn finding(&self, rule: &'static Rule, at: Span) -> Finding {
+        rule.at(at).about(self.address())
+    }
+
+    /// A finding about the target, which is its fact `target`.
+    pub(crate) fn named(&self, rule: &'static Rule, at: Span) -> Finding {
+        self.finding(rule, at).fact("target", self.to_string())
     }
 }
 

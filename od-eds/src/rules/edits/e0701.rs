@@ -35,7 +35,7 @@ const MEMBERS: Form = Form {
 
 /// The finding about an object that the description lacks.
 pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
-    let finding = RULE.at(target.span).about(target.address());
+    let finding = target.finding(&RULE, target.span);
     finding.fact("object", Fact::Index(target.index))
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn first(target: &Spanned<Target>) -> Finding {
 
 /// The finding about a sub-index that the object lacks; it has those that `subs` names.
 pub(crate) fn sub_index(target: &Spanned<Target>, subs: &str) -> Finding {
-    let finding = RULE.at(target.span).about(target.address());
+    let finding = target.finding(&RULE, target.span);
     let finding = finding.fact("object", target.address());
     match subs {
         "" => finding.form(&FIRST).fact("target", target.to_string()),

@@ -1,8 +1,6 @@
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
-use alloc::string::ToString;
-
 pub(crate) static RULE: Rule = Rule {
     code: "E0702",
     severity: Error,
@@ -18,8 +16,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an `add` of an object or a sub-object that the description has.
 pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
-    RULE.at(target.span)
-        .about(target.address())
+    target
+        .named(&RULE, target.span)
         .fact("object", target.shown())
-        .fact("target", target.to_string())
 }

@@ -2,8 +2,6 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
-use alloc::string::ToString;
-
 pub(crate) static RULE: Rule = Rule {
     code: "E0703",
     severity: Error,
@@ -19,8 +17,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an `add` of a sub-object without an object.
 pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
-    RULE.at(target.span)
-        .about(target.address())
-        .fact("target", target.to_string())
+    target
+        .named(&RULE, target.span)
         .fact("object", Fact::Index(target.index))
 }

@@ -26,8 +26,8 @@ const ADDED: Form = Form {
 
 /// The finding about a sub-index of an object with this code.
 pub(crate) fn finding(target: &Spanned<Target>, code: ObjectCode) -> Finding {
-    RULE.at(target.span)
-        .about(target.address())
+    target
+        .finding(&RULE, target.span)
         .fact("object", Fact::Index(target.index))
         .fact("code", code)
 }

@@ -1,8 +1,6 @@
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
-use alloc::string::ToString;
-
 pub(crate) static RULE: Rule = Rule {
     code: "E0705",
     severity: Error,
@@ -18,6 +16,5 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an `add` without a name.
 pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
-    let finding = RULE.at(target.span).about(target.address());
-    finding.fact("target", target.to_string())
+    target.named(&RULE, target.span)
 }

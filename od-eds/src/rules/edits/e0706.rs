@@ -1,7 +1,6 @@
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::Spanned;
-use alloc::string::ToString;
 use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
@@ -19,8 +18,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an `add` without a type.
 pub(crate) fn finding(target: &Spanned<Target>) -> Finding {
-    RULE.at(target.span)
-        .about(target.address())
-        .fact("target", target.to_string())
+    target
+        .named(&RULE, target.span)
         .fact("type", DataType::Unsigned16)
 }

@@ -27,7 +27,7 @@ pub(crate) fn finding(
     given: &str,
     data_type: DataType,
 ) -> Finding {
-    let finding = RULE.at(at).about(target.address()).key(key);
+    let finding = target.finding(&RULE, at).key(key);
     let finding = finding.fact("type", data_type);
     match data_type.kind() {
         Kind::Record => finding.form(&WHOLE).fact("right", DataType::Unsigned32),

@@ -25,8 +25,8 @@ pub(crate) fn finding(
     given: &str,
     data_type: DataType,
 ) -> Finding {
-    RULE.at(at)
-        .about(target.address())
+    target
+        .finding(&RULE, at)
         .key(key)
         .fact("given", given)
         .fact("type", data_type)

@@ -2,8 +2,6 @@ use crate::fact::Fact;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::patch::target::Target;
 use crate::span::{Span, Spanned};
-use alloc::string::ToString;
-
 pub(crate) static RULE: Rule = Rule {
     code: "E0709",
     severity: Error,
@@ -19,8 +17,7 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about an object code at a sub-object.
 pub(crate) fn finding(target: &Spanned<Target>, at: Span) -> Finding {
-    RULE.at(at)
-        .about(target.address())
-        .fact("target", target.to_string())
+    target
+        .named(&RULE, at)
         .fact("object", Fact::Index(target.index))
 }

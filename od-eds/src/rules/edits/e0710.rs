@@ -18,8 +18,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about a field of a value at an object with sub-objects.
 pub(crate) fn finding(target: &Spanned<Target>, at: Span, key: Key) -> Finding {
-    RULE.at(at)
-        .about(target.address())
+    target
+        .finding(&RULE, at)
         .key(key)
         .fact("object", Fact::Index(target.index))
 }
