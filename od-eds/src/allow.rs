@@ -28,7 +28,7 @@ struct Allow {
     used: bool,
 }
 
-/// Where it is allowed.
+/// The part of a file in which a code is allowed.
 #[derive(Clone, Debug)]
 enum Scope {
     File,

@@ -85,7 +85,6 @@ pub(crate) enum Check {
     /// While the text is read.
     ByReader,
     /// While edits are applied, and by the macro.
-    #[allow(dead_code)] // rules about edits say so when they move
     ByEdit,
 }
 

@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about the first section of a member without an object.
+/// The finding about the first section of a sub-object without its object.
 pub(crate) fn finding(member: Span, index: u16) -> Finding {
     RULE.at(member).index(index)
 }

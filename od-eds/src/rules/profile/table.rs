@@ -8,7 +8,7 @@ pub(super) struct Object {
     last: u16,
     /// VAR or ARRAY; an ARRAY may be a RECORD as well.
     pub(super) code: ObjectCode,
-    /// The types that the value, or every member, may have.
+    /// The types that the value, or every sub-object, may have.
     pub(super) data_types: &'static [DataType],
     /// May a master write it? `None` where the profile leaves it open.
     pub(super) writable: Option<bool>,

@@ -1,4 +1,4 @@
-//! What the rules about 1000h, 1001h and 1018h share.
+//! Findings that the rules about 1000h, 1001h and 1018h share.
 
 use alloc::format;
 

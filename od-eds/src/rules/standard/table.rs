@@ -1,4 +1,4 @@
-//! What the standards say of 1000h to 1FFFh, as a table.
+//! Objects 1000h to 1FFFh of the standards, as a table.
 
 use od_model::{Access, DataType, ObjectCode};
 
@@ -15,7 +15,7 @@ pub(super) struct Standard {
 pub(super) enum Members {
     /// A VAR.
     Var(Value),
-    /// An ARRAY; this is each of its members from sub-index 1 on.
+    /// An ARRAY; this is each of its sub-objects from sub-index 1 on.
     Array(Value),
     /// A RECORD: sub-index, value, and whether it must be there.
     Record(&'static [(u8, Value, bool)]),
@@ -36,7 +36,7 @@ impl Standard {
         }
     }
 
-    /// What the standard says of a sub-index.
+    /// The value that the standard specifies for a sub-index.
     pub(super) fn value(&self, sub: u8) -> Option<&Value> {
         match &self.members {
             Members::Var(value) if sub == 0 => Some(value),

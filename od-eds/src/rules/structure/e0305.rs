@@ -22,7 +22,7 @@ const COMPACT: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about members of an object that has none by its code, at the first of them.
+/// The finding about sub-objects of an object whose code allows none, at the first of them.
 pub(crate) fn finding(member: Span, code: Spanned<ObjectCode>, compact: bool) -> Finding {
     let finding = RULE.at(member).fact("code", *code);
     let finding = finding.related(code.span, "declared as {code} here");

@@ -24,7 +24,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let mut names = BTreeMap::new();
     for entry in object.entries().filter(|entry| !entry.name.is_empty()) {
         let (name, span) = (entry.entry.name.value.as_str(), entry.name.span);
-        // All that CompactSubObj stands for has the place of one name.
+        // All sub-objects of one CompactSubObj have the place of one name.
         if let Some(first) = names.insert(name, span)
             && first != span
         {

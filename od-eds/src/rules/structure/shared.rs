@@ -1,4 +1,4 @@
-//! What the rules about sub-index 0 share.
+//! Sub-index 0 and the highest sub-index, for the rules about them.
 
 use alloc::string::ToString;
 
@@ -33,7 +33,7 @@ pub(super) const fn counts_in_use(index: u16) -> bool {
     index == 0x1003 || maps_rpdo(index).is_some()
 }
 
-/// What sub-index 0 says, beside what exists.
+/// The value of sub-index 0, and the highest sub-index that exists.
 pub(super) struct Count<'a> {
     pub(super) entry: Entry<'a>,
     pub(super) given: Spanned<u64>,

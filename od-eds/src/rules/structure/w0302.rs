@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an object without ObjectType whose members have sections.
+/// The finding about an object without ObjectType that has sub-objects.
 pub(crate) fn finding(header: Span) -> Finding {
     RULE.at(header)
         .fix(Fix::unsafe_fix().below(header, "ObjectType=0x9"))

@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a CompactSubObj that does not count members.
+/// The finding about a CompactSubObj that is not valid.
 pub(crate) fn finding(given: &Text<'_>) -> Finding {
     RULE.given(given).key(Key::CompactSubObj)
 }

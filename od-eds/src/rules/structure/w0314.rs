@@ -13,7 +13,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an entry of a compact section for a member that does not exist.
+/// The finding about an entry of a compact section for a sub-index that does not exist.
 pub(crate) fn finding(given: &Text<'_>, count: &Spanned<u8>) -> Finding {
     RULE.given(given)
         .fact("count", count.value)

@@ -16,7 +16,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about an object with so many members and no SubNumber.
+/// The finding about an object with sub-objects and no SubNumber.
 pub(crate) fn finding(header: Span, count: u32) -> Finding {
     let fix = Fix::safe().below(header, format!("SubNumber={count}"));
     RULE.at(header).fact("count", count).fix(fix)
