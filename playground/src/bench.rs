@@ -39,7 +39,7 @@ impl Bus {
         });
     }
 
-    /// Breaks something or mends it; answers whether this device has such a fault.
+    /// Sets or clears a fault; answers whether this device has such a fault.
     #[wasm_bindgen(js_name = setFault)]
     pub fn set_fault(&mut self, device: usize, name: &str, broken: bool) -> bool {
         let found = self

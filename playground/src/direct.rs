@@ -97,7 +97,7 @@ impl Bus {
         self.words(frame)
     }
 
-    /// The objects in a packed PDO by the mapping that stands, three numbers each:
+    /// The objects in a packed PDO by its current mapping, three numbers each:
     /// `index * 256 + sub`, first bit, number of bits. Empty for other frames.
     pub fn layout(&self, frame: &[u8]) -> Vec<u32> {
         packed::frame(frame)

@@ -30,7 +30,7 @@ impl<'a> Places<'a> {
         self.units.get(byte as usize).copied().unwrap_or(byte)
     }
 
-    /// The edits that mend a finding, or null.
+    /// The edits that fix a finding, or null.
     pub(crate) fn fix(&self, fix: Option<&Fix>) -> JsValue {
         let Some((fix, edits)) = fix.and_then(|fix| Some((fix, fix.text_edits(self.text)?))) else {
             return JsValue::NULL;

@@ -119,25 +119,25 @@ export interface Diagnostic {
   code: string;
   severity: 'error' | 'warning' | 'info';
   message: string;
-  /** How to mend it; empty if the message says so. */
+  /** How to fix it; empty if the message says so. */
   help: string;
   /** Counted from 1; 0 where something is missing altogether. */
   line: number;
   column: number;
   /** The object it is about, such as `6004h`, or empty. */
   object: string;
-  /** What mends it without asking, if anything does. */
+  /** The automatic fix, if there is one. */
   fix: Fix | null;
 }
 
 /** Edits of the text that was checked; all of them together, or none. */
 export interface Fix {
-  /** It changes nothing of what the text says to us; else it is a likely guess. */
+  /** A safe fix: the meaning of the text does not change. */
   safe: boolean;
   edits: TextEdit[];
 }
 
-/** `text` takes the place of what stands from `start` to before `end`, as in `String.slice`. */
+/** `text` replaces what is from `start` to before `end`, as in `String.slice`. */
 export interface TextEdit {
   start: number;
   end: number;
@@ -331,7 +331,7 @@ export interface Added {
   diagnostics: Diagnostic[];
 }
 
-/** Entries that are new, and how many stand before them. */
+/** Entries that are new, and how many are before them. */
 export interface JournalNews {
   from: number;
   entries: Entry[];

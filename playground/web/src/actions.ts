@@ -24,7 +24,7 @@ export function setPower(on: boolean): void {
   act({ op: 'power', node: state.selectedNode.value, on });
 }
 
-/** Turns the shaft to a number of revolutions; it stands still there. */
+/** Turns the shaft to a number of revolutions; it stops there. */
 export function turnTo(turns: number): void {
   if (state.shaft.value?.rpm || state.status.value?.moves) setRpm(0);
   act({ op: 'turn', node: state.selectedNode.value, turns });
@@ -93,7 +93,7 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
 /** Frames of a log that was opened last. */
 let opened: Uint8Array | null = null;
 
-/** Shows a log of another tool in the console; time stands still, so that nothing mixes with it. */
+/** Shows a log of another tool in the console; time is paused, so that nothing mixes with it. */
 export async function openLog(name: string, bytes: Uint8Array): Promise<void> {
   const read = await use('readLog', bytes);
   if ('error' in read) {

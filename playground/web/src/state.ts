@@ -54,7 +54,7 @@ export const eeprom = signal<Uint8Array | null>(null);
 /** Captured frames; `captured` changes whenever the ring does. */
 export const ring = new Ring();
 export const captured = signal(0);
-/** Number of the frame after which the console stands still, while it is paused. */
+/** Number of the last frame that the console shows while it is paused. */
 export const pausedAt = signal<number | null>(null);
 
 /** Counts how often the capture was cleared. */

@@ -61,7 +61,7 @@ export function restore(entries: Entry[], until: number, quiet = false): void {
   send({ op: 'restore', entries, until, quiet });
 }
 
-/** What makes an empty bench stand as this one does, without its past; null where nothing does. */
+/** What makes an empty bench as this one is, without its past; null if nothing does. */
 export const still = (): Promise<Entry[] | null> => ask((ticket) => ({ op: 'still', ticket }), null);
 
 /** A DCF of a device as it is set up. */

@@ -167,7 +167,7 @@ export const bench = {
     written: (where: string) => `${where} written`,
     stopped: 'No response: the node is Stopped, or has another node ID.',
     off: 'No response: the power is off.',
-    standing: 'Time is paused. Run it to get the response.',
+    paused: 'Time is paused. Run it to get the response.',
     what: 'Type an index, such as 6004 or 1018:01, or choose a name',
     unknown: 'Not in the dictionary of this device',
     label: 'SDO',

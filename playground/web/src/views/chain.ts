@@ -1,4 +1,4 @@
-// From the sensor to the telegram, step by step.
+// From the sensor to the PDO, step by step.
 
 import { html, nothing } from 'lit';
 import * as state from '../state';

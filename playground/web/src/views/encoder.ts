@@ -1,4 +1,4 @@
-// The encoder: shaft, power, state, lamps, and the way from angle to telegram.
+// The encoder: shaft, power, state, lamps, and the way from angle to PDO.
 
 import { html, nothing, type TemplateResult } from 'lit';
 import * as state from '../state';

@@ -71,7 +71,7 @@ class Lessons extends View {
             const input = event.target as HTMLInputElement;
             const file = input.files?.[0];
             if (file) void openFile(file);
-            // The same file can be chosen again when it was mended.
+            // The same file can be chosen again when it was corrected.
             input.value = '';
           }}></label>
       </div>

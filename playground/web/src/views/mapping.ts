@@ -113,7 +113,7 @@ class Mapping extends View {
     this.said = [];
     for (const step of this.steps) {
       const sofar = this.said;
-      this.said = [...sofar, { tone: 'busy', text: state.running.value ? T.mapping.waiting : T.sdo.standing }];
+      this.said = [...sofar, { tone: 'busy', text: state.running.value ? T.mapping.waiting : T.sdo.paused }];
       const outcome = await transfer(step, step.bytes);
       if (outcome.kind === 'done') {
         this.said = [...sofar, { tone: 'good', text: T.mapping.taken }];

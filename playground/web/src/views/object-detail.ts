@@ -46,7 +46,7 @@ class ObjectDetail extends View {
 
   private async run(object: ObjectRecord, bytes: Uint8Array | null): Promise<void> {
     this.isBusy = true;
-    this.said = state.running.value ? null : { tone: '', text: T.sdo.standing };
+    this.said = state.running.value ? null : { tone: '', text: T.sdo.paused };
     const outcome = await transfer(object, bytes);
     this.isBusy = false;
     if (state.selected.peek() === object) this.said = inWords(object, bytes !== null, outcome);

@@ -223,7 +223,7 @@ function isChanged(object: ObjectRecord, live: Value): boolean {
   return object.access.startsWith('rw') && object.default !== null && live !== null && !sameValue(live, object.default);
 }
 
-/** Where a value that differs stands: only in RAM, saved as well, or where nothing is saved. */
+/** Where a value that differs is: only in RAM, saved as well, or not among what is saved. */
 function markOf(object: ObjectRecord, live: Value): '' | 'ram' | 'eeprom' | 'set' {
   if (state.unsaved.peek().has(state.keyOf(object.index, object.sub))) return 'ram';
   if (!isChanged(object, live)) return '';

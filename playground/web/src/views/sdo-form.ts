@@ -117,7 +117,7 @@ class SdoForm extends View {
 
   private async run(object: ObjectRecord, bytes: Uint8Array | null): Promise<void> {
     this.isBusy = true;
-    this.result = state.running.value ? null : { tone: '', text: T.sdo.standing };
+    this.result = state.running.value ? null : { tone: '', text: T.sdo.paused };
     const outcome = await transfer(object, bytes);
     this.isBusy = false;
     this.result = inWords(object, bytes !== null, outcome);

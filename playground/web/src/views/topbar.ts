@@ -15,7 +15,7 @@ const openShare = (): void => void import('./share').then(() => (state.shareDial
 
 const openLessons = (): void => void (state.lessonDialog.value = true);
 
-/** From a frame to a tab of its own, with the bench as it stands. */
+/** From a frame to a tab of its own, with the bench as it is now. */
 async function openFull(event: Event): Promise<void> {
   event.preventDefault();
   const { hashOf, now } = await import('../share/make');
