@@ -94,6 +94,22 @@ fn only_the_masters_own_saves_can_take_values_away() {
 }
 
 #[test]
+fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
+    let (mut bench, mut memory) = (Bench::new(device()), storage());
+    bench.fill(5);
+    save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    begin(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Cut);
+    bench.fill(6);
+    save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    assert_eq!(bench.start(&mut memory), Loaded::Complete);
+    let newest = memory.bytes().len() / 2;
+    memory.bytes_mut()[newest + HEADER] ^= 1;
+    assert_eq!(bench.start(&mut memory), Loaded::Cut);
+    assert_eq!(bench.store().unsigned(0x6003, 0), 0);
+}
+
+#[test]
 fn a_save_counts_after_its_end_alone() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);

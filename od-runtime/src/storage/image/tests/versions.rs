@@ -58,3 +58,35 @@ fn too_little_room_is_an_error_before_anything_is_written() {
         ));
     }
 }
+
+#[test]
+fn a_record_without_an_object_stays_where_it_just_fits() {
+    use Access::Rw;
+    let object = |index| (index, DataType::Unsigned32, Rw, Raw::Integer(1));
+    let mut old = Bench::new(tables(&[object(0x2300), object(0x2400)]));
+    let mut memory = Memory::new(vec![0xFF; capacity_needed(&old.tables.dictionary())]);
+    let removed = od_model::Address::new(0x2400, 0);
+    old.store().set_unsigned(removed, 77);
+    save(&mut memory, &old.store(), STORE, 1).unwrap();
+    let mut new = Bench::new(tables(&[object(0x2300)]));
+    assert_eq!(new.start(&mut memory), Loaded::Partial { skipped: 1 });
+    save(&mut memory, &new.store(), STORE, 1).unwrap();
+    assert_eq!(old.start(&mut memory), Loaded::Complete);
+    assert_eq!(old.store().unsigned(0x2400, 0), 77);
+}
+
+#[test]
+fn a_value_longer_than_any_that_is_saved_is_an_error() {
+    for (len, result) in [
+        (MAX_VALUE, Ok(())),
+        (MAX_VALUE + 1, Err(StorageError::Full)),
+    ] {
+        let text = Raw::Text("x".repeat(len));
+        let text = (0x2300, DataType::VisibleString, Access::Rw, text);
+        let mut bench = Bench::new(tables(&[text]));
+        let mut memory = Memory::new(vec![0xFF; capacity_needed(&bench.tables.dictionary())]);
+        assert_eq!(save(&mut memory, &bench.store(), STORE, 1), result, "{len}");
+        let is_blank = memory.bytes().iter().all(|byte| *byte == 0xFF);
+        assert_eq!(is_blank, result.is_err(), "{len}");
+    }
+}
