@@ -122,7 +122,7 @@ fn folders_and_several_files_in_one_report() {
     let names: Vec<_> = files.iter().map(|file| file["path"].as_str()).collect();
     assert_eq!(names.len(), 2, "{names:?}");
     assert!(names[0].is_some_and(|name| name.ends_with("a.DCF")));
-    let findings = files[0]["findings"].as_array().expect("a list");
+    let findings = files[0]["diagnostics"].as_array().expect("a list");
     let octal = findings.iter().find(|d| d["code"] == "I0408");
     let octal = octal.expect("machine formats have remarks");
     assert_eq!(

@@ -19,6 +19,8 @@ struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
     fixed: usize,
+    /// The name that readers of version 1 know.
+    #[serde(rename = "diagnostics")]
     findings: Vec<Reported>,
 }
 
