@@ -2,7 +2,7 @@
 //!
 //! A patch is strict. Editing or removing what the base lacks is an error, and so
 //! is adding what is there already; a patch that says nothing false is the only
-//! one that applies without a word. Every finding is a [`Finding`] whose span
+//! one that applies without a word. Every finding is a [`Finding`](crate::Finding) whose span
 //! is the one that the edit carries, so the caller can point at its own token:
 //! see [`token`](crate::token).
 //!
