@@ -27,7 +27,7 @@ pub(super) fn roomy(node_id: NodeId) -> Box<dyn Slave> {
     Box::new(Node::<AnyDevice, 512, 0x1_0000>::new(node_id))
 }
 
-/// What is behind the dictionary.
+/// Behaviour behind the dictionary.
 pub(super) enum Behaviour {
     Encoder(Box<Encoder<Shaft>>),
     Plain(Plain),
@@ -71,7 +71,7 @@ pub struct VirtualDevice {
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
     pub(super) activated: Option<u16>,
-    /// What happened, for [`poll_event`](Self::poll_event).
+    /// Events for [`poll_event`](Self::poll_event).
     events: VecDeque<Event>,
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
@@ -123,7 +123,7 @@ impl VirtualDevice {
         Self::build(title.into(), source, behaviour, *profile, Box::new(node))
     }
 
-    /// How many devices like this one sit on its shaft, with itself: 2 for a redundant encoder,
+    /// Number of devices like this one on its shaft, itself included: 2 for a redundant encoder,
     /// whose channels are nodes of their own. [`Bus::add_beside`](crate::bus::Bus::add_beside) puts
     /// the second one on the bus.
     pub fn channels(&self) -> u8 {
@@ -272,7 +272,7 @@ impl VirtualDevice {
             .min()
     }
 
-    /// What happened, oldest first.
+    /// Returns the oldest event; the last 256 are kept.
     pub fn poll_event(&mut self) -> Option<Event> {
         self.events.pop_front()
     }

@@ -1,4 +1,4 @@
-//! Who a device is on the bus: serial number, LSS address, and whether it has a node ID.
+//! Identity of a device on the bus: serial number, LSS address, and whether it has a node ID.
 
 use std::prelude::v1::*;
 

@@ -1,4 +1,4 @@
-//! Where the dictionary of a device comes from.
+//! Source of the dictionary of a device.
 
 #[cfg(feature = "eds")]
 use std::boxed::Box;

@@ -1,4 +1,4 @@
-//! What a person does at the bench: power, shafts, switches, faults, EEPROMs, the wire.
+//! Acts of a person at the bench: power, shafts, switches, faults, EEPROMs, the wire.
 
 use od_bench::journal::frame;
 use wasm_bindgen::prelude::*;
@@ -104,7 +104,7 @@ impl Bus {
             .with(device, |device, _| device.cut_power_after(bytes));
     }
 
-    /// How the wire is: real or ideal, its terminators, the bit rate of the outside in kbit/s
+    /// Sets the bus line: real or ideal, its terminators, the bit rate of the outside in kbit/s
     /// (none: that of the first device).
     #[wasm_bindgen(js_name = setLine)]
     pub fn set_line(&mut self, real: bool, terminators: u8, rate: Option<u16>) {

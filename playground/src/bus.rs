@@ -25,7 +25,7 @@ impl Bus {
     }
 
     /// Lets `micros` pass, or less if `max_frames` are sent before; answers with what passed.
-    /// What the journal has for that time happens again.
+    /// The inputs of the journal for that time happen again.
     pub fn advance(&mut self, micros: f64, max_frames: usize) -> f64 {
         let micros = micros.max(0.0) as u64;
         self.journal.advance(micros, max_frames.max(1)) as f64

@@ -1,4 +1,4 @@
-//! What a page asks without a bench: frames as people type them, values as bytes and back,
+//! Answers that need no bench: frames as people type them, values as bytes and back,
 //! services, and transfers of several frames.
 
 use od_bench::script::{Known, frame_of, typed};
@@ -82,7 +82,7 @@ pub fn read_line(text: &str, node_id: u8, objects: &Objects) -> JsValue {
 /// The bytes of a value that somebody typed for an object of this type, such as `UNSIGNED32`.
 ///
 /// # Errors
-/// What is wrong with the text.
+/// The problem of the text.
 #[wasm_bindgen(js_name = encodeValue)]
 pub fn encode_value(type_name: &str, text: &str) -> Result<Vec<u8>, JsError> {
     let data_type = named(type_name).unwrap_or(DataType::Domain);

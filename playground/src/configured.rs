@@ -12,7 +12,7 @@ impl Bus {
     /// DCF text it was made of; none of the two: what the journal says.
     ///
     /// # Errors
-    /// Where there is no such device.
+    /// The device does not exist.
     #[wasm_bindgen(js_name = exportDcf)]
     pub fn export_dcf(
         &mut self,

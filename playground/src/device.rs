@@ -1,4 +1,4 @@
-//! What hangs on the bus.
+//! Devices on the bus.
 
 use od_runtime::{DeviceKind, NodeId};
 use wasm_bindgen::prelude::*;
@@ -8,7 +8,7 @@ use crate::record::Record;
 
 #[wasm_bindgen]
 impl Bus {
-    /// How many devices are on the bus.
+    /// Returns the number of devices on the bus.
     #[wasm_bindgen(js_name = deviceCount)]
     pub fn device_count(&self) -> usize {
         self.journal.rig.bus.devices().len()

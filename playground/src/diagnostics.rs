@@ -1,4 +1,4 @@
-//! What is wrong with a text, for a list of it.
+//! Findings of a text, for a list.
 
 use od_bench::script::Problem;
 #[cfg(feature = "eds")]

@@ -21,7 +21,7 @@ impl Bus {
     /// with that number. A redundant encoder puts its further channels behind all devices.
     ///
     /// # Errors
-    /// Where there is no such device, or the node ID is not 1 to 127.
+    /// The device does not exist, or the node ID is not 1 to 127.
     #[wasm_bindgen(js_name = addDevice)]
     pub fn add_device(
         &mut self,
@@ -40,7 +40,7 @@ impl Bus {
     /// runs what can be run of a text with errors.
     ///
     /// # Errors
-    /// Where the node ID is not 1 to 127.
+    /// The node ID is not 1 to 127.
     #[cfg(feature = "eds")]
     #[wasm_bindgen(js_name = addEds, unchecked_return_type = "EdsResult")]
     pub fn add_eds(

@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 use crate::diagnostics::finding;
 use crate::fixes::Places;
 
-/// What there is to say about an EDS or DCF text.
+/// Returns the findings of an EDS or DCF text.
 #[wasm_bindgen(js_name = checkEds, unchecked_return_type = "Diagnostic[]")]
 pub fn check_eds(text: &str) -> Vec<JsValue> {
     let places = Places::of(text);

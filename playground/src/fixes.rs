@@ -5,7 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::record::{self, Record};
 
-/// Where the bytes of a text are in the string that JavaScript has.
+/// Map from the bytes of a text to the string that JavaScript has.
 pub(crate) struct Places<'a> {
     text: &'a str,
     /// Units before each byte; empty where all is ASCII and the two are the same.

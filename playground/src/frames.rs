@@ -49,7 +49,7 @@ impl Bus {
     }
 }
 
-/// What a frame says, with its node where the identifier alone does not tell.
+/// Words of a frame, with its node if the CAN-ID does not tell it.
 pub(crate) fn sentence(words: Words) -> String {
     let mut text = match (words.service, words.node) {
         (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),

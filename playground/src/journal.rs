@@ -1,4 +1,4 @@
-//! What is done to a bench and kept, so that the bench can be made again.
+//! Inputs of a bench, kept so that the bench can be made again.
 
 use od_bench::VirtualDevice;
 use od_bench::journal::{Added, Entry, Fault, Fields, Input, Placed, Source, Trouble, Value};
@@ -75,7 +75,7 @@ impl Bus {
         self.journal.entries().iter().map(record).collect()
     }
 
-    /// What is new in the journal since the last call; `null` if nothing is.
+    /// Returns the new entries of the journal since the last call; `null` if there are none.
     #[wasm_bindgen(unchecked_return_type = "JournalNews | null")]
     pub fn news(&mut self) -> JsValue {
         let Some((from, entries)) = self.journal.news() else {
@@ -87,13 +87,13 @@ impl Bus {
             .done()
     }
 
-    /// How many entries of a run that is made again are still to come.
+    /// Returns the number of entries still to come of a run that is made again.
     #[wasm_bindgen(js_name = toCome)]
     pub fn to_come(&self) -> usize {
         self.journal.to_come()
     }
 
-    /// What makes an empty bench as this one is now, without its past; `null` if nothing does.
+    /// Returns inputs that bring an empty bench to the state of this one, without its past; `null` if none do.
     #[wasm_bindgen(unchecked_return_type = "Entry[] | null")]
     pub fn still(&mut self) -> JsValue {
         let entries = self.journal.still();

@@ -14,7 +14,7 @@ impl Bus {
     /// From then on `advance` returns early when a checkpoint is reached.
     ///
     /// # Errors
-    /// What is wrong with the text, or with its set-up.
+    /// The problems of the text, or of its set-up.
     #[wasm_bindgen(js_name = startLesson)]
     pub fn start_lesson(&mut self, text: &str) -> Result<(), JsError> {
         let started = self
@@ -30,7 +30,7 @@ impl Bus {
         self.journal.lesson().map_or(JsValue::NULL, record)
     }
 
-    /// How far the lesson is; `null` where none is taken.
+    /// Returns the progress of the lesson; `null` if none runs.
     #[wasm_bindgen(unchecked_return_type = "LessonState | null")]
     pub fn lesson(&mut self) -> JsValue {
         let Some((progress, bus)) = self.journal.rig.lesson() else {

@@ -31,7 +31,7 @@ pub fn read_log(file: &[u8]) -> Result<JsValue, JsError> {
 /// Writes packed frames as a log; `ending` is `log`, `asc`, `trc` or `pcapng`.
 ///
 /// # Errors
-/// Where there is no such format.
+/// The format does not exist.
 #[wasm_bindgen(js_name = writeLog)]
 pub fn write_log(ending: &str, frames: &[u8]) -> Result<Vec<u8>, JsError> {
     let format = Format::of_ending(ending)

@@ -44,7 +44,7 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// What the EEPROM would bring back for an object at the next start: its saved value, or
+    /// Returns the value of an object that the EEPROM would bring back at the next start: its saved value, or
     /// its default; `null` where it is no object that is saved.
     #[wasm_bindgen(js_name = savedValue, unchecked_return_type = "Value")]
     pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {

@@ -21,7 +21,7 @@ impl Bus {
     /// for each answer.
     ///
     /// # Errors
-    /// Where the node ID is not 1 to 127.
+    /// The node ID is not 1 to 127.
     pub fn transfer(
         &mut self,
         node: u8,

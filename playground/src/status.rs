@@ -1,4 +1,4 @@
-//! What can be seen of a device from outside.
+//! State of a device as seen from outside.
 
 use od_bench::VirtualDevice;
 use od_model::Address;
@@ -27,7 +27,7 @@ impl Bus {
         .into()
     }
 
-    /// What the two lamps do.
+    /// Returns the state of the two LEDs.
     #[wasm_bindgen(unchecked_return_type = "Leds")]
     pub fn leds(&self, device: usize) -> JsValue {
         let (green, red) = self.device(device).map_or(("off", "off"), |device| {
@@ -42,7 +42,7 @@ impl Bus {
         self.device(device).is_some_and(VirtualDevice::is_powered)
     }
 
-    /// Where the shaft is, or `null` where there is none.
+    /// Returns the position of the shaft; `null` without one.
     #[wasm_bindgen(unchecked_return_type = "Shaft | null")]
     pub fn shaft(&mut self, device: usize) -> JsValue {
         let shaft = self
@@ -59,7 +59,7 @@ impl Bus {
         })
     }
 
-    /// What becomes of the raw position: direction, scaling, position value (6004h); `null`
+    /// Returns the steps from the raw position: direction, scaling, position value (6004h); `null`
     /// without a shaft.
     #[wasm_bindgen(unchecked_return_type = "Chain | null")]
     pub fn chain(&mut self, device: usize) -> JsValue {
@@ -130,7 +130,7 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// How the wire is, with the controller of the outside.
+    /// Returns the state of the bus line, with the controller of the outside.
     #[wasm_bindgen(unchecked_return_type = "LineStatus")]
     pub fn line(&self) -> JsValue {
         let line = &self.journal.rig.bus.line;

@@ -1,4 +1,4 @@
-//! What an input does.
+//! Applies an input to the bench.
 
 use std::format;
 use std::prelude::v1::*;
@@ -13,16 +13,16 @@ use crate::grammar::problem::Problem;
 #[cfg(feature = "lessons")]
 use crate::script::Bare;
 
-/// What came of an input that puts a device on the bus, starts a lesson or runs a script.
+/// Outcome of an input that puts a device on the bus, starts a lesson or runs a script.
 #[derive(Debug, Default)]
 pub struct Added {
     /// Number of the device, 0 for a lesson; `None` if it cannot run.
     pub node: Option<usize>,
-    /// What is wrong with it.
+    /// The findings or problems of the text.
     pub trouble: Trouble,
 }
 
-/// What is wrong with an EDS text, a lesson or a script.
+/// Findings of an EDS text, problems of a lesson or a script.
 #[derive(Debug, Default)]
 pub enum Trouble {
     /// Nothing.

@@ -42,13 +42,13 @@ pub enum Fault {
     Newer,
 }
 
-/// Where the fields come from. A field of a field is named `source.name`.
+/// Source of the fields. A field of a field is named `source.name`.
 pub trait Fields {
     /// Returns the value of a field.
     fn get(&self, key: &str) -> Value;
 }
 
-/// Where the fields go.
+/// Destination of the fields.
 pub trait Sink {
     /// Takes the value of a field.
     fn put(&mut self, key: &str, value: Value);

@@ -1,4 +1,4 @@
-//! What is done to a bench.
+//! Inputs of a bench: each act of its user.
 
 use std::format;
 use std::prelude::v1::*;
@@ -13,7 +13,7 @@ macro_rules! inputs {
     ($($(#[$doc:meta])* $op:literal $name:ident {
         $($(#[$about:meta])* $key:literal $field:ident: $kind:ty,)*
     })*) => {
-        /// What is done to a bench. Devices and stations count from 0; station 0 is the outside.
+        /// One act of the user of a bench. Devices and stations count from 0; station 0 is the outside.
         #[derive(Clone, PartialEq, Debug)]
         #[allow(missing_docs)] // the fields are what the variant says
         pub enum Input {
@@ -171,6 +171,6 @@ pub fn frame(id: u32, data: &[u8], extended: bool, remote: bool) -> Option<Frame
 pub struct Entry {
     /// When.
     pub at: Instant,
-    /// What.
+    /// The input.
     pub input: Input,
 }

@@ -27,7 +27,7 @@ const PORTION: usize = 5000;
 /// A device that the journal put on the bus.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Placed {
-    /// What it was made of.
+    /// Text or built-in device that it was made from.
     pub source: Source,
     /// The node ID that it got.
     pub node_id: NodeId,

@@ -1,8 +1,8 @@
-//! What fields of inputs are made of.
+//! Types of the fields of inputs.
 
 use std::prelude::v1::*;
 
-/// What a device is made of.
+/// Source of a device.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Source {
     /// A built-in one.
@@ -14,7 +14,7 @@ pub enum Source {
     Eds {
         /// Name of the file.
         name: String,
-        /// What is in it.
+        /// Its content.
         text: String,
         /// The device runs as far as the text allows.
         lenient: bool,
@@ -42,7 +42,7 @@ impl Source {
 pub struct Dip {
     /// Its bit: 1, 2 or 4.
     pub bit: u8,
-    /// Where it is put.
+    /// Its place.
     pub on: bool,
 }
 

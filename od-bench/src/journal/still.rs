@@ -152,7 +152,7 @@ impl Journal {
         })
     }
 
-    /// What was done so far.
+    /// Inputs so far.
     fn past(&self) -> Vec<&Input> {
         let done = self.entries.iter().take(self.done);
         done.map(|entry| &entry.input).collect()

@@ -41,7 +41,7 @@ impl Outcome {
 pub(super) struct Asker {
     client: Client,
     requests: VecDeque<Frame>,
-    /// What is under way, with its number.
+    /// Transfers under way, with their numbers.
     asked: Vec<(Job, u32, NodeId, Address)>,
     count: u32,
 }

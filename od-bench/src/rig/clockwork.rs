@@ -1,4 +1,4 @@
-//! What happens by itself while time passes: shafts that follow a profile, and frames that
+//! Acts of the passing time: shafts that follow a profile, and frames that
 //! are sent again and again.
 
 use std::prelude::v1::*;
@@ -32,7 +32,7 @@ pub(super) struct Clockwork {
     cyclic: Vec<Cyclic>,
 }
 
-/// What a moment brings.
+/// Act that is due at a moment.
 pub(super) enum Tick {
     Rpm(usize, f64),
     Send(Frame),
@@ -91,7 +91,7 @@ impl Clockwork {
         motions.chain(self.cyclic.iter().map(|one| one.due)).min()
     }
 
-    /// What is due now, one thing after the other.
+    /// Returns the next act that is due now.
     pub(super) fn take(&mut self, now: Instant) -> Option<Tick> {
         if let Some(place) = self.motions.iter().position(|motion| motion.due <= now) {
             let motion = &mut self.motions[place];

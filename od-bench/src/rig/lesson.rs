@@ -18,7 +18,7 @@ impl Rig {
     /// Starts a lesson: its set-up takes the place of all that is on the bus, and time goes on.
     ///
     /// # Errors
-    /// What is wrong with the text, or with its set-up.
+    /// The problems of the text, or of its set-up.
     pub fn start_lesson(
         &mut self,
         text: &str,

@@ -23,7 +23,7 @@ use crate::wire::Disturbance;
 
 pub use self::client::Outcome;
 
-/// What happened on the bus line.
+/// Event on the bus line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Seen {
     /// A frame.

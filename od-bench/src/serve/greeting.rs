@@ -88,7 +88,7 @@ fn node(device: &VirtualDevice) -> String {
     }
 }
 
-/// What the EDS of a device turns on, and what it promises in vain.
+/// Services that the EDS of a device turns on, and those that it promises in vain.
 fn services(text: &mut String, device: &VirtualDevice, several: bool) {
     let Services { on, missing } = device.services();
     let of = match several {

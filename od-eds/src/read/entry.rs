@@ -21,7 +21,7 @@ use crate::scan::placed::Text;
 use crate::span::Spanned;
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
-/// Where the findings of one section go, and what it is about.
+/// Destination of the findings of one section, and the object that it is about.
 pub(crate) struct Reader<'a> {
     pub(crate) address: Address,
     pub(crate) log: &'a mut Vec<Finding>,

@@ -53,7 +53,7 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
 #[derive(Debug)]
 struct Machines<const PDO: usize, const SDO: usize> {
     node_id: NodeId,
-    /// What [`LssProfile::is_own`](crate::LssProfile::is_own) starts with while nothing is stored.
+    /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: Option<NodeId>,
     /// `false`: the node ID is FFh (CiA 305), and there is LSS alone.
     configured: bool,
