@@ -58,6 +58,7 @@ impl Odkit {
         };
         let Self { node, device, now } = &mut odkit;
         node.power_on(device, *now).expect("the values fit");
+        node.boot_at_once(device, *now);
         while node.poll_transmit(device, *now).is_some() {}
         odkit
     }
