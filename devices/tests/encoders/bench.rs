@@ -125,7 +125,7 @@ impl<M: Motion> Bench<M> {
         self.wait(1000);
     }
 
-    /// What the node told its host since the last call.
+    /// Events of the node since the last call.
     pub(crate) fn events(&mut self) -> Vec<Event> {
         std::iter::from_fn(|| self.node.poll_event()).collect()
     }

@@ -100,7 +100,7 @@ fn a_save_that_a_reset_interrupts_is_told() {
             events.into_iter().filter(is_cut).collect::<Vec<_>>()
         };
         assert_eq!(cuts(bench.events()), [Event::SaveCut { factory: true }]);
-        // A save that is complete is none.
+        // A complete save causes no event.
         bench.write(0x1010, 1, SAVE).unwrap();
         bench.wait(1_000);
         bench.nmt(command);

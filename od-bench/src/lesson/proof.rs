@@ -4,14 +4,11 @@
 use std::prelude::v1::*;
 use std::{format, vec};
 
-use od_runtime::{Frame, Instant, NodeId};
-
 use super::content::{Block, Lesson, stopped};
 use super::progress::Progress;
 use super::watch::{Watched, pass};
-use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
-use crate::script::{Bench, Host, Origin, Script, run_on};
+use crate::script::{Bench, Host, Recorder, Script, run_on};
 
 /// So long nobody does anything, in microseconds; no checkpoint may be reached by that.
 const IDLE: u64 = 20_000_000;
@@ -58,26 +55,6 @@ pub fn prove(lesson: &Lesson, host: &mut dyn Host) -> Vec<Problem> {
     problems
 }
 
-/// A host that keeps the frames.
-struct Recorder<'a> {
-    host: &'a mut dyn Host,
-    frames: Vec<Frame>,
-}
-
-impl Host for Recorder<'_> {
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
-        self.host.device(name, node_id)
-    }
-
-    fn frame(&mut self, _: Instant, _: Origin, frame: &Frame) {
-        self.frames.push(*frame);
-    }
-}
-
 /// The bench as the set-up leaves it, with some solutions played on it.
 fn played(
     lesson: &Lesson,
@@ -119,14 +96,12 @@ fn solved(lesson: &Lesson, host: &mut dyn Host, solutions: &[Block], problems: &
         return;
     };
     for (number, (step, solution)) in lesson.steps.iter().zip(solutions).enumerate() {
-        let mut recorder = Recorder {
-            host,
-            frames: Vec::new(),
-        };
+        let mut frames = Vec::new();
+        let record = |_, _, frame| frames.push(frame);
+        let mut recorder = Recorder { host, record };
         if let Err(problem) = play(solution, &mut bench, &mut recorder, &mut progress) {
             return problems.push(problem);
         }
-        let frames = recorder.frames;
         if progress.step() <= number {
             let missing = progress.requirements(&mut bench.bus);
             let missing = missing.iter().filter(|one| !one.holds);

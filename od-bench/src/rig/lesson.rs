@@ -2,17 +2,16 @@
 
 use std::prelude::v1::*;
 
-use od_wire::{Frame, Instant, NodeId};
+use od_wire::{Frame, Instant};
 
 use super::taken::Taken;
 use super::{Rig, Seen};
 use crate::bench::Bench;
 use crate::bus::Bus;
-use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
 use crate::lesson::{Lesson, Progress, Watched};
 use crate::rig::clockwork::Clockwork;
-use crate::script::{Host, Origin, Script, run_on};
+use crate::script::{Host, Origin, Recorder, Script, run_on};
 
 impl Rig {
     /// Starts a lesson: its set-up takes the place of all that is on the bus, and time goes on.
@@ -62,7 +61,14 @@ impl Rig {
         })?;
         let bus = std::mem::take(&mut self.bus);
         let seen = &mut self.seen;
-        let mut recorder = Recorder { host, seen };
+        let record = |at, origin, frame| {
+            let device = match origin {
+                Origin::Script => None,
+                Origin::Device(device) => Some(device),
+            };
+            seen.push(Seen::Frame { at, device, frame });
+        };
+        let mut recorder = Recorder { host, record };
         let (result, bus) = match &mut self.taken {
             Some(taken) => {
                 taken.names.bus = bus;
@@ -111,30 +117,5 @@ impl Rig {
     pub(super) fn reached(&self) -> usize {
         let taken = self.taken.as_ref();
         taken.map_or(0, |taken| taken.progress.reached().len())
-    }
-}
-
-/// Records the frames of a script.
-struct Recorder<'a> {
-    host: &'a mut dyn Host,
-    seen: &'a mut Vec<Seen>,
-}
-
-impl Host for Recorder<'_> {
-    fn device(
-        &mut self,
-        name: Option<&str>,
-        node_id: Option<NodeId>,
-    ) -> Result<VirtualDevice, String> {
-        self.host.device(name, node_id)
-    }
-
-    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
-        let device = match origin {
-            Origin::Script => None,
-            Origin::Device(device) => Some(device),
-        };
-        let frame = *frame;
-        self.seen.push(Seen::Frame { at, device, frame });
     }
 }

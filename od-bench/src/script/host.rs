@@ -41,6 +41,26 @@ pub trait Host {
     }
 }
 
+/// A host whose frames go to a function; its devices are those of another host.
+pub(crate) struct Recorder<'a, F> {
+    pub(crate) host: &'a mut dyn Host,
+    pub(crate) record: F,
+}
+
+impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        self.host.device(name, node_id)
+    }
+
+    fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
+        (self.record)(at, origin, *frame);
+    }
+}
+
 /// A host with these devices and nothing else.
 #[derive(Clone, Copy, Debug)]
 pub struct Bare(

@@ -21,6 +21,7 @@ mod sdo;
 pub mod typed;
 
 pub use console::Console;
+pub(crate) use host::Recorder;
 pub use host::{Bare, Host, Origin};
 pub use line::{Known, frame_of};
 pub use outcome::{Reason, Stop, Summary};

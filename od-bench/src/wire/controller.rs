@@ -40,7 +40,7 @@ pub struct Controller {
     pub transmit: u16,
     /// Receive error counter.
     pub receive: u16,
-    /// Bus-off: when the bus allows it to begin anew.
+    /// Bus-off: the moment at which the bus allows a restart.
     pub(super) recovers: Option<Instant>,
 }
 

@@ -103,7 +103,7 @@ impl Line {
         self.controllers.get(station).copied().unwrap_or_default()
     }
 
-    /// Returns the device, counted from 0, whose controller may begin anew next after bus-off,
+    /// Returns the device, counted from 0, whose controller may restart next after bus-off,
     /// and when.
     pub(super) fn next_recovery(&self) -> Option<(Instant, usize)> {
         let devices = self.controllers.iter().skip(1).enumerate();
@@ -112,7 +112,7 @@ impl Line {
             .min()
     }
 
-    /// The device has decided whether it begins anew.
+    /// Ends bus-off: the controller of the device restarts, or stays off until a power cycle.
     pub(super) fn recover(&mut self, device: usize, begins: bool) {
         if let Some(controller) = self.controllers.get_mut(device + 1) {
             controller.recovers = None;

@@ -33,7 +33,7 @@ pub enum Event {
     },
     /// The CAN controller is bus-off; the node comes back by itself or not.
     BusOff {
-        /// It begins anew as soon as the bus allows it.
+        /// The controller restarts as soon as the bus allows it.
         restarts: bool,
     },
     /// The node is back from bus-off.
