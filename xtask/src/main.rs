@@ -2,7 +2,7 @@
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
 //! check, `mutants` checks the tests, `corpus` reads a folder of device files,
-//! `wasm-pack` makes the npm package. Standard library only.
+//! `size` says what a node costs, `wasm-pack` makes the npm package. Standard library only.
 
 mod bundle;
 mod console;
@@ -16,6 +16,7 @@ mod repo;
 mod serve;
 mod setup;
 mod shots;
+mod size;
 mod stamp;
 mod test;
 mod wasm_pack;
@@ -46,6 +47,9 @@ usage: cargo xtask <command> [options]
         where it stopped
   shots
         build and serve the page, write its screenshots to target/shots/
+  size [--format table|json] [--accept]
+        build the programs of firmware/, run them on an emulated Cortex-M3, and print
+        what a node costs; --accept renews the table in README.md
   wasm-pack [arguments]
         run wasm-pack with the right tools in place; without arguments:
         build playground --target web
@@ -101,6 +105,7 @@ fn run(args: &[String]) -> Result<ExitCode> {
             }
             shots::run(&Repo::locate()?, &Console::terminal())?;
         }
+        "size" => size::run(&Repo::locate()?, rest)?,
         "wasm-pack" => wasm_pack::run(&Repo::locate()?, &Console::terminal(), rest)?,
         other => return Err(Error::Usage(format!("`{other}` is not a command"))),
     }

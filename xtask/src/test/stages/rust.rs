@@ -7,6 +7,7 @@ use crate::console::cargo;
 use crate::error::{Error, Result};
 use crate::packages::{BENCHES, CLI, NO_STD, PEER, TESTS};
 use crate::setup::target;
+use crate::size;
 use crate::test::context::Context;
 
 /// All that is built for the host, except the benchmarks with their heavy peers. Always these
@@ -24,6 +25,8 @@ pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
         "xtask/bindgen/Cargo.toml",
     ];
     run(context, "formatting", &[&bindgen[..], &check].concat())?;
+    let firmware = ["fmt", "--manifest-path", "firmware/Cargo.toml"];
+    run(context, "formatting", &[&firmware[..], &check].concat())?;
     run(
         context,
         "formatting",
@@ -106,6 +109,10 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
         )?;
     }
     Ok(())
+}
+
+pub(super) fn size(context: &Context<'_>) -> Result<()> {
+    size::check(context.repo, context.console)
 }
 
 pub(super) fn hosts(context: &Context<'_>) -> Result<()> {

@@ -1,0 +1,60 @@
+//! GXMM complete, as on the bus: a multiturn encoder whose sensor is sampled.
+#![no_std]
+#![no_main]
+
+use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
+use odkit::encoder::{Angle, Encoder, Sampled};
+use odkit::storage::Memory;
+use odkit::{Duration, Lent, NodeId};
+use odkit_firmware::board::Once;
+use odkit_firmware::master::{self, Step, sdo};
+
+type Shaft = Encoder<Sampled<Angle>>;
+
+static NODE: Once<gxmm::Node> = Once::new(gxmm::Node::new(NodeId::ONE));
+static VALUES: Once<[u8; gxmm::STORE_LEN]> = Once::new([0; gxmm::STORE_LEN]);
+static SHAFT: Once<Shaft> = Once::new(Encoder::new(
+    &ENCODER,
+    Sampled::new(Angle::from_fractions(1 << 30), Duration::from_millis(1)),
+));
+#[unsafe(link_section = ".eeprom")]
+static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
+
+#[unsafe(link_section = ".script")]
+static SCRIPT: [Step; 16] = [
+    sdo([0x40, 0x18, 0x10, 1, 0, 0, 0, 0]),
+    // Scaling, a preset, node guarding.
+    sdo([0x2B, 0x00, 0x60, 0, 4, 0, 0, 0]),
+    sdo([0x23, 0x01, 0x60, 0, 0, 4, 0, 0]),
+    sdo([0x23, 0x02, 0x60, 0, 0, 0, 1, 0]),
+    sdo([0x23, 0x03, 0x60, 0, 0x10, 0, 0, 0]),
+    sdo([0x40, 0x04, 0x60, 0, 0, 0, 0, 0]),
+    Step::Frame(0x80, 0, [0; 8]),
+    Step::Change,
+    Step::Wait(1000),
+    sdo([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
+    sdo([0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
+    // LSS in Stopped: the vendor-ID is inquired.
+    Step::Frame(0, 2, [2, 0, 0, 0, 0, 0, 0, 0]),
+    Step::Frame(0x7E5, 8, [4, 1, 0, 0, 0, 0, 0, 0]),
+    Step::Frame(0x7E5, 8, [0x5A, 0, 0, 0, 0, 0, 0, 0]),
+    Step::Frame(0x7E5, 8, [4, 0, 0, 0, 0, 0, 0, 0]),
+    Step::Frame(0, 2, [0x81, 0, 0, 0, 0, 0, 0, 0]),
+];
+
+#[unsafe(no_mangle)]
+extern "C" fn main() -> ! {
+    let mut device = Lent {
+        dictionary: gxmm::DICTIONARY,
+        values: VALUES.take(),
+        application: SHAFT.take(),
+        storage: &mut Memory::new(&mut EEPROM.take()[..]),
+        profile: &PROFILE,
+    };
+    master::run(
+        NODE.take(),
+        &mut device,
+        [0x40, 0x00, 0x10, 0, 0, 0, 0, 0],
+        &SCRIPT,
+    )
+}

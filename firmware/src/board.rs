@@ -1,0 +1,149 @@
+//! Start-up, the clock of the processor, and the way out to the emulator.
+
+use core::arch::{asm, global_asm};
+use core::cell::UnsafeCell;
+use core::panic::PanicInfo;
+use core::sync::atomic::{AtomicBool, Ordering};
+
+/// Content of RAM that nothing has written yet.
+const PAINT: u32 = 0xA5A5_A5A5;
+
+// Paints the RAM, then .data gets its content and .bss its zeros.
+global_asm!(
+    ".syntax unified",
+    ".section .text.reset",
+    ".global reset",
+    ".thumb_func",
+    "reset:",
+    "ldr r0, =__data_start",
+    "ldr r1, =__stack_top",
+    "ldr r2, ={paint}",
+    "1: str r2, [r0]",
+    "adds r0, #4",
+    "cmp r0, r1",
+    "bcc 1b",
+    "ldr r0, =__data_start",
+    "ldr r1, =__data_end",
+    "ldr r2, =__data_load",
+    "2: cmp r0, r1",
+    "bcs 3f",
+    "ldr r3, [r2]",
+    "str r3, [r0]",
+    "adds r0, #4",
+    "adds r2, #4",
+    "b 2b",
+    "3: ldr r0, =__bss_start",
+    "ldr r1, =__bss_end",
+    "movs r2, #0",
+    "4: cmp r0, r1",
+    "bcs 5f",
+    "str r2, [r0]",
+    "adds r0, #4",
+    "b 4b",
+    "5: bl main",
+    "b .",
+    ".pool",
+    paint = const PAINT,
+);
+
+unsafe extern "C" {
+    static __data_start: u32;
+    static __bss_end: u32;
+    static __stack_top: u32;
+    static __flash_end: u32;
+}
+
+/// A static value that the program takes once, and owns from then on.
+pub struct Once<T>(UnsafeCell<T>, AtomicBool);
+
+// SAFETY: `take` hands the value out once, to whoever comes first.
+unsafe impl<T> Sync for Once<T> {}
+
+impl<T> Once<T> {
+    /// A value that nobody has taken.
+    pub const fn new(value: T) -> Self {
+        Self(UnsafeCell::new(value), AtomicBool::new(false))
+    }
+
+    /// Takes the value.
+    #[allow(clippy::mut_from_ref)] // once
+    pub fn take(&self) -> &mut T {
+        let taken = self.1.load(Ordering::Relaxed);
+        self.1.store(true, Ordering::Relaxed);
+        if taken {
+            exit(false);
+        }
+        // SAFETY: this is the first call, and there are no interrupts.
+        unsafe { &mut *self.0.get() }
+    }
+}
+
+/// Bytes of flash (code, constants, content of .data), and bytes of static RAM.
+pub fn sizes() -> (u32, u32) {
+    let of = |symbol: *const u32| symbol as u32;
+    let ram = of(&raw const __bss_end) - of(&raw const __data_start);
+    (of(&raw const __flash_end), ram)
+}
+
+/// The deepest that the stack has been, in bytes.
+#[inline(never)]
+pub fn stack() -> u32 {
+    let top = &raw const __stack_top;
+    let mut at = &raw const __bss_end;
+    // SAFETY: from the end of .bss to the top of the stack all is RAM.
+    while at < top && unsafe { at.read_volatile() } == PAINT {
+        at = at.wrapping_add(1);
+    }
+    top as u32 - at as u32
+}
+
+const SYSTICK: *mut u32 = 0xE000_E010 as *mut u32;
+
+/// Starts the clock that counts instructions: with `-icount shift=10` the processor takes 1024 ns
+/// for each, and the clock has a tick every 80 ns.
+pub fn start_clock() {
+    // SAFETY: the registers of SysTick, which nothing else uses.
+    unsafe {
+        SYSTICK.add(1).write_volatile(0xFF_FFFF);
+        SYSTICK.add(2).write_volatile(0);
+        SYSTICK.write_volatile(5);
+    }
+}
+
+/// Ticks of the clock, downwards, modulo 2²⁴.
+#[inline(always)]
+pub fn clock() -> u32 {
+    // SAFETY: a register without side effects.
+    unsafe { SYSTICK.add(2).read_volatile() }
+}
+
+fn semihosting(operation: u32, parameter: usize) {
+    // SAFETY: the emulator reads what `parameter` points to, and r0 is its answer.
+    unsafe {
+        asm!("bkpt 0xAB", inout("r0") operation => _, in("r1") parameter, options(nostack));
+    }
+}
+
+/// Prints `name` and a number in hex on a line. `name` ends with a 0.
+pub fn print(name: &[u8], number: u32) {
+    let mut line = *b" 00000000\n\0";
+    for (at, digit) in line[1..9].iter_mut().enumerate() {
+        let nibble = (number >> (28 - 4 * at) & 15) as u8;
+        *digit = nibble + if nibble < 10 { b'0' } else { b'a' - 10 };
+    }
+    semihosting(4, name.as_ptr() as usize);
+    semihosting(4, line.as_ptr() as usize);
+}
+
+/// Ends the program.
+pub fn exit(well: bool) -> ! {
+    semihosting(0x18, if well { 0x2_0026 } else { 0x2_0023 });
+    loop {
+        core::hint::spin_loop();
+    }
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    exit(false)
+}
