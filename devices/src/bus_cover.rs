@@ -169,6 +169,7 @@ pub static PROFILE: Profile = Profile {
         cob_ids: SavedCobIds::Absolute,
         // 6200h is 1800h:05 (C-GX-26), whichever group is saved or restored.
         twins: &[[Address::new(0x1800, 5), Address::new(0x6200, 0)]],
+        ..Profile::CIA301.store
     },
     // Chapter 4.3.7; the table runs opposite to the codes of 2100h (C-GX-36).
     lss: Some(LssProfile {

@@ -111,6 +111,7 @@ pub static PROFILE: Profile = Profile {
         // Chapters 7.3 and 8.2 (C-EAM-02).
         cob_ids: SavedCobIds::Difference,
         twins: &[],
+        ..Profile::CIA301.store
     },
     // Chapter 11: index 5 is reserved by CiA 305.
     lss: Some(LssProfile {

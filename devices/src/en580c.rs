@@ -82,6 +82,7 @@ pub static PROFILE: Profile = Profile {
         // Chapters 5.1.4.2 and 5.2.2.
         cob_ids: SavedCobIds::Absolute,
         twins: &[],
+        ..Profile::CIA301.store
     },
     // Chapter 5.1.8; 10 and 20 kbit/s are not supported (C-EN-19).
     lss: Some(LssProfile {

@@ -2,6 +2,8 @@
 
 use std::prelude::v1::*;
 
+use od_runtime::encoder::{Role, Switches};
+
 use crate::device::{Behaviour, VirtualDevice};
 use crate::services::Services;
 
@@ -35,6 +37,40 @@ impl VirtualDevice {
         };
         address[3] = serial_number.unwrap_or(address[3]);
         address
+    }
+
+    /// Delivered with the node ID that it was made with: 1011h leads back to this one, and not to
+    /// the default of its dictionary. For a device with an object for its node ID (2101h); do it
+    /// before power comes.
+    #[must_use]
+    pub fn delivered(mut self) -> Self {
+        if let Behaviour::Encoder(encoder) = &self.behaviour {
+            let object = encoder.profile().object(Role::NodeId);
+            self.profile.store.node_id = object.map(|at| (at, self.wanted_id));
+        }
+        self
+    }
+
+    /// Delivered with its rotary switches at the node ID that it was made with, which then rule, and
+    /// its DIP switches at the bit rate of its dictionary. The switches end at 99; beyond that, and
+    /// without switches, it is [`delivered`](Self::delivered) with this node ID.
+    #[must_use]
+    pub fn with_node_switch(mut self) -> Self {
+        if let Behaviour::Encoder(encoder) = &mut self.behaviour {
+            let family = encoder.profile();
+            let dictionary = self.source.dictionary();
+            let code = family.object(Role::BitRate).and_then(|at| {
+                let entry = dictionary.find(at).ok()?;
+                usize::try_from(entry.default.integer(0)?).ok()
+            });
+            let rate = code.and_then(|code| family.bit_rates.get(code));
+            let dip = rate.and_then(|rate| family.switch_rates.iter().position(|one| one == rate));
+            if let (Some(dip), node_id @ ..=99) = (dip, self.wanted_id.raw()) {
+                let bit_rate = dip as u8;
+                encoder.set_switches(Switches { node_id, bit_rate });
+            }
+        }
+        self.delivered()
     }
 
     /// Whether it has a node ID; without one there is LSS alone (CiA 305).

@@ -257,3 +257,26 @@ fn what_cannot_be_is_said_in_one_line() {
     assert_eq!(sim.code, 1);
     assert!(sim.err.contains("not an EEPROM file"), "{}", sim.err);
 }
+
+#[test]
+fn a_restore_leads_back_to_the_node_id_of_the_command_line() {
+    // Rotary switches rule over what is saved (manual 000, 7.2.1; manual 003, 5.1.10); the EAM has
+    // none. A save and a start take their time (DECISIONS U-39).
+    for (device, saved, time) in [
+        ("gxmm", 5, "1ms"),
+        ("eam_mt", 9, "250ms"),
+        ("en580c", 5, "550ms"),
+    ] {
+        let lines = format!(
+            "605#2F01210009000000\n605#2310100173617665\nwait {time}\n000#8105\nwait {time}\n\
+             605#231110016C6F6164\n609#231110016C6F6164\n000#8100\nwait {time}\n"
+        );
+        let sim = console(&[device, "--node-id", "5"], &lines);
+        let boot_ups: Vec<&str> = (sim.out.lines())
+            .filter_map(|line| line.split(' ').nth(2))
+            .filter(|frame| frame.starts_with('7'))
+            .collect();
+        let expected = [&*format!("70{saved}#00"), "705#00"];
+        assert!(boot_ups.ends_with(&expected), "{device}: {}", sim.out);
+    }
+}

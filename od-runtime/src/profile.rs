@@ -6,9 +6,10 @@
 //! forbid. A literal that ends in `..Profile::CIA301` (or in a part of it, such as
 //! `..Profile::CIA301.sdo`) still compiles when a field is added.
 
-use od_model::Address;
+use od_model::{Address, Entry};
+use od_wire::{AbortCode, NodeId};
 
-use od_wire::AbortCode;
+use crate::store::Store;
 
 /// Response to an SDO download whose length is not that of the object.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -117,6 +118,21 @@ pub struct StoreProfile {
     /// Pairs of saved objects with one value (1800h:05 and 6200h): saving or restoring the group
     /// of one includes the other.
     pub twins: &'static [[Address; 2]],
+    /// Object and value that replaces its default: the node ID with which this one device was
+    /// delivered. `None`: the default of the dictionary.
+    pub node_id: Option<(Address, NodeId)>,
+}
+
+impl StoreProfile {
+    /// Every value for which `which` is true becomes what the device was delivered with.
+    pub fn reset(&self, store: &mut Store<'_>, mut which: impl FnMut(&Entry) -> bool) {
+        store.reset(&mut which);
+        if let Some((address, node_id)) = self.node_id
+            && store.dictionary().find(address).is_ok_and(which)
+        {
+            store.set_unsigned(address, node_id.raw().into());
+        }
+    }
 }
 
 /// Options of the LSS slave (CiA 305).
@@ -316,6 +332,7 @@ impl Profile {
             cut: CutSave::LastSet,
             cob_ids: SavedCobIds::Absolute,
             twins: &[],
+            node_id: None,
         },
         lss: None,
         guarding_switch: None,

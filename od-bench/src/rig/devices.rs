@@ -35,11 +35,12 @@ impl Rig {
     /// Puts a built-in device on the bus, as [`put`](Self::put) does. The further channels of a
     /// redundant encoder are nodes with the next node IDs on its shaft, behind all devices.
     pub fn put_kind(&mut self, kind: &DeviceKind, node_id: NodeId, place: Option<usize>) -> usize {
-        let first = self.put(VirtualDevice::new(kind, node_id), place);
+        let first = self.put(VirtualDevice::new(kind, node_id).delivered(), place);
         for channel in 1..kind.channels {
             let next = node_id.raw().checked_add(channel).and_then(NodeId::new);
             let mut device = VirtualDevice::new(kind, next.unwrap_or(NodeId::ONE))
-                .with_serial_number(u32::from(channel) + 1);
+                .with_serial_number(u32::from(channel) + 1)
+                .delivered();
             let devices = self.bus.devices();
             device.set_up_for(devices.get(first).and_then(VirtualDevice::bit_rate));
             let number = self.bus.add_beside(device, first);

@@ -37,6 +37,32 @@ fn frames(rig: &mut Rig) -> Vec<String> {
 }
 
 #[test]
+fn a_restore_leads_back_to_the_node_id_of_the_bench() {
+    let mut rig = rig(&["gxmm", "eam_mt", "en580c"]);
+    let kind = DEVICES.iter().find(|kind| kind.name == "eam_red").unwrap();
+    rig.put_kind(kind, NodeId::new(0x10).unwrap(), None);
+    for node in [1_u16, 2, 3, 0x10, 0x11] {
+        let parameter = |bytes: [u8; 8]| Frame::standard(0x600 + node, &bytes);
+        let reset = |node: u16| Frame::standard(0, &[0x81, node as u8]);
+        let save = parameter([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']);
+        let load = [0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd'];
+        rig.send(&parameter([0x2F, 1, 0x21, 0, 9, 0, 0, 0]));
+        for frame in [save, reset(node)] {
+            rig.send(&frame);
+            run(&mut rig, 1_000_000);
+        }
+        let moved = rig.bus.devices().iter().any(|one| one.node_id().raw() == 9);
+        assert!(moved, "node {node}: LSS and 2101h still act");
+        rig.send(&Frame::standard(0x609, &load));
+        rig.drain();
+        rig.send(&reset(9));
+        run(&mut rig, 1_000_000);
+        let boot_up = Frame::standard(0x700 + node, &[0]).to_string();
+        assert!(frames(&mut rig).contains(&boot_up), "node {node}");
+    }
+}
+
+#[test]
 fn the_client_reads_and_writes_over_the_bus() {
     let mut rig = rig(&["gxmm"]);
     rig.drain();

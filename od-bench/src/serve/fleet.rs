@@ -41,7 +41,11 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     }
     let mut places: Vec<Place> = Vec::new();
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
-        let mut device = one(maker, args, at, &places)?;
+        let device = one(maker, args, at, &places)?;
+        let mut device = match args.node_ids.get(at) {
+            Some(Some(_)) => device.with_node_switch(),
+            _ => device.delivered(),
+        };
         if let Some(number) = args
             .serials
             .get(at)

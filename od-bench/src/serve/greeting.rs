@@ -100,6 +100,13 @@ fn services(text: &mut String, device: &VirtualDevice, several: bool) {
             let _ = writeln!(text, "{of}{label}: {}", services.join(", "));
         }
     }
+    let (switches, _) = device.switches();
+    if switches != 0 {
+        let _ = writeln!(
+            text,
+            "{of}rotary switches at {switches:02}: 2101h and LSS set the node ID after `switch node 0`"
+        );
+    }
 }
 
 fn place(link: &Opened) -> String {

@@ -87,8 +87,8 @@ pub const CHOICES: [Choice; 9] = [
         name: "node-id",
         value: "N",
         help: "Node ID of the node at the start, 1 to 127, or `none` (255): it waits for LSS; repeat it \
-               for the next node (a redundant encoder has two). Without it a node gets 1, or the \
-               next free node ID",
+               for the next node (a redundant encoder has two). An encoder with rotary switches has \
+               them at this node ID (1 to 99). Without it a node gets 1, or the next free node ID",
         repeats: true,
         set: |options, text| {
             let node_id = match text {

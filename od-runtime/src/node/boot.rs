@@ -180,8 +180,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             }
         };
         for pass in 0..2 {
-            objects.store.reset(which);
             let profile = &objects.profile.store;
+            profile.reset(&mut objects.store, which);
             let loaded = image::load(objects.storage, &mut objects.store, profile, &which);
             let news = match loaded {
                 Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. }) => None,

@@ -172,8 +172,8 @@ impl<'c> Objects<'c> {
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
         if profile.restore == crate::profile::Restore::AtOnce {
-            self.store
-                .reset(|entry| image::restores(profile, entry, sub));
+            let which = |entry: &Entry| image::restores(profile, entry, sub);
+            profile.reset(&mut self.store, which);
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
         self.outbox.effect(Effect::Restored(sub));
