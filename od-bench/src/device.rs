@@ -11,6 +11,7 @@ use od_runtime::{
     AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, Profile,
     Reset, Store,
 };
+use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 use crate::eeprom::Eeprom;
@@ -71,6 +72,8 @@ pub struct VirtualDevice {
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
     pub(super) activated: Option<u16>,
+    /// Errors that were reported from outside since the last start.
+    pub(super) raised: Vec<Emcy>,
     /// Events for [`poll_event`](Self::poll_event).
     events: VecDeque<Event>,
     /// Channels on its shaft, as [`DeviceKind::channels`].
@@ -154,6 +157,7 @@ impl VirtualDevice {
             wanted_rate: None,
             look_at: None,
             activated: None,
+            raised: Vec::new(),
             events: VecDeque::new(),
             channels: 1,
             has_leds: true,
@@ -286,11 +290,14 @@ impl VirtualDevice {
 
     /// Keeps the events of the node for [`poll_event`](Self::poll_event), and acts on those that
     /// the world outside the node has to know.
-    fn take_events(&mut self) {
+    pub(super) fn take_events(&mut self) {
         while let Some(event) = self.node.poll_event() {
             match event {
                 Event::BitRate(code) => self.activated = self.bit_rate_of(code),
-                Event::Reset(Reset::PowerOn | Reset::Node, _) => self.activated = None,
+                Event::Reset(Reset::PowerOn | Reset::Node, _) => {
+                    self.activated = None;
+                    self.raised.clear();
+                }
                 _ => {}
             }
             if self.events.len() == EVENTS {
@@ -357,7 +364,7 @@ impl VirtualDevice {
         }
     }
 
-    fn parts(&mut self) -> (&mut dyn Slave, Lent<'_>) {
+    pub(super) fn parts(&mut self) -> (&mut dyn Slave, Lent<'_>) {
         let Self {
             source,
             values,

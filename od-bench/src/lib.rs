@@ -25,6 +25,7 @@ pub mod links;
 #[cfg(feature = "eds")]
 mod loaded;
 pub mod logs;
+mod own;
 pub mod pdos;
 mod plain;
 pub mod rig;

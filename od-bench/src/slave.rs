@@ -1,6 +1,9 @@
 //! A node whatever its type: the bench runs those of compiled devices with their own sizes.
 
+use od_model::Address;
 use od_runtime::{BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, StoreTooSmall};
+use od_wire::AbortCode;
+use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 /// Something that a node handles.
@@ -18,6 +21,14 @@ pub(crate) trait Slave {
     fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall>;
     fn power_off(&mut self);
     fn handle(&mut self, device: &mut Lent<'_>, now: Instant, input: Input<'_>);
+    fn set_value(
+        &mut self,
+        device: &mut Lent<'_>,
+        now: Instant,
+        address: Address,
+        bytes: &[u8],
+    ) -> Result<(), AbortCode>;
+    fn change_error(&mut self, device: &mut Lent<'_>, now: Instant, error: Emcy, on: bool) -> bool;
     fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame>;
     fn poll_timeout(&self) -> Option<Instant>;
     fn poll_event(&mut self) -> Option<Event>;
@@ -47,6 +58,23 @@ impl<D: Device, const PDO: usize, const SDO: usize> Slave for Node<D, PDO, SDO> 
             Input::Bus(event) => self.handle_bus(device, now, event),
             Input::Change => self.handle_change(device, now),
             Input::Boot => self.boot_at_once(device, now),
+        }
+    }
+
+    fn set_value(
+        &mut self,
+        device: &mut Lent<'_>,
+        now: Instant,
+        address: Address,
+        bytes: &[u8],
+    ) -> Result<(), AbortCode> {
+        self.set_value(device, now, address, bytes)
+    }
+
+    fn change_error(&mut self, device: &mut Lent<'_>, now: Instant, error: Emcy, on: bool) -> bool {
+        match on {
+            true => self.raise(device, now, error),
+            false => self.clear(device, now, error),
         }
     }
 

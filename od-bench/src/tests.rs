@@ -1,6 +1,7 @@
 //! The bench as its users see it: devices, bus, words.
 
 mod commissioning;
+mod own;
 
 use std::prelude::v1::*;
 use std::{format, vec};

@@ -142,6 +142,12 @@ impl Producer {
         }
     }
 
+    /// Whether an error with this code and these bits of 1001h lasts.
+    pub(crate) fn is_active(&self, error: Emcy) -> bool {
+        let mut active = self.active.iter();
+        active.any(|known| known.code == error.code && known.register == error.register)
+    }
+
     /// Sets the bits of 1001h without an EMCY message. Returns those that became set.
     pub(crate) fn set_silent(&mut self, store: &mut Store<'_>, bits: u8) -> u8 {
         let before = self.register();

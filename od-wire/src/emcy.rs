@@ -33,6 +33,19 @@ impl Emcy {
     }
 }
 
+/// Returns the bits of 1001h that go with an error code (CiA 301, chapters 7.2.7.1 and 7.5.2.2): the
+/// generic error, and the bit of its class.
+pub const fn register(code: u16) -> u8 {
+    1 | match code >> 8 {
+        0x20..=0x2F => 1 << 1,
+        0x30..=0x3F => 1 << 2,
+        0x40..=0x4F => 1 << 3,
+        0x80..=0x8F => 1 << 4,
+        0xFF => 1 << 7,
+        _ => 0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

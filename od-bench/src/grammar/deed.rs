@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{BusEvent, Frame};
 
-use super::typed::Typed;
+use super::typed::{Typed, Write};
 use crate::bench::Bench;
 
 /// A shaft that moves.
@@ -52,6 +52,17 @@ pub(crate) enum Deed {
     NodeSwitch(u8),
     RateSwitch(u8),
     Fault(&'static str, bool),
+    /// The device reports an error.
+    RaiseError {
+        code: u16,
+        register: u8,
+        /// `None`: the bytes of its family.
+        info: Option<[u8; 5]>,
+    },
+    /// Errors with this code end, or all of them with 0.
+    ClearError(u16),
+    /// A value of the device changes.
+    Set(Write),
     /// News of the CAN controller.
     Controller(BusEvent),
     /// Bit rate of what is outside in kbit/s; `None`: it does not matter.
@@ -119,6 +130,20 @@ impl Deed {
                         "this device does not support the fault `{name}`; it supports {known}"
                     ));
                 }
+            }
+            Self::RaiseError {
+                code,
+                register,
+                info,
+            } => {
+                bench.with(|device, now| device.raise_error(*code, *register, *info, now))??;
+            }
+            Self::ClearError(code) => {
+                bench.with(|device, now| device.clear_error(*code, now))??
+            }
+            Self::Set(write) => {
+                let (address, bytes) = write.own(bench.present()?.dictionary())?;
+                bench.with(|device, now| device.set_value(address, &bytes, now))??;
             }
             Self::Controller(event) => bench.with(|device, now| device.handle_bus(*event, now))?,
             Self::BusRate(kbit) => bench.bus.set_bit_rate(*kbit),

@@ -79,6 +79,18 @@ impl Typed {
 }
 
 impl Write {
+    /// Returns the address and the bytes of a value that the device takes, typed by its dictionary.
+    ///
+    /// # Errors
+    /// The object does not exist, or the value is not valid.
+    pub(crate) fn own(&self, dictionary: Dictionary<'_>) -> Result<(Address, Vec<u8>), String> {
+        let entry = values::find(dictionary, &self.object)?;
+        let bytes = values::parse(entry.data_type, &self.value);
+        let label = || values::label(dictionary, entry.address);
+        let bytes = bytes.map_err(|why| format!("{}: {why}", label()))?;
+        Ok((entry.address, bytes))
+    }
+
     /// Returns the address and the bytes to write.
     ///
     /// # Errors

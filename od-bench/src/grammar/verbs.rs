@@ -11,7 +11,7 @@ use super::pattern::Pattern;
 use super::problem::Problem;
 use super::tokens::Tokens;
 use super::typed::{Typed, Write};
-use super::world::{bus, device, fault, label, power, shaft, switch, wire};
+use super::world::{bus, device, emcy, fault, label, power, shaft, switch, wire};
 use crate::logs::candump;
 
 /// One verb.
@@ -24,7 +24,7 @@ pub(super) struct Verb {
 
 /// Every verb, in the order of messages.
 #[rustfmt::skip]
-pub(super) const VERBS: [Verb; 18] = [
+pub(super) const VERBS: [Verb; 20] = [
     Verb { name: "device", parse: device,
            usage: "`device gxmm`, `device gxmm node 5 as left`, or a file name" },
     Verb { name: "use", parse: |tokens| Ok(Action::Deed(Deed::Use(label(tokens)?))),
@@ -37,6 +37,10 @@ pub(super) const VERBS: [Verb; 18] = [
     Verb { name: "switch", parse: switch,
            usage: "`switch node 12` (rotary, 0: EEPROM) or `switch bitrate 5` (DIP, 0 to 7)" },
     Verb { name: "fault", parse: fault, usage: "`fault battery-low on`" },
+    Verb { name: "emcy", parse: emcy,
+           usage: "`emcy 4200h`, `emcy 4200h register 09h info 01 02`, `emcy 4200h off` or \
+                   `emcy 0000h` (all off)" },
+    Verb { name: "set", parse: set, usage: "`set 6000h:01 = 5`" },
     Verb { name: "bus", parse: bus,
            usage: "bus active, warning, passive, off, overrun, bitrate 250 (kbit/s) or bitrate any" },
     Verb { name: "line", parse: wire,
@@ -136,6 +140,15 @@ fn write(tokens: &mut Tokens<'_>) -> Result<Write, Problem> {
         value: value.rest().to_owned(),
         type_name,
     })
+}
+
+fn set(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let here = *tokens;
+    let write = write(tokens)?;
+    match write.type_name {
+        None => Ok(Action::Deed(Deed::Set(write))),
+        Some(_) => Err(here.problem("the dictionary has the type of the value", "remove `as …`")),
+    }
 }
 
 fn sdo(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {

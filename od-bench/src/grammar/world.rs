@@ -131,6 +131,43 @@ pub(super) fn fault(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     Ok(Action::Deed(Deed::Fault(name, on)))
 }
 
+pub(super) fn emcy(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
+    let code = tokens.number(0, 0xFFFF)? as u16;
+    if code == 0 || tokens.take("off") {
+        return Ok(Action::Deed(Deed::ClearError(code)));
+    }
+    let (mut register, mut info) = (od_wire::emcy::register(code), None);
+    while !tokens.is_empty() {
+        if tokens.take("register") {
+            register = tokens.number(0, 0xFF)? as u8;
+        } else if tokens.take("info") {
+            info = Some(bytes(tokens)?);
+        } else {
+            return Err(tokens.wrong(format!("unexpected `{}`", tokens.peek())));
+        }
+    }
+    Ok(Action::Deed(Deed::RaiseError {
+        code,
+        register,
+        info,
+    }))
+}
+
+/// One to five bytes in hexadecimal; the others are 0.
+fn bytes(tokens: &mut Tokens<'_>) -> Result<[u8; 5], Problem> {
+    let mut bytes = [0; 5];
+    for (at, byte) in bytes.iter_mut().enumerate() {
+        let word = tokens.peek();
+        match u8::from_str_radix(word, 16) {
+            Ok(written) if word.len() == 2 => *byte = written,
+            _ if at > 0 => break,
+            _ => return Err(tokens.problem("the bytes are missing", "write `info 01 02`")),
+        }
+        tokens.next();
+    }
+    Ok(bytes)
+}
+
 pub(super) fn bus(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
     let here = *tokens;
     Ok(Action::Deed(match tokens.next() {

@@ -1,14 +1,15 @@
 //! The encoder: its state and what a host can do to it.
 
-use od_model::Dictionary;
 use od_model::typed::{Ro, Var};
+use od_model::{Address, Dictionary};
 
 use super::angle::Angle;
 use super::fault::Fault;
 use super::faults::Faults;
 use super::motion::{Gain, Motion};
+use super::object::Role;
 use super::position::{Scale, Sensor};
-use super::profile::{EncoderProfile, MOVEMENTS};
+use super::profile::{EncoderProfile, MOVEMENTS, Total};
 use od_wire::Instant;
 
 /// Rotary and DIP switches in the cover.
@@ -155,6 +156,18 @@ impl<M: Motion> Encoder<M> {
     /// Returns whether the host has set this fault.
     pub fn is_broken(&self, fault: Fault) -> bool {
         self.faults.is_set(fault)
+    }
+
+    /// Returns whether the encoder computes the value of an object, from its shaft, its time, its
+    /// errors or other objects.
+    pub fn computes(&self, address: Address) -> bool {
+        let profile = self.profile;
+        let role = profile.role(address);
+        let mut counters = profile.reports.iter().filter_map(|report| report.counter);
+        matches!(address.index, 0x6004 | 0x6500 | 0x6503 | 0x6505 | 0x6509)
+            || address.index == 0x6502 && profile.total == Total::Shown
+            || role.is_some_and(|role| role.is_live() || *role == Role::Cycles)
+            || counters.any(|counter| counter == address)
     }
 
     /// The bit rate since the last start, in kbit/s, if the device has one of its own.

@@ -17,6 +17,7 @@ mod event;
 mod fits;
 mod input;
 mod output;
+mod own;
 
 use core::marker::PhantomData;
 

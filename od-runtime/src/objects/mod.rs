@@ -120,6 +120,17 @@ impl<'c> Objects<'c> {
     /// services' and the application's rules, then the value, then what follows from it.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let entry = self.writable(address, None)?;
+        self.change(entry, bytes)
+    }
+
+    /// Writes an object from the side of the device: as [`write`](Self::write), but for the access.
+    pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
+        let entry = self.entry(address)?;
+        self.change(entry, bytes)
+    }
+
+    fn change(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
+        let address = entry.address;
         let len = self.fit(entry, bytes.len())?;
         let bytes = &bytes[..len];
         if let Some(signature) = communication::command(address) {

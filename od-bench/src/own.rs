@@ -1,0 +1,170 @@
+//! What a device does of its own accord, told from outside: a value that it takes, an error that it
+//! reports.
+
+use std::format;
+use std::prelude::v1::*;
+use std::string::ToString;
+
+use od_model::{Access, Address, Entry, values};
+use od_runtime::{Instant, Store};
+use od_wire::AbortCode;
+use od_wire::emcy::Emcy;
+use od_wire::nmt::State;
+
+use crate::device::{Behaviour, VirtualDevice};
+use crate::words::plural;
+
+/// Most errors of one device that can be active.
+const ERRORS: usize = 32;
+
+impl VirtualDevice {
+    /// Sets a value from the side of the device, whether a master may write it or not. Event-driven
+    /// TPDOs follow.
+    ///
+    /// # Errors
+    /// A sentence: the device is off or starting, it computes the value itself, or the object cannot
+    /// have it.
+    pub fn set_value(
+        &mut self,
+        address: Address,
+        bytes: &[u8],
+        now: Instant,
+    ) -> Result<(), String> {
+        self.runs()?;
+        let dictionary = self.dictionary();
+        let entry = *values::find(dictionary, &address.to_string())?;
+        let label = values::label(dictionary, address);
+        if let Some(why) = self.refusal(&entry) {
+            return Err(format!("{label} {why}"));
+        }
+        let len = bytes.len();
+        if let Some(size) = entry.data_type.size().filter(|size| *size != len) {
+            let data_type = entry.data_type;
+            let size = plural(size, "byte");
+            return Err(format!("{label}: {data_type} has {size}, not {len}"));
+        }
+        let (node, mut lent) = self.parts();
+        let result = node.set_value(&mut lent, now, address, bytes);
+        self.take_events();
+        result.map_err(|code| {
+            let node = self.node_id().raw();
+            let shown = values::show(entry.data_type, bytes);
+            let limit = match code {
+                AbortCode::ValueTooHigh => entry.high.integer(node),
+                AbortCode::ValueTooLow => entry.low.integer(node),
+                _ => None,
+            };
+            let limit = limit.map_or_else(String::new, |limit| format!(", which is {limit}"));
+            format!("{label} cannot be {shown}: {}{limit}", code.text())
+        })?;
+        let shown = self.read(address, now);
+        if shown != bytes {
+            let shown = values::show(entry.data_type, &shown);
+            return Err(format!("{label} is computed by the device; it is {shown}"));
+        }
+        Ok(())
+    }
+
+    /// Why the value of an object cannot be set from outside.
+    fn refusal(&self, entry: &Entry) -> Option<&'static str> {
+        let Address { index, sub } = entry.address;
+        let is_computed = match &self.behaviour {
+            Behaviour::Encoder(encoder) => {
+                !entry.access.writable() && encoder.computes(entry.address)
+            }
+            _ => false,
+        };
+        match (index, sub) {
+            _ if is_computed => Some(
+                "is computed by the device; `shaft …` and `fault …` change what it is computed from",
+            ),
+            (0x1001 | 0x1003, _) => Some("follows the errors of the device; write `emcy 1000h`"),
+            (0x1010 | 0x1011, 1..) => Some("is a command, not a value; write `sdo write …`"),
+            _ if entry.access == Access::Const => Some("is `const`; the device cannot change it"),
+            _ => None,
+        }
+    }
+
+    /// Reports an error from now on: an EMCY message, 1001h and 1003h. Without `info` the
+    /// manufacturer-specific bytes are those of the family.
+    ///
+    /// # Errors
+    /// A sentence: the device is off or starting, has no EMCY producer, or the error is active already.
+    pub fn raise_error(
+        &mut self,
+        code: u16,
+        register: u8,
+        info: Option<[u8; 5]>,
+        now: Instant,
+    ) -> Result<(), String> {
+        self.runs()?;
+        if self.dictionary().entry(0x1014, 0).is_none() {
+            return Err("the device sends no EMCY messages: object 1014h is missing".into());
+        }
+        let node_id = self.node_id();
+        let Self {
+            source,
+            values,
+            behaviour,
+            ..
+        } = self;
+        let store = Store::new(source.dictionary(), values, node_id);
+        let own = store.map(|store| behaviour.as_application().error_info(&store));
+        let error = Emcy {
+            code,
+            register,
+            info: info.unwrap_or(own.unwrap_or_default()),
+        };
+        if self.raised.len() >= ERRORS {
+            return Err(format!(
+                "{ERRORS} errors are active; write `emcy 0000h` to end them"
+            ));
+        }
+        if !self.change_error(error, true, now) {
+            return Err(format!(
+                "error {code:04X}h is active; write `emcy {code:04X}h off` to end it"
+            ));
+        }
+        self.raised.push(error);
+        Ok(())
+    }
+
+    /// Ends the errors with this code that [`raise_error`](Self::raise_error) reported; 0: all of them.
+    ///
+    /// # Errors
+    /// A sentence: the device is off or starting, or no such error is active.
+    pub fn clear_error(&mut self, code: u16, now: Instant) -> Result<(), String> {
+        self.runs()?;
+        let all = std::mem::take(&mut self.raised);
+        let (ended, left): (Vec<_>, Vec<_>) =
+            (all.into_iter()).partition(|error| code == 0 || error.code == code);
+        self.raised = left;
+        let mut any = false;
+        for mut error in ended {
+            error.info = [0; 5];
+            any |= self.change_error(error, false, now);
+        }
+        match (any, code) {
+            (true, _) => Ok(()),
+            (false, 0) => Err("no error of an `emcy` line is active".into()),
+            (false, _) => Err(format!("error {code:04X}h of an `emcy` line is not active")),
+        }
+    }
+
+    fn change_error(&mut self, error: Emcy, on: bool, now: Instant) -> bool {
+        let (node, mut lent) = self.parts();
+        let changed = node.change_error(&mut lent, now, error, on);
+        self.take_events();
+        changed
+    }
+
+    /// Checks that it has power and has started.
+    fn runs(&self) -> Result<(), String> {
+        Err(String::from(match self.state() {
+            _ if !self.is_powered() => "the device has no power; write `power on`",
+            State::Initialising if !self.is_configured() => "the device has no node ID",
+            State::Initialising => "the device is starting; wait for its boot-up message",
+            _ => return Ok(()),
+        }))
+    }
+}
