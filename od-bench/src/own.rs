@@ -12,7 +12,6 @@ use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 use crate::device::{Behaviour, VirtualDevice};
-use crate::words::plural;
 
 /// Most errors of one device that can be active.
 const ERRORS: usize = 32;
@@ -40,8 +39,8 @@ impl VirtualDevice {
         let len = bytes.len();
         if let Some(size) = entry.data_type.size().filter(|size| *size != len) {
             let data_type = entry.data_type;
-            let size = plural(size, "byte");
-            return Err(format!("{label}: {data_type} has {size}, not {len}"));
+            let (size, len) = (size * 8, len * 8);
+            return Err(format!("{label}: {data_type} has {size} bits, not {len}"));
         }
         let (node, mut lent) = self.parts();
         let result = node.set_value(&mut lent, now, address, bytes);

@@ -101,7 +101,7 @@ fn a_value_of_the_device_changes_and_its_tpdo_follows() {
             "cannot be 0: value below the lower limit, which is 1",
         ),
         ("set 6000h:01 = fast", "`fast` is not a number"),
-        ("set 6000h:01 = [01 02]", "UNSIGNED8 has 1 byte, not 2"),
+        ("set 6000h:01 = [01 02]", "UNSIGNED8 has 8 bits, not 16"),
         ("set 6000h:02 = 1", "sub-index 6000h:02 does not exist"),
         ("set 1000h = 1", "1000h Device type is `const`"),
         ("set 1001h = 1", "write `emcy 1000h`"),
