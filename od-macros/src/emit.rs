@@ -24,9 +24,8 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
         name,
         ..
     } = input;
-    let root = root(input);
     let mut text = String::new();
-    device(&mut text, &root, &family.base, &[]);
+    device(&mut text, input, &family.base, None);
     let body = lex(&text);
     let paths = source.paths.iter().filter_map(|path| path.to_str());
     let track = paths.map(|path| quote! { const _: &[u8] = ::core::include_bytes!(#path); });
@@ -34,7 +33,7 @@ pub(crate) fn module(input: &Input, source: &Source, family: &Family) -> TokenSt
     let variants = input.variants.iter().zip(&family.variants);
     let variants = variants.map(|(variant, made)| {
         let mut text = String::new();
-        device(&mut text, &root, made, &family.base.items);
+        device(&mut text, input, made, Some(&family.base.items));
         let (attrs, name, body) = (&variant.attrs, &variant.name, lex(&text));
         let about = docs::variant(&input.name.to_string(), &variant.statements);
         quote! {
@@ -98,10 +97,15 @@ fn lex(text: &str) -> TokenStream {
 }
 
 /// Everything in the module of one device; what `family` has alike, a variant hands on.
-fn device(out: &mut String, root: &str, device: &Device, family: &[Item]) {
+fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&[Item]>) {
+    let root = &root(input);
+    let family = of_variant.unwrap_or_default();
     let _ = writeln!(out, "use {root}::*;");
     dictionary(out, root, &device.tables);
-    node(out, root, &device.tables);
+    let mut services = String::new();
+    let depth = if of_variant.is_some() { 2 } else { 1 };
+    input.services.constants(&mut services, root, depth);
+    node(out, root, &device.tables, &services);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -203,7 +207,7 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
 }
 
 /// `Node` with the sizes of the dictionary, and the type that ties the two.
-fn node(out: &mut String, root: &str, tables: &Tables) {
+fn node(out: &mut String, root: &str, tables: &Tables, services: &str) {
     let dictionary = tables.dictionary();
     let pdos = dictionary.tpdos().max(dictionary.rpdos());
     let bytes = dictionary.longest();
@@ -215,7 +219,7 @@ pub struct Device;
 impl {root}::Device for Device {{
 const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 ::core::option::Option::Some(DICTIONARY);
-}}
+{services}}}
 #[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
 ({pdos}, and {bytes} bytes).\"]
 pub type Node = {root}::Node<Device, {pdos}, {bytes}>;

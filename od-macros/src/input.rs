@@ -10,6 +10,7 @@ use syn::{Attribute, LitInt, LitStr, Path, Token, Visibility, braced, ext::Ident
 
 use crate::fields::{self, Field};
 use crate::report::Report;
+use crate::services::Services;
 use crate::target::At;
 use crate::words;
 
@@ -24,6 +25,7 @@ pub(crate) struct Input {
     /// Path of the overlay.
     pub(crate) overlay: Option<LitStr>,
     pub(crate) profile: Option<Ident>,
+    pub(crate) services: Services,
     /// `add`, `modify`, `remove` and `rename` outside of the variants, in their order.
     pub(crate) statements: Vec<Statement>,
     pub(crate) variants: Vec<Variant>,
@@ -94,6 +96,7 @@ impl Input {
             eds: None,
             overlay: None,
             profile: None,
+            services: Services::default(),
             statements: Vec::new(),
             variants: Vec::new(),
         };
@@ -155,6 +158,20 @@ impl Input {
                     Some(_) => report.at(key.span(), "`profile` is given twice"),
                 }
             }
+            "without" => {
+                Ident::parse_any(body)?;
+                let end = self.services.without(body, report)?;
+                semicolon(body, end, report)?;
+            }
+            "behaves" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                if self.services.has_profile() {
+                    report.at(key.span(), "`behaves` is given twice");
+                }
+                self.services.behaves(body)?;
+                semicolon(body, key.span(), report)?;
+            }
             "variant" => {
                 Ident::parse_any(body)?;
                 let name: Ident = body.parse()?;
@@ -197,11 +214,10 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
     Ok(Some(path))
 }
 
-const STATEMENTS: [&str; 8] = [
-    "add", "modify", "remove", "rename", "variant", "eds", "profile", "crate",
+const STATEMENTS: [&str; 10] = [
+    "add", "modify", "remove", "rename", "variant", "eds", "profile", "without", "behaves", "crate",
 ];
-const IN_MODULE: &str =
-    "`eds`, `profile`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
+const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
 const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
 
 fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
@@ -231,7 +247,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
         }
-        "eds" | "profile" | "crate" | "variant" => {
+        "eds" | "profile" | "without" | "behaves" | "crate" | "variant" => {
             return Err(syn::Error::new(
                 word.span(),
                 format!(
@@ -331,8 +347,8 @@ fn starts_statement(body: ParseStream) -> bool {
     };
     match word.to_string().as_str() {
         "add" | "modify" | "remove" | "rename" => ahead.peek(LitInt),
-        "eds" | "profile" => ahead.peek(Token![=]),
-        "variant" => ahead.peek(syn::Ident),
+        "eds" | "profile" | "behaves" => ahead.peek(Token![=]),
+        "variant" | "without" => ahead.peek(syn::Ident),
         _ => false,
     }
 }

@@ -39,6 +39,10 @@
 //! item      = "eds" "=" "path" [ "+" "path" ] ";"  relative to this source file; an overlay
 //!           | "crate" "=" path ";"                 where `odkit` is, if not at ::odkit
 //!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
+//!           | "without" service { "," service } ";"  the node of the device has no code for these:
+//!                        lss, segmented, block (SDO transfers), rpdos, changes (PDOs when a value
+//!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events
+//!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement
 //! statement = "add" target "{" fields "}"          what is not there yet
@@ -111,6 +115,7 @@ mod lower;
 mod names;
 mod profile;
 mod report;
+mod services;
 mod source;
 mod target;
 mod words;

@@ -2,14 +2,45 @@
 
 use od_model::Dictionary;
 
-/// Device as a type, so that the compiler can check a node against its dictionary.
+use crate::profile::Profile;
+
+/// Device as a type, so that the compiler can check a node against its dictionary, and leaves out
+/// what the device does not use.
 ///
 /// `object_dictionary!` implements it for the type `Device` of each module that it makes.
 /// `Node<Device, PDO, SDO>` does not compile unless it fits the dictionary.
+///
+/// Each service below is on unless its constant is `false`; then the node has no code for it, and
+/// does not compile if the dictionary has objects of it.
 pub trait Device {
     /// Dictionary that the node serves; `None`: known at run time, when
     /// [`Node::power_on`](crate::Node::power_on) checks it.
     const DICTIONARY: Option<Dictionary<'static>> = None;
+    /// Options of the device family, for which [`Lent::profile`](crate::Lent::profile) does not
+    /// count then; `None`: known at run time.
+    const PROFILE: Option<&'static Profile> = None;
+    /// LSS slave (CiA 305).
+    const LSS: bool = true;
+    /// Segmented SDO transfers. Without them a value of more than four bytes cannot be read
+    /// (06010000h), and a segmented download is not a command (05040001h).
+    const SEGMENTED: bool = true;
+    /// SDO block transfers. Without them they are not commands (05040001h).
+    const BLOCK: bool = true;
+    /// RPDOs (1400h to 17FFh).
+    const RPDOS: bool = true;
+    /// Transmission of TPDOs when a mapped value changes
+    /// ([`event_on_change`](crate::PdoProfile::event_on_change)).
+    const CHANGES: bool = true;
+    /// Node guarding and life guarding (100Ch, 100Dh).
+    const GUARDING: bool = true;
+    /// Heartbeat consumer (1016h).
+    const CONSUMER: bool = true;
+    /// Saving and restoring (1010h, 1011h), and the operating records.
+    const STORAGE: bool = true;
+    /// Error behaviour (1029h, and the default one of CiA 301 without it).
+    const BEHAVIOUR: bool = true;
+    /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
+    const EVENTS: bool = true;
 }
 
 /// Device whose dictionary is known at run time only.

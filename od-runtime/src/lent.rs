@@ -1,9 +1,12 @@
 //! The device as a host lends it to the node, for the length of one call.
 
+use core::marker::PhantomData;
+
 use od_model::Dictionary;
 use od_wire::{Instant, NodeId};
 
 use crate::application::Application;
+use crate::device::Device;
 use crate::objects::{Objects, Outbox};
 use crate::profile::Profile;
 use crate::storage::Storage;
@@ -30,17 +33,18 @@ impl Lent<'_> {
     /// Takes the device apart for one call; `None` where `values` is too short for the
     /// dictionary.
     #[inline]
-    pub(crate) fn objects<'c>(
+    pub(crate) fn objects<'c, D: Device>(
         &'c mut self,
         node_id: NodeId,
         now: Instant,
         outbox: &'c mut Outbox,
-    ) -> Option<Objects<'c>> {
+    ) -> Option<Objects<'c, D>> {
         Some(Objects {
             store: Store::new(self.dictionary, self.values, node_id).ok()?,
             application: self.application,
             storage: self.storage,
-            profile: self.profile,
+            lent_profile: self.profile,
+            device: PhantomData,
             now,
             outbox,
         })

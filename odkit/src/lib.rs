@@ -66,5 +66,5 @@ pub use od_wire::{emcy, lss, nmt, sdo};
 pub mod __private1 {
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
-    pub use od_runtime::{Device, Node};
+    pub use od_runtime::{Device, Node, Profile};
 }

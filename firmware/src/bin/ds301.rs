@@ -12,8 +12,13 @@ odkit::object_dictionary! {
     /// The slave.
     mod slave {
         eds = "../../eds/ds301.eds";
+        without lss;
+        behaves = PROFILE;
     }
 }
+
+/// CiA 301 to the letter.
+static PROFILE: Profile = Profile::CIA301;
 
 static NODE: Once<slave::Node> = Once::new(slave::Node::new(NodeId::ONE));
 static VALUES: Once<[u8; slave::STORE_LEN]> = Once::new([0; slave::STORE_LEN]);
@@ -62,7 +67,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut NoApplication,
         storage: &mut Memory::new(&mut EEPROM.take()[..]),
-        profile: &Profile::CIA301,
+        profile: &PROFILE,
     };
     master::run(
         NODE.take(),

@@ -10,6 +10,9 @@ use odkit_firmware::master::{self, Step, sdo};
 odkit::object_dictionary! {
     /// A thermometer with two inputs.
     mod thermometer {
+        without lss, segmented, block, rpdos, changes, guarding, consumer, storage, behaviour, events;
+        behaves = PROFILE;
+
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; mappable = true }
         add 0x1005 { name = "COB-ID SYNC message"; type = u32; access = rw; default = 0x80 }
@@ -63,6 +66,9 @@ impl Application for Thermometer {
     }
 }
 
+/// CiA 301 to the letter.
+static PROFILE: Profile = Profile::CIA301;
+
 static NODE: Once<thermometer::Node> = Once::new(thermometer::Node::new(NodeId::ONE));
 static VALUES: Once<[u8; thermometer::STORE_LEN]> = Once::new([0; thermometer::STORE_LEN]);
 
@@ -86,7 +92,7 @@ extern "C" fn main() -> ! {
         values: VALUES.take(),
         application: &mut Thermometer,
         storage: &mut Memory::new([]),
-        profile: &Profile::CIA301,
+        profile: &PROFILE,
     };
     master::run(
         NODE.take(),

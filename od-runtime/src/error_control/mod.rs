@@ -10,6 +10,7 @@ mod heartbeat;
 
 pub(crate) use heartbeat::Producer;
 
+use crate::device::Device;
 use crate::profile::Profile;
 use crate::store::Store;
 use od_wire::Instant;
@@ -58,10 +59,15 @@ impl Monitor {
     }
 
     /// Reads 100Ch, 100Dh and 1016h again.
-    pub(crate) fn configure(&mut self, store: &Store<'_>, profile: &Profile) {
-        self.guard.configure(store, guards(store, profile));
-        let switched_off = profile.guarding_switch.is_some() && guards(store, profile);
-        self.consumer.configure(store, !switched_off);
+    pub(crate) fn configure<D: Device>(&mut self, store: &Store<'_>, profile: &Profile) {
+        let guards = guards(store, profile);
+        if D::GUARDING {
+            self.guard.configure(store, guards);
+        }
+        if D::CONSUMER {
+            let switched_off = profile.guarding_switch.is_some() && guards;
+            self.consumer.configure(store, !switched_off);
+        }
     }
 
     /// A master guards this node: the byte of the answer, if guarding is in force.
@@ -76,16 +82,20 @@ impl Monitor {
 
     /// Time has passed.
     #[inline]
-    pub(crate) fn handle_timeout(&mut self, now: Instant) {
-        self.guard.handle_timeout(now);
-        self.consumer.handle_timeout(now);
+    pub(crate) fn handle_timeout<D: Device>(&mut self, now: Instant) {
+        if D::GUARDING {
+            self.guard.handle_timeout(now);
+        }
+        if D::CONSUMER {
+            self.consumer.handle_timeout(now);
+        }
     }
 
     /// `Some(true)` when somebody was lost and nobody before, `Some(false)` when
     /// everybody is back.
     #[inline]
-    pub(crate) fn poll(&mut self) -> Option<bool> {
-        let lost = self.guard.is_lost() || self.consumer.is_lost();
+    pub(crate) fn poll<D: Device>(&mut self) -> Option<bool> {
+        let lost = D::GUARDING && self.guard.is_lost() || D::CONSUMER && self.consumer.is_lost();
         let changed = lost != self.lost;
         self.lost = lost;
         changed.then_some(lost)
@@ -98,8 +108,14 @@ impl Monitor {
 
     /// When somebody is lost unless heard of.
     #[inline]
-    pub(crate) fn deadline(&self) -> Option<Instant> {
-        let deadlines = [self.guard.deadline(), self.consumer.deadline()];
+    pub(crate) fn deadline<D: Device>(&self) -> Option<Instant> {
+        let guard = self.guard.deadline().filter(|_| D::GUARDING);
+        let consumer = if D::CONSUMER {
+            self.consumer.deadline()
+        } else {
+            None
+        };
+        let deadlines = [guard, consumer];
         deadlines.into_iter().flatten().min()
     }
 }

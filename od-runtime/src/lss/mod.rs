@@ -2,6 +2,7 @@
 
 mod identify;
 
+use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
 use crate::storage::image;
@@ -76,9 +77,9 @@ impl Slave {
     }
 
     /// A master's frame, for a node whose active node ID this is ([`UNCONFIGURED`]: none).
-    pub(crate) fn handle(
+    pub(crate) fn handle<D: Device>(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         profile: &LssProfile,
         active: u8,
         data: &[u8],
@@ -156,7 +157,7 @@ impl Slave {
                 })
             }
             Request::ActivateBitTiming { delay_ms } => {
-                let stored = |objects: &mut Objects<'_>| match profile.is_own() {
+                let stored = |objects: &mut Objects<'_, D>| match profile.is_own() {
                     true => stored(objects)[1],
                     false => {
                         let LssProfile { bit_rate, .. } = profile;
@@ -193,7 +194,7 @@ impl Slave {
 
     /// Puts what is pending where 2101h and 2100h have it, and saves those two alone: the
     /// next start takes them. A node ID of FFh is none, and nothing is stored for it.
-    fn store(&mut self, objects: &mut Objects<'_>, profile: &LssProfile) -> u8 {
+    fn store<D: Device>(&mut self, objects: &mut Objects<'_, D>, profile: &LssProfile) -> u8 {
         let pending = [
             (
                 profile.node_id,
@@ -213,12 +214,8 @@ impl Slave {
         let ours = |entry: &od_model::Entry| {
             entry.address == profile.node_id || entry.address == profile.bit_rate
         };
-        match image::save_only(
-            objects.storage,
-            &objects.store,
-            &objects.profile.store,
-            &ours,
-        ) {
+        let profile = objects.profile();
+        match image::save_only(objects.storage, &objects.store, &profile.store, &ours) {
             Ok(()) => error::NONE,
             Err(_) => error::ACCESS,
         }
@@ -226,14 +223,14 @@ impl Slave {
 
     /// Puts what is pending into the image, beside the objects: the next start takes it. A node
     /// ID of FFh is stored as it is.
-    fn store_own(&mut self, objects: &mut Objects<'_>, active: u8) -> u8 {
+    fn store_own<D: Device>(&mut self, objects: &mut Objects<'_, D>, active: u8) -> u8 {
         objects.complete_save();
         let [node_id, bit_rate] = stored(objects);
         let own = [
             self.node_id.or(node_id).or(Some(active)),
             self.bit_rate.or(bit_rate),
         ];
-        let profile = &objects.profile.store;
+        let profile = &objects.profile().store;
         match image::save_own(objects.storage, &objects.store, profile, own) {
             Ok(()) => error::NONE,
             Err(_) => error::ACCESS,
@@ -243,6 +240,6 @@ impl Slave {
 
 /// Returns the node ID and the bit rate that a device without objects for them stored. A storage
 /// that cannot be read holds none.
-pub(crate) fn stored(objects: &mut Objects<'_>) -> [Option<u8>; 2] {
+pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
     image::own(objects.storage).unwrap_or_default()
 }

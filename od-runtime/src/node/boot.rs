@@ -75,9 +75,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
-    pub(super) fn reset(&mut self, objects: &mut Objects<'_>, reset: Reset) {
-        let nmt = &objects.profile.nmt;
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+    pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
+        let nmt = &objects.profile().nmt;
         let delay = match reset {
             Reset::PowerOn | Reset::Node => nmt.reset_node_us,
             Reset::Communication => nmt.reset_communication_us,
@@ -92,7 +92,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.monitor.reset();
         let pending = core::mem::replace(&mut self.lss, lss::Slave::new()).node_id;
         if self.is_bus_off() {
-            self.events.push(Event::BusOn);
+            self.event(Event::BusOn);
         }
         self.mute = None;
         self.bus = BusEvent::Active;
@@ -108,8 +108,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             // A save that was not complete will not be; where that leaves the factory values,
             // `load` finds out.
             let saving = objects.outbox.saving.take();
-            if saving.is_some() && objects.profile.store.cut == CutSave::LastSet {
-                self.events.push(Event::SaveCut { factory: false });
+            if D::STORAGE && saving.is_some() && objects.profile().store.cut == CutSave::LastSet {
+                self.event(Event::SaveCut { factory: false });
             }
             self.save_at = None;
             if reset == Reset::Communication {
@@ -121,9 +121,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             self.load(objects, reset);
             rate = bit_rate;
         }
-        self.events.push(Event::Reset(reset, self.node_id));
+        self.event(Event::Reset(reset, self.node_id));
         if let Some(rate) = rate {
-            self.events.push(Event::BitRate(rate));
+            self.event(Event::BitRate(rate));
         }
         self.boot_at = Some(objects.now.plus_micros(delay.into()));
         if delay == 0 {
@@ -135,11 +135,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     /// communication the pending one (CiA 305, chapter 6.3.1). Returns the bit rate of a start.
     fn take_own(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         reset: Reset,
         pending: Option<u8>,
     ) -> Option<u8> {
-        if !objects.profile.lss.is_some_and(|lss| lss.is_own()) {
+        if !D::LSS || !objects.profile().lss.is_some_and(|lss| lss.is_own()) {
             return None;
         }
         let (node_id, bit_rate) = match reset {
@@ -161,12 +161,12 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
     /// on the node ID, so a new one means a second pass.
-    fn load(&mut self, objects: &mut Objects<'_>, reset: Reset) {
+    fn load(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let all = reset != Reset::Communication;
         // Reset communication takes 1000h–1FFFh back, and what the device starts on the
         // bus with, or all that can be saved or written; it leaves the errors that last.
-        let lss = objects.profile.lss;
-        let scope = objects.profile.nmt.reset_communication;
+        let lss = objects.profile().lss;
+        let scope = objects.profile().nmt.reset_communication;
         let which = |entry: &od_model::Entry| {
             let starts_with =
                 |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
@@ -180,16 +180,19 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             }
         };
         for pass in 0..2 {
-            let profile = &objects.profile.store;
+            let profile = &objects.profile().store;
             profile.reset(&mut objects.store, which);
-            let loaded = image::load(objects.storage, &mut objects.store, profile, &which);
+            let loaded = match D::STORAGE {
+                true => image::load(objects.storage, &mut objects.store, profile, &which),
+                false => Ok(Loaded::Blank),
+            };
             let news = match loaded {
                 Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. }) => None,
                 Ok(Loaded::Cut) => Some(Event::SaveCut { factory: true }),
                 Ok(Loaded::Older | Loaded::Damaged) | Err(_) => Some(Event::StorageDamaged),
             };
             if let Some(event) = news.filter(|_| pass == 0) {
-                self.events.push(event);
+                self.event(event);
             }
             // A cut save is what power does to a memory that is sound.
             let sound = !matches!(loaded, Ok(Loaded::Damaged) | Err(_));
@@ -207,7 +210,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// The end of initialisation: services take their configuration, the boot-up message
     /// goes out, Pre-operational begins.
-    pub(super) fn boot_up(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
         self.boot_at = None;
         if !self.configured {
             return;
@@ -215,12 +218,15 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.configure(objects);
         self.push_error_control(0);
         self.state = State::PreOperational;
-        self.events.push(Event::State(self.state));
+        self.event(Event::State(self.state));
         self.heartbeat
-            .configure(&objects.store, objects.profile, objects.now);
-        self.monitor.configure(&objects.store, objects.profile);
+            .configure(&objects.store, objects.profile(), objects.now);
+        if Self::HAS_MONITOR {
+            self.monitor
+                .configure::<D>(&objects.store, objects.profile());
+        }
         self.tick_at = objects.application(|application, context| application.tick(context));
-        let self_start = objects.profile.nmt.self_start;
+        let self_start = objects.profile().nmt.self_start;
         if self_start.is_some_and(|switch| objects.has_bits(switch)) {
             self.enter(objects, State::Operational);
             self.react_to_lasting(objects);
@@ -230,7 +236,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 
     /// Every service reads its objects again.
-    pub(super) fn configure(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         let sync = objects.store.try_unsigned(0x1005, 0).unwrap_or(0x80);
         self.sync_id = CobId::new(sync as u32).can_id();
         let dictionary = objects.store.dictionary();
@@ -242,10 +248,13 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
             }
         }
         let mut tpdos = self.tpdo.iter().take(self.tpdo_count);
-        self.watches_changes =
-            objects.profile.pdo.event_on_change && tpdos.any(pdo::Tpdo::watches_changes);
-        for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
-            rpdo.configure(objects, number as u16);
+        self.watches_changes = D::CHANGES
+            && objects.profile().pdo.event_on_change
+            && tpdos.any(pdo::Tpdo::watches_changes);
+        if D::RPDOS {
+            for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
+                rpdo.configure(objects, number as u16);
+            }
         }
     }
 }

@@ -24,7 +24,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if node.state == State::Initialising {
             return;
         }
-        let profile = objects.profile.errors;
+        let profile = objects.profile().errors;
         let restarts = profile
             .off
             .restart
@@ -51,14 +51,14 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     pub(super) const fn is_bus_off(&self) -> bool {
         matches!(self.bus, BusEvent::Off)
     }
 
     /// Warning, passive, overrun, and the way back.
-    fn take_state(&mut self, objects: &mut Objects<'_>, event: BusEvent) {
-        let profile = objects.profile.errors;
+    fn take_state(&mut self, objects: &mut Objects<'_, D>, event: BusEvent) {
+        let profile = objects.profile().errors;
         let info = objects.application.error_info(&objects.store);
         let signals = &mut objects.outbox.signals;
         if event == BusEvent::Overrun {
@@ -85,14 +85,14 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 
     /// Bus-off: nothing goes out or comes in, and 1029h acts as the family has it.
-    fn fall_off(&mut self, objects: &mut Objects<'_>, restarts: bool) {
-        let profile = objects.profile.errors;
+    fn fall_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
+        let profile = objects.profile().errors;
         if let Some(bit_rate) = self.mute.and_then(|mute| mute.bit_rate) {
-            self.events.push(Event::BitRate(bit_rate));
+            self.event(Event::BitRate(bit_rate));
         }
         self.bus = BusEvent::Off;
         self.mute = Some(Mute::BUS_OFF);
-        self.events.push(Event::BusOff { restarts });
+        self.event(Event::BusOff { restarts });
         self.discard_frames();
         self.sdo.forget();
         self.stop_pdos();
@@ -105,13 +105,13 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 
     /// The CAN controller restarted, and the NMT state goes on.
-    fn come_back(&mut self, objects: &mut Objects<'_>) {
+    fn come_back(&mut self, objects: &mut Objects<'_, D>) {
         self.mute = None;
-        self.events.push(Event::BusOn);
+        self.event(Event::BusOn);
         self.emcy.set_silent(&mut objects.store, 0);
         self.take_state(objects, BusEvent::Active);
         let info = objects.application.error_info(&objects.store);
-        if let Some(notice) = objects.profile.errors.bus_recovered {
+        if let Some(notice) = objects.profile().errors.bus_recovered {
             objects.outbox.signals.raise(notice.error(info));
             objects.outbox.signals.clear(notice.code, info);
         }
@@ -124,7 +124,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     pub(super) fn end_mute(&mut self) {
         let Some(mute) = self.mute.take() else { return };
         if let Some(bit_rate) = mute.bit_rate {
-            self.events.push(Event::BitRate(bit_rate));
+            self.event(Event::BitRate(bit_rate));
             if mute.silence_ms > 0 {
                 self.mute = Some(Mute {
                     until: mute.until.plus_millis(mute.silence_ms.into()),
@@ -137,8 +137,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN
     /// controller restart.
-    pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_>) {
-        let profile = objects.profile.errors;
+    pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_, D>) {
+        let profile = objects.profile().errors;
         let optional = [
             profile.bus_warning,
             profile.bus_passive,

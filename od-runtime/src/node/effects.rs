@@ -3,6 +3,7 @@
 use od_wire::nmt::State;
 
 use super::{Event, Machines};
+use crate::device::Device;
 use crate::error_control;
 use crate::objects::{Effect, Objects};
 use crate::storage::image;
@@ -10,31 +11,32 @@ use crate::storage::image;
 /// Sub-index of 1010h, were it one, under which the device saves its own record.
 const LIFE_RECORD: u8 = 0;
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
     /// cause event-driven PDOs.
     #[inline]
-    pub(super) fn finish(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn finish(&mut self, objects: &mut Objects<'_, D>) {
         if !objects.outbox.is_empty() {
             self.empty_outbox(objects);
         }
-        if self.watches_changes && self.state == State::Operational {
+        if D::CHANGES && self.watches_changes && self.state == State::Operational {
             self.each_tpdo(|pdo| pdo.notice_change(objects));
         }
     }
 
     #[cold]
-    fn empty_outbox(&mut self, objects: &mut Objects<'_>) {
+    fn empty_outbox(&mut self, objects: &mut Objects<'_, D>) {
         self.apply_effects(objects);
         if core::mem::take(&mut objects.outbox.signals.tick) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
         // A save that goes on has the record in it.
-        if core::mem::take(&mut objects.outbox.signals.keep) && objects.outbox.saving.is_none() {
+        let keep = core::mem::take(&mut objects.outbox.signals.keep);
+        if D::STORAGE && keep && objects.outbox.saving.is_none() {
             objects.refresh_life_record();
-            let profile = &objects.profile.store;
+            let profile = &objects.profile().store;
             if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
-                self.events.push(Event::StorageDamaged);
+                self.event(Event::StorageDamaged);
             }
         }
         self.take_errors(objects);
@@ -42,9 +44,9 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// A save that took its time is complete: its request is answered, and the one behind it.
     #[cold]
-    pub(super) fn end_save(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
         self.save_at = None;
-        let failed = (!objects.complete_save()).then_some(objects.profile.store.failed);
+        let failed = (!objects.complete_save()).then_some(objects.profile().store.failed);
         let (answer, held) = self.sdo.finish(failed);
         if let Some(answer) = answer {
             self.answer(answer);
@@ -56,20 +58,21 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
     }
 
-    fn apply_effects(&mut self, objects: &mut Objects<'_>) {
+    fn apply_effects(&mut self, objects: &mut Objects<'_, D>) {
         let overflow = core::mem::take(&mut objects.outbox.overflow);
         let mut communication =
             core::mem::take(&mut objects.outbox.signals.reconfigure) || overflow;
         let mut heartbeat = overflow;
         let mut monitor = overflow;
         while let Some(effect) = objects.outbox.effects.pop() {
-            self.events.push(match effect {
+            self.event(match effect {
                 Effect::Written(address) => {
                     heartbeat |= address.index == 0x1017 || switches(objects, address.index);
-                    monitor |= error_control::is_configuration(address.index, objects.profile);
+                    monitor |= error_control::is_configuration(address.index, objects.profile());
                     communication |= is_configuration(objects, address.index);
                     Event::Written(address)
                 }
+                _ if !D::STORAGE => continue,
                 Effect::Saved(sub) => Event::Saved(sub),
                 Effect::NotSaved => Event::StorageDamaged,
                 Effect::Saving => {
@@ -77,7 +80,8 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
                     continue;
                 }
                 Effect::Restored(sub) => {
-                    let at_once = objects.profile.store.restore == crate::profile::Restore::AtOnce;
+                    let at_once =
+                        objects.profile().store.restore == crate::profile::Restore::AtOnce;
                     communication |= at_once;
                     heartbeat |= at_once;
                     monitor |= at_once;
@@ -87,10 +91,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
         if heartbeat {
             self.heartbeat
-                .configure(&objects.store, objects.profile, objects.now);
+                .configure(&objects.store, objects.profile(), objects.now);
         }
-        if monitor {
-            self.monitor.configure(&objects.store, objects.profile);
+        if Self::HAS_MONITOR && monitor {
+            self.monitor
+                .configure::<D>(&objects.store, objects.profile());
             self.poll_monitor(objects);
         }
         if communication {
@@ -100,17 +105,17 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 }
 
 /// Whether it is the object that switches from heartbeat to node guarding.
-fn switches(objects: &Objects<'_>, index: u16) -> bool {
+fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     objects
-        .profile
+        .profile()
         .guarding_switch
         .is_some_and(|(switch, _)| switch == index)
 }
 
 /// Whether it is an object that configures SYNC or a PDO.
-fn is_configuration(objects: &Objects<'_>, index: u16) -> bool {
-    let repeat = objects.profile.pdo.repeat_counter;
-    let sync_only = objects.profile.pdo.sync_only;
+fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
+    let repeat = objects.profile().pdo.repeat_counter;
+    let sync_only = objects.profile().pdo.sync_only;
     matches!(index, 0x1005 | 0x1400..=0x1BFF)
         || sync_only.is_some_and(|(switch, _)| switch == index)
         || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))

@@ -2,6 +2,7 @@
 //! 1029h).
 
 use super::{Event, Machines};
+use crate::device::Device;
 use crate::emcy::{self, Change};
 use crate::objects::Objects;
 use crate::profile::Notice;
@@ -29,19 +30,21 @@ impl Notice {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// Takes over what the monitor has to say.
     #[inline]
-    pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_>) {
-        if let Some(lost) = self.monitor.poll() {
+    pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
+        if Self::HAS_MONITOR
+            && let Some(lost) = self.monitor.poll::<D>()
+        {
             self.tell(objects, lost);
         }
     }
 
     /// Somebody was lost, or everybody is back.
     #[cold]
-    fn tell(&mut self, objects: &mut Objects<'_>, lost: bool) {
-        let notice = objects.profile.errors.lost;
+    fn tell(&mut self, objects: &mut Objects<'_, D>, lost: bool) {
+        let notice = objects.profile().errors.lost;
         let info = objects.application.error_info(&objects.store);
         if lost {
             objects.outbox.signals.raise(notice.error(info));
@@ -54,8 +57,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     /// Errors set `bits` of 1001h, or Operational begins while they last: 1029h acts. The
     /// EMCYs that tell of them go out first.
     #[cold]
-    pub(super) fn react(&mut self, objects: &mut Objects<'_>, bits: u8, lost: bool) {
-        let profile = &objects.profile.errors;
+    pub(super) fn react(&mut self, objects: &mut Objects<'_, D>, bits: u8, lost: bool) {
+        if !D::BEHAVIOUR {
+            return;
+        }
+        let profile = &objects.profile().errors;
         let operational = self.state == State::Operational;
         if self.state == State::Initialising || profile.operational_only && !operational {
             return;
@@ -86,7 +92,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 
     /// Operational begins while errors last.
-    pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn react_to_lasting(&mut self, objects: &mut Objects<'_, D>) {
         let (bits, lost) = (self.emcy.register(), self.monitor.is_lost());
         if bits != 0 || lost {
             self.react(objects, bits, lost);
@@ -94,15 +100,15 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     }
 
     /// Errors that came and went in a call.
-    pub(super) fn take_errors(&mut self, objects: &mut Objects<'_>) {
+    pub(super) fn take_errors(&mut self, objects: &mut Objects<'_, D>) {
         let mut set = 0;
         while let Some(change) = objects.outbox.signals.errors.pop() {
             let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
-            let reset = objects.profile.errors.reset;
+            let reset = objects.profile().errors.reset;
             let outcome = self.emcy.change(&mut objects.store, change, reset, send);
             set |= outcome.set;
             if outcome.is_news {
-                self.events.push(match change {
+                self.event(match change {
                     Change::Raised(error) => Event::Error(error),
                     Change::Cleared { code, .. } => Event::ErrorCleared(code),
                 });

@@ -41,6 +41,8 @@ pub enum Unfit {
     SdoServer(u16),
     /// The default value of 1005h has bit 30 set, and the node does not produce SYNC.
     SyncProducer,
+    /// The object configures a service that the device switched off ([`Device`]).
+    Service(u16),
 }
 
 impl Unfit {
@@ -52,6 +54,7 @@ impl Unfit {
             Self::Rpdos { .. } => "the dictionary has more RPDOs than the node",
             Self::SdoBuffer { .. } => "a value of the dictionary is longer than the SDO buffer",
             Self::SdoServer(_) => "a second SDO server is not supported; remove 1201h to 127Fh",
+            Self::Service(_) => "the dictionary has an object of a service that is switched off",
             Self::SyncProducer => {
                 "producing SYNC is not supported; clear bit 30 of the default value of 1005h"
             }
@@ -80,7 +83,9 @@ impl fmt::Display for Unfit {
                 "the SDO buffer has room for {room} of the {needed} bytes of the longest value; \
                  use `Node<_, _, {needed}>`"
             ),
-            Self::SdoServer(index) => write!(f, "{index:04X}h: {}", self.reason()),
+            Self::SdoServer(index) | Self::Service(index) => {
+                write!(f, "{index:04X}h: {}", self.reason())
+            }
             Self::SyncProducer => f.write_str(self.reason()),
         }
     }
@@ -122,11 +127,24 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             match entry.address.index {
                 index @ 0x1201..=0x127F => return Err(Unfit::SdoServer(index)),
                 0x1005 if produces_sync(entry.default) => return Err(Unfit::SyncProducer),
+                index if !Self::serves(index) => return Err(Unfit::Service(index)),
                 _ => {}
             }
             at += 1;
         }
         Ok(())
+    }
+
+    /// Whether there is code for the service of a communication object.
+    const fn serves(index: u16) -> bool {
+        match index {
+            0x100C | 0x100D => D::GUARDING,
+            0x1010 | 0x1011 => D::STORAGE,
+            0x1016 => D::CONSUMER,
+            0x1029 => D::BEHAVIOUR,
+            0x1400..=0x17FF => D::RPDOS,
+            _ => true,
+        }
     }
 
     /// [`fits`](Self::fits) for the dictionary that the compiler knows, if it knows one.

@@ -31,8 +31,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             }
             return;
         }
-        let is_error_control = id.raw() & 0x780 == 0x700 && !id.is_extended();
-        if id == CanId::standard(od_wire::lss::MASTER) {
+        let is_error_control =
+            Machines::<D, PDO, SDO>::HAS_MONITOR && id.raw() & 0x780 == 0x700 && !id.is_extended();
+        if D::LSS && id == CanId::standard(od_wire::lss::MASTER) {
             node.handle_lss(&mut objects, frame);
             return;
         }
@@ -51,7 +52,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         } else if node.state == State::Operational {
             if id == node.sync_id {
                 node.handle_sync(&mut objects, frame);
-            } else {
+            } else if D::RPDOS {
                 node.handle_rpdo(&mut objects, frame);
             }
         } else {
@@ -78,12 +79,16 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if node.heartbeat.handle_timeout(now) {
             node.push_error_control(node.state as u8);
         }
-        if let Some(abort) = node.sdo.handle_timeout(now) {
+        if D::BLOCK
+            && let Some(abort) = node.sdo.handle_timeout(now)
+        {
             node.answer(abort);
         }
-        node.monitor.handle_timeout(now);
-        node.poll_monitor(&mut objects);
-        if node.save_at.is_some_and(|at| at <= now) {
+        if Machines::<D, PDO, SDO>::HAS_MONITOR {
+            node.monitor.handle_timeout::<D>(now);
+            node.poll_monitor(&mut objects);
+        }
+        if D::STORAGE && node.save_at.is_some_and(|at| at <= now) {
             node.end_save(&mut objects);
         }
         if node.tick_at.is_some_and(|at| at <= now) {
@@ -109,9 +114,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     #[inline(never)]
-    fn handle_nmt(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+    fn handle_nmt(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {
             return;
         };
@@ -135,16 +140,16 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// A frame before the boot-up message: a node without a node ID knows LSS only.
     #[cold]
-    fn handle_unconfigured(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
-        if self.is_unconfigured() && frame.id() == CanId::standard(od_wire::lss::MASTER) {
+    fn handle_unconfigured(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
+        if D::LSS && self.is_unconfigured() && frame.id() == CanId::standard(od_wire::lss::MASTER) {
             self.handle_lss(objects, frame);
         }
     }
 
     /// 7E5h: LSS, where the device has it and the state allows it.
     #[cold]
-    fn handle_lss(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
-        let Some(profile) = objects.profile.lss else {
+    fn handle_lss(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
+        let Some(profile) = objects.profile().lss else {
             return;
         };
         if frame.is_remote() || profile.stopped_only && self.state != State::Stopped {
@@ -180,8 +185,11 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
     fn handle_error_control(&mut self, frame: &Frame, now: Instant) {
         let node = (frame.id().raw() & 0x7F) as u8;
         if !frame.is_remote() {
-            self.monitor.heartbeat(node, now);
-        } else if node == self.node_id.raw()
+            if D::CONSUMER {
+                self.monitor.heartbeat(node, now);
+            }
+        } else if D::GUARDING
+            && node == self.node_id.raw()
             && let Some(answer) = self.monitor.guard(self.state, now)
         {
             self.push_error_control(answer);
@@ -190,14 +198,14 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// The error behaviour requested NMT reset node.
     #[inline]
-    pub(super) fn reset_if_due(&mut self, objects: &mut Objects<'_>) {
-        if self.reset_due {
+    pub(super) fn reset_if_due(&mut self, objects: &mut Objects<'_, D>) {
+        if D::BEHAVIOUR && self.reset_due {
             self.reset(objects, Reset::Node);
         }
     }
 
     #[inline(never)]
-    fn handle_remote(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+    fn handle_remote(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         if self.state != State::Operational {
             return;
         }
@@ -212,20 +220,22 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
 
     /// SYNC: with a counter of one byte or without.
     #[inline(never)]
-    fn handle_sync(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+    fn handle_sync(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let counter = match frame.data() {
             [] => None,
             [counter] => Some(*counter),
             _ => return,
         };
-        for pdo in self.rpdos() {
-            pdo.sync(objects);
+        if D::RPDOS {
+            for pdo in self.rpdos() {
+                pdo.sync(objects);
+            }
         }
         self.each_tpdo(|pdo| pdo.sync(objects, counter));
     }
 
     #[inline(never)]
-    fn handle_rpdo(&mut self, objects: &mut Objects<'_>, frame: &Frame) {
+    fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         for pdo in self.rpdos().iter_mut().filter(|pdo| pdo.takes(frame.id())) {
             match pdo.receive(objects, frame) {
                 Received::Taken => objects.outbox.signals.clear(PDO_LENGTH, [0; 5]),

@@ -44,15 +44,15 @@ pub use fits::Unfit;
 /// The node has no lifetime: each call borrows the device as a [`Lent`].
 #[derive(Debug)]
 pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
-    device: PhantomData<D>,
     /// [`Objects`] holds it while a call has the device, so it is not one of the machines.
     outbox: Outbox,
-    machines: Machines<PDO, SDO>,
+    machines: Machines<D, PDO, SDO>,
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Debug)]
-struct Machines<const PDO: usize, const SDO: usize> {
+struct Machines<D, const PDO: usize, const SDO: usize> {
+    device: PhantomData<D>,
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: Option<NodeId>,
@@ -103,7 +103,6 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     pub const fn new(node_id: NodeId) -> Self {
         const { Self::assert_fits() };
         Self {
-            device: PhantomData,
             outbox: Outbox::new(),
             machines: Machines::new(node_id),
         }
@@ -155,7 +154,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         &'c mut self,
         device: &'c mut Lent<'_>,
         now: Instant,
-    ) -> Option<(&'c mut Machines<PDO, SDO>, Objects<'c>)> {
+    ) -> Option<(&'c mut Machines<D, PDO, SDO>, Objects<'c, D>)> {
         let machines = &mut self.machines;
         if !machines.powered {
             return None;
@@ -166,9 +165,10 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     const fn new(node_id: NodeId) -> Self {
         Self {
+            device: PhantomData,
             node_id,
             made_with: Some(node_id),
             configured: true,
@@ -200,6 +200,17 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
     }
 
+    /// There is somebody to watch: a master that guards, or a node that sends heartbeats.
+    const HAS_MONITOR: bool = D::GUARDING || D::CONSUMER;
+
+    /// Something for the host to know.
+    #[inline]
+    fn event(&mut self, event: Event) {
+        if D::EVENTS {
+            self.events.push(event);
+        }
+    }
+
     /// It has started, and waits for LSS to give it a node ID.
     fn is_unconfigured(&self) -> bool {
         !self.configured && self.boot_at.is_none() && self.mute.is_none()
@@ -217,15 +228,18 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default()
     }
 
-    fn enter(&mut self, objects: &mut Objects<'_>, state: State) {
+    fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
         if self.state == state {
             return;
         }
-        if self.state == State::Stopped && objects.profile.lss.is_some_and(|lss| lss.stopped_only) {
+        if D::LSS
+            && self.state == State::Stopped
+            && objects.profile().lss.is_some_and(|lss| lss.stopped_only)
+        {
             self.lss.leave();
         }
         self.state = state;
-        self.events.push(Event::State(state));
+        self.event(Event::State(state));
         match state {
             State::Operational => self.start_pdos(objects),
             _ => self.stop_pdos(),
@@ -235,7 +249,7 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         }
     }
 
-    fn start_pdos(&mut self, objects: &mut Objects<'_>) {
+    fn start_pdos(&mut self, objects: &mut Objects<'_, D>) {
         self.each_tpdo(|pdo| {
             pdo.start(objects);
             pdo.announce(objects);
@@ -246,8 +260,10 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         for pdo in self.tpdos() {
             pdo.stop();
         }
-        for pdo in self.rpdos() {
-            pdo.stop();
+        if D::RPDOS {
+            for pdo in self.rpdos() {
+                pdo.stop();
+            }
         }
         self.pdo_pending = false;
     }

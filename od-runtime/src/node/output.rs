@@ -6,6 +6,7 @@ use od_wire::{Frame, Instant};
 use super::{Event, Machines, Node};
 use crate::device::Device;
 use crate::lent::Lent;
+use crate::objects::Objects;
 
 impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
@@ -23,7 +24,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if let Some(frame) = node.out.pop() {
             return Some(frame);
         }
-        if node.pdo_pending || node.emcy.deadline().is_some() || node.sdo.is_sending() {
+        if node.pdo_pending || node.emcy.deadline().is_some() || D::BLOCK && node.sdo.is_sending() {
             return self.poll_services(device, now);
         }
         None
@@ -34,7 +35,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let now = now.max(node.now);
-        let mut objects = device.objects(node.node_id, now, &mut self.outbox)?;
+        let mut objects: Objects<'_, D> = device.objects(node.node_id, now, &mut self.outbox)?;
         if node.pdo_pending {
             let mut pdos = node.tpdos().iter_mut();
             let frame = pdos.find_map(|pdo| pdo.poll(&mut objects));
@@ -50,8 +51,10 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
                 return frame;
             }
         }
-        let segment = node.sdo.poll()?;
-        Some(node.response(segment))
+        if D::BLOCK {
+            return node.sdo.poll().map(|segment| node.response(segment));
+        }
+        None
     }
 
     /// When [`handle_timeout`](Self::handle_timeout) is to be called next; `None` if only a
@@ -68,7 +71,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// Sends an SDO response, after all that waits already.
     #[inline]
     pub(super) fn answer(&mut self, answer: [u8; 8]) {
@@ -115,10 +118,16 @@ impl<const PDO: usize, const SDO: usize> Machines<PDO, SDO> {
         consider(self.boot_at);
         consider(self.tick_at);
         consider(self.heartbeat.deadline());
-        consider(self.monitor.deadline());
+        if Self::HAS_MONITOR {
+            consider(self.monitor.deadline::<D>());
+        }
         consider(self.mute.map(|mute| mute.until));
-        consider(self.sdo.deadline());
-        consider(self.save_at);
+        if D::BLOCK {
+            consider(self.sdo.deadline());
+        }
+        if D::STORAGE {
+            consider(self.save_at);
+        }
         if self.sends_emcy() {
             consider(self.emcy.deadline());
         }

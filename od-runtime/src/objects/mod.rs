@@ -3,9 +3,12 @@
 mod communication;
 mod outbox;
 
+use core::marker::PhantomData;
+
 use od_model::{Address, Entry};
 
 use crate::application::{Application, Context, Reset};
+use crate::device::Device;
 use crate::limits::{self, Outside};
 use crate::profile::{Profile, SaveAnswer};
 use crate::storage::{Storage, image};
@@ -18,16 +21,24 @@ pub(crate) use communication::check_mapped;
 pub(crate) use outbox::{Effect, Outbox};
 
 /// The device for the length of one call, with what the services add.
-pub(crate) struct Objects<'c> {
+pub(crate) struct Objects<'c, D> {
+    pub(crate) device: PhantomData<D>,
     pub(crate) store: Store<'c>,
     pub(crate) application: &'c mut dyn Application,
     pub(crate) storage: &'c mut dyn Storage,
-    pub(crate) profile: &'c Profile,
+    /// See [`profile`](Self::profile).
+    pub(crate) lent_profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
 }
 
-impl<'c> Objects<'c> {
+impl<'c, D: Device> Objects<'c, D> {
+    /// Options of the device family: those that the compiler knows, or else those that were lent.
+    #[inline(always)]
+    pub(crate) fn profile(&self) -> &'c Profile {
+        D::PROFILE.unwrap_or(self.lent_profile)
+    }
+
     /// Whether one of these bits of an object is set.
     pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
         self.store.unsigned(index, 0) & u64::from(bits) != 0
@@ -102,7 +113,7 @@ impl<'c> Objects<'c> {
 
     /// Returns how many of `len` bytes the entry accepts.
     fn fit(&self, entry: &Entry, len: usize) -> Result<usize, AbortCode> {
-        let rule = &self.profile.sdo.length;
+        let rule = &self.profile().sdo.length;
         let (low, high) = match entry.data_type.size() {
             Some(size) => (size, size),
             None => (0, usize::from(entry.slot.len.saturating_sub(2))),
@@ -133,13 +144,15 @@ impl<'c> Objects<'c> {
         let address = entry.address;
         let len = self.fit(entry, bytes.len())?;
         let bytes = &bytes[..len];
-        if let Some(signature) = communication::command(address) {
+        if D::STORAGE
+            && let Some(signature) = communication::command(address)
+        {
             return self.command(entry, signature, bytes);
         }
         limits::check(&self.store, entry, bytes)
             .map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
-            communication::check(&self.store, self.profile, entry, bytes)?;
+            communication::check(&self.store, self.profile(), entry, bytes)?;
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put(entry, bytes)?;
@@ -157,7 +170,7 @@ impl<'c> Objects<'c> {
             // More objects than a mapping has room for are too many, not too great a number.
             Outside::Above if communication::is_mapping_count(address) => AbortCode::PdoTooLong,
             Outside::Above => AbortCode::ValueTooHigh,
-            Outside::Below => self.profile.sdo.below_limit,
+            Outside::Below => self.profile().sdo.below_limit,
             Outside::NotAllowed => AbortCode::ValueRange,
             Outside::Length => AbortCode::Length,
         }
@@ -179,7 +192,7 @@ impl<'c> Objects<'c> {
         if entry.address.index == 0x1010 {
             return self.save(sub);
         }
-        let profile = &self.profile.store;
+        let profile = &self.profile().store;
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
         if profile.restore == crate::profile::Restore::AtOnce {
@@ -193,7 +206,7 @@ impl<'c> Objects<'c> {
 
     /// 1010h: the values of this moment, complete at once or in a while.
     fn save(&mut self, sub: u8) -> Result<(), AbortCode> {
-        let profile = &self.profile.store;
+        let profile = &self.profile().store;
         self.refresh_life_record();
         self.application(|application, context| application.saving(context, true));
         let pending = image::begin(self.storage, &self.store, profile, sub);
@@ -250,7 +263,7 @@ impl<'c> Objects<'c> {
     /// Reading an entry of 1003h that holds no error.
     #[inline(never)]
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
-        match self.profile.sdo.unused_error {
+        match self.profile().sdo.unused_error {
             Some(code) if u64::from(address.sub) > self.store.unsigned(0x1003, 0) => Err(code),
             _ => Ok(()),
         }

@@ -2,6 +2,7 @@
 
 use od_model::Entry;
 
+use crate::device::Device;
 use crate::objects::{Objects, check_mapped};
 
 /// Entries that are kept; a mapping of more (of BOOLEANs, say) is read from its object each time.
@@ -43,7 +44,7 @@ impl Mapping {
 
     /// Reads the mapping object at `object`. One that does not hold (an EDS that maps what
     /// is not there) is an empty one: the PDO is off.
-    pub(super) fn load(objects: &Objects<'_>, object: u16) -> Self {
+    pub(super) fn load<D: Device>(objects: &Objects<'_, D>, object: u16) -> Self {
         let count = objects.store.unsigned(object, 0).min(64) as u8;
         let mut mapping = Self {
             object,
@@ -73,7 +74,7 @@ impl Mapping {
         self.len
     }
 
-    fn mapped(&self, objects: &Objects<'_>, sub: u8) -> Option<Mapped> {
+    fn mapped<D: Device>(&self, objects: &Objects<'_, D>, sub: u8) -> Option<Mapped> {
         let raw = objects.store.try_unsigned(self.object, sub)? as u32;
         let repr = check_mapped(&objects.store, self.object, raw).ok()?;
         let entries = objects.store.dictionary().entries();
@@ -89,10 +90,10 @@ impl Mapping {
 
     /// Every mapped value in the order of the frame, with its first bit.
     #[inline]
-    fn each<'c>(
+    fn each<'c, D: Device>(
         &self,
-        objects: &mut Objects<'c>,
-        mut each: impl FnMut(&mut Objects<'c>, Option<&'c Entry>, usize, usize),
+        objects: &mut Objects<'c, D>,
+        mut each: impl FnMut(&mut Objects<'c, D>, Option<&'c Entry>, usize, usize),
     ) {
         let mut first = 0;
         for at in 0..usize::from(self.count) {
@@ -114,7 +115,7 @@ impl Mapping {
 
     /// Returns the frame's bytes with the current values, live ones updated.
     #[inline]
-    pub(super) fn sample(&self, objects: &mut Objects<'_>) -> [u8; 8] {
+    pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
         let mut data = 0u64;
         self.each(objects, |objects, entry, first, bits| {
             let Some(entry) = entry else { return };
@@ -128,7 +129,7 @@ impl Mapping {
 
     /// Writes the frame's bytes into the objects, each by the rules of its own; one that
     /// refuses its value keeps the old one.
-    pub(super) fn apply(&self, objects: &mut Objects<'_>, data: [u8; 8]) {
+    pub(super) fn apply<D: Device>(&self, objects: &mut Objects<'_, D>, data: [u8; 8]) {
         let data = u64::from_le_bytes(data);
         self.each(objects, |objects, entry, first, bits| {
             let Some(entry) = entry else { return };

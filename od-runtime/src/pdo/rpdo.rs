@@ -1,6 +1,7 @@
 //! One RPDO: when it acts, and on which objects.
 
 use super::mapping::Mapping;
+use crate::device::Device;
 use crate::objects::Objects;
 use od_wire::{CanId, CobId, Frame};
 
@@ -35,7 +36,7 @@ impl Rpdo {
 
     /// Reads the objects of RPDO `number` again; a frame that waits for SYNC stays where
     /// they say what they said.
-    pub(crate) fn configure(&mut self, objects: &Objects<'_>, number: u16) {
+    pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) {
         let new = Self {
             waiting: self.waiting,
             ..Self::load(objects, number)
@@ -49,7 +50,7 @@ impl Rpdo {
     }
 
     /// Reads the objects of RPDO `number` (0 is 1400h and 1600h).
-    fn load(objects: &Objects<'_>, number: u16) -> Self {
+    fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
         let parameter = 0x1400 + number;
         let store = &objects.store;
         let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
@@ -70,7 +71,11 @@ impl Rpdo {
     }
 
     /// Its frame came.
-    pub(crate) fn receive(&mut self, objects: &mut Objects<'_>, frame: &Frame) -> Received {
+    pub(crate) fn receive<D: Device>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        frame: &Frame,
+    ) -> Received {
         if frame.dlc() < self.mapping.len() {
             return Received::TooShort;
         }
@@ -83,7 +88,7 @@ impl Rpdo {
     }
 
     /// SYNC came: a waiting frame acts now.
-    pub(crate) fn sync(&mut self, objects: &mut Objects<'_>) {
+    pub(crate) fn sync<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if let Some(data) = self.waiting.take() {
             self.mapping.apply(objects, data);
         }

@@ -1,6 +1,7 @@
 //! One TPDO: when it is sent, and with what.
 
 use super::mapping::Mapping;
+use crate::device::Device;
 use crate::objects::Objects;
 use od_wire::{CanId, CobId, Frame, Instant};
 
@@ -58,20 +59,24 @@ impl Config {
         mapping: Mapping::NONE,
     };
 
-    fn load(objects: &Objects<'_>, number: u16) -> Self {
+    fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
         let (parameter, mapping) = (0x1800 + number, 0x1A00 + number);
         let store = &objects.store;
         let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
         let repeat = objects
-            .profile
+            .profile()
             .pdo
             .repeat_counter
             .map(|first| first + number);
         let mapping = Mapping::load(objects, mapping);
         let kind = store.unsigned(parameter, 2) as u8;
-        let sync_only = objects.profile.pdo.sync_only.is_some_and(|(index, bits)| {
-            store.unsigned(index, 0) & u64::from(bits) == u64::from(bits)
-        });
+        let sync_only = objects
+            .profile()
+            .pdo
+            .sync_only
+            .is_some_and(|(index, bits)| {
+                store.unsigned(index, 0) & u64::from(bits) == u64::from(bits)
+            });
         let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
         Self {
             valid: cob_id.is_valid() && mapping.len() > 0 && allowed,
@@ -102,7 +107,7 @@ impl Tpdo {
 
     /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
     /// they say something else than before; only then the TPDO restarts.
-    pub(crate) fn configure(&mut self, objects: &Objects<'_>, number: u16) -> bool {
+    pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) -> bool {
         let config = Config::load(objects, number);
         let changed = config != self.config;
         if changed {
@@ -122,7 +127,7 @@ impl Tpdo {
     }
 
     /// Operational begins: the first period of the event timer, the first SYNC.
-    pub(crate) fn start(&mut self, objects: &mut Objects<'_>) {
+    pub(crate) fn start<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         self.syncs = 0;
         self.pending = false;
         self.repeats_left = self.config.repeat;
@@ -137,8 +142,8 @@ impl Tpdo {
     }
 
     /// Operational begins: a family that sends changes says first what there is to change.
-    pub(crate) fn announce(&mut self, objects: &Objects<'_>) {
-        let sends_changes = objects.profile.pdo.event_on_change;
+    pub(crate) fn announce<D: Device>(&mut self, objects: &Objects<'_, D>) {
+        let sends_changes = objects.profile().pdo.event_on_change;
         self.pending |= sends_changes && self.config.valid && self.is_event_driven();
     }
 
@@ -154,7 +159,7 @@ impl Tpdo {
     }
 
     /// A remote frame asks for it: synchronous types answer with what the last SYNC saw.
-    pub(crate) fn request(&mut self, objects: &mut Objects<'_>) -> Option<Frame> {
+    pub(crate) fn request<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         if self.config.kind <= kind::SYNC_RTR {
             if !self.sampled {
                 self.last = self.config.mapping.sample(objects);
@@ -166,7 +171,7 @@ impl Tpdo {
     }
 
     /// SYNC came, with its counter if it had one.
-    pub(crate) fn sync(&mut self, objects: &mut Objects<'_>, counter: Option<u8>) {
+    pub(crate) fn sync<D: Device>(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
         if !self.config.valid {
             return;
         }
@@ -200,7 +205,7 @@ impl Tpdo {
 
     /// A cyclic transmission is due; the repeat counter may hold it back.
     #[inline]
-    fn due(&mut self, objects: &mut Objects<'_>) {
+    fn due<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if self.config.repeat != 0 {
             let data = self.config.mapping.sample(objects);
             if data != self.last {
@@ -217,7 +222,7 @@ impl Tpdo {
 
     /// The event timer, if its tick has come.
     #[inline]
-    pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_>) {
+    pub(crate) fn handle_timeout<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if let Some(at) = self.event_at.filter(|at| *at <= objects.now) {
             self.event_at = Some(at.next_period(self.config.event_us, objects.now));
             self.due(objects);
@@ -230,7 +235,7 @@ impl Tpdo {
     }
 
     /// Marks it as pending if a mapped value has changed that it is sent for.
-    pub(crate) fn notice_change(&mut self, objects: &mut Objects<'_>) {
+    pub(crate) fn notice_change<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if self.watches_changes() && !self.pending {
             self.pending = self.config.mapping.sample(objects) != self.last;
         }
@@ -248,7 +253,7 @@ impl Tpdo {
 
     /// The frame, if one is to be sent and the inhibit time has passed.
     #[inline]
-    pub(crate) fn poll(&mut self, objects: &mut Objects<'_>) -> Option<Frame> {
+    pub(crate) fn poll<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         if !self.is_ready(objects.now) {
             return None;
         }

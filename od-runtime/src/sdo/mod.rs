@@ -11,6 +11,7 @@ mod segmented;
 
 use od_model::Address;
 
+use crate::device::Device;
 use crate::objects::Objects;
 use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
@@ -79,13 +80,13 @@ impl<const N: usize> Server<N> {
 
     /// A client's frame; `data` beyond `dlc` is 0.
     #[inline(always)]
-    pub(crate) fn handle(
+    pub(crate) fn handle<D: Device>(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        if dlc < objects.profile.sdo.min_dlc {
+        if dlc < objects.profile().sdo.min_dlc {
             return None;
         }
         let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
@@ -103,18 +104,20 @@ impl<const N: usize> Server<N> {
     }
 
     #[inline(never)]
-    fn handle_other(
+    fn handle_other<D: Device>(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        if self.late.is_awaited() {
+        if D::STORAGE && self.late.is_awaited() {
             self.late.hold(data, dlc);
             return None;
         }
         let answer = match &mut self.transfer {
-            Transfer::BlockDownload(block) if block.wants_segments() && data[0] != 0x80 => {
+            Transfer::BlockDownload(block)
+                if D::BLOCK && block.wants_segments() && data[0] != 0x80 =>
+            {
                 block.segment(&mut self.buffer, data)
             }
             _ => self.request(objects, Request::parse(data), data, dlc),
@@ -124,7 +127,7 @@ impl<const N: usize> Server<N> {
             Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
         )
         .then(|| objects.now.plus_micros(BLOCK_TIMEOUT_US));
-        let is_late = core::mem::take(&mut objects.outbox.answer_later);
+        let is_late = D::STORAGE && core::mem::take(&mut objects.outbox.answer_later);
         let answer = match answer {
             Ok(Some(response)) if is_late => {
                 self.late = Late::new(response.emit());
@@ -138,14 +141,14 @@ impl<const N: usize> Server<N> {
         answer
     }
 
-    fn request(
+    fn request<D: Device>(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         request: Request,
         data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
-        let profile = objects.profile.sdo;
+        let profile = objects.profile().sdo;
         match (request, &mut self.transfer) {
             (
                 Request::InitiateDownload {
@@ -158,7 +161,9 @@ impl<const N: usize> Server<N> {
                 self.begin(address);
                 match expedited {
                     Some(bytes) => expedited::download(objects, address, size, &bytes, dlc)?,
-                    None if !profile.segmented_download => return Err(AbortCode::InvalidCommand),
+                    None if !D::SEGMENTED || !profile.segmented_download => {
+                        return Err(AbortCode::InvalidCommand);
+                    }
                     None => {
                         Self::check_size(objects, address, size)?;
                         self.transfer = Transfer::Download(Download::new(size));
@@ -166,14 +171,14 @@ impl<const N: usize> Server<N> {
                 }
                 Ok(Some(Response::InitiateDownload { address }))
             }
-            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) => {
+            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) if D::SEGMENTED => {
                 let segment = upload.segment(&self.buffer, toggle)?;
                 if upload.is_over() {
                     self.reset();
                 }
                 Ok(Some(segment))
             }
-            (Request::DownloadSegment(segment), Transfer::Download(download)) => {
+            (Request::DownloadSegment(segment), Transfer::Download(download)) if D::SEGMENTED => {
                 if let Some(len) = download.segment(&mut self.buffer, &segment)? {
                     self.write(objects, len)?;
                 }
@@ -192,7 +197,7 @@ impl<const N: usize> Server<N> {
                     ..
                 },
                 _,
-            ) if profile.block => {
+            ) if D::BLOCK && profile.block => {
                 self.begin(address);
                 block_upload::check(block_size)?;
                 let mut number = [0; 8];
@@ -204,17 +209,23 @@ impl<const N: usize> Server<N> {
                     size: Some(len as u32),
                 }))
             }
-            (Request::StartBlockUpload, Transfer::BlockUpload(block)) => {
+            (Request::StartBlockUpload, Transfer::BlockUpload(block)) if D::BLOCK => {
                 block.start().map(|()| None)
             }
-            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block)) => {
+            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block))
+                if D::BLOCK =>
+            {
                 block.acknowledged(&self.buffer, ack, block_size)
             }
-            (Request::EndBlockUpload, Transfer::BlockUpload(block)) if block.is_complete() => {
+            (Request::EndBlockUpload, Transfer::BlockUpload(block))
+                if D::BLOCK && block.is_complete() =>
+            {
                 self.reset();
                 Ok(None)
             }
-            (Request::InitiateBlockDownload { address, crc, size }, _) if profile.block => {
+            (Request::InitiateBlockDownload { address, crc, size }, _)
+                if D::BLOCK && profile.block =>
+            {
                 self.begin(address);
                 Self::check_size(objects, address, size)?;
                 let block = BlockDownload::new(&self.buffer, crc, size);
@@ -225,7 +236,9 @@ impl<const N: usize> Server<N> {
                     block_size: block.block_size(),
                 }))
             }
-            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block)) => {
+            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block))
+                if D::BLOCK =>
+            {
                 let len = block.end(&self.buffer, unused, crc)?;
                 self.write(objects, len)?;
                 Ok(Some(Response::EndBlockDownload))
@@ -241,8 +254,8 @@ impl<const N: usize> Server<N> {
     }
 
     /// Checks whether a value of this size may be written to the object, and fits the buffer.
-    fn check_size(
-        objects: &Objects<'_>,
+    fn check_size<D: Device>(
+        objects: &Objects<'_, D>,
         address: Address,
         size: Option<u32>,
     ) -> Result<(), AbortCode> {
@@ -262,7 +275,11 @@ impl<const N: usize> Server<N> {
     }
 
     /// A download is complete: writes the first `len` bytes of the buffer, and ends the transfer.
-    fn write(&mut self, objects: &mut Objects<'_>, len: usize) -> Result<(), AbortCode> {
+    fn write<D: Device>(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        len: usize,
+    ) -> Result<(), AbortCode> {
         objects.write(self.address, self.buffer.get(..len).unwrap_or(&[]))?;
         self.reset();
         Ok(())
@@ -276,12 +293,12 @@ impl<const N: usize> Server<N> {
     }
 
     #[inline(always)]
-    fn upload(
+    fn upload<D: Device>(
         &mut self,
-        objects: &mut Objects<'_>,
+        objects: &mut Objects<'_, D>,
         address: Address,
     ) -> Result<[u8; 8], AbortCode> {
-        let segmented = objects.profile.sdo.segmented_upload;
+        let segmented = D::SEGMENTED && objects.profile().sdo.segmented_upload;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
         match *bytes {

@@ -1,0 +1,99 @@
+//! `without lss, block;` and `behaves = PROFILE;`: what the node of the device has code for.
+
+use std::fmt::Write;
+
+use proc_macro2::{Ident, Span};
+use quote::ToTokens;
+use syn::parse::ParseStream;
+use syn::{Path, Token};
+
+use crate::report::Report;
+use crate::words;
+
+/// The services by their words, and the constants of `Device`.
+const SERVICES: [(&str, &str); 10] = [
+    ("lss", "LSS"),
+    ("segmented", "SEGMENTED"),
+    ("block", "BLOCK"),
+    ("rpdos", "RPDOS"),
+    ("changes", "CHANGES"),
+    ("guarding", "GUARDING"),
+    ("consumer", "CONSUMER"),
+    ("storage", "STORAGE"),
+    ("behaviour", "BEHAVIOUR"),
+    ("events", "EVENTS"),
+];
+
+/// What a call says of services.
+#[derive(Default)]
+pub(crate) struct Services {
+    /// Constants of `Device` that are `false`.
+    off: Vec<&'static str>,
+    /// Path of the profile, as seen from the call.
+    profile: Option<Path>,
+}
+
+impl Services {
+    /// The list behind `without`. Returns where it ends.
+    pub(crate) fn without(&mut self, body: ParseStream, report: &mut Report) -> syn::Result<Span> {
+        loop {
+            let word: Ident = body.parse().map_err(|e| {
+                syn::Error::new(e.span(), "expected a service\nhelp: `without lss, block;`")
+            })?;
+            let text = word.to_string();
+            match SERVICES.iter().find(|(name, _)| *name == text) {
+                Some((_, constant)) if self.off.contains(constant) => {
+                    report.at(word.span(), format!("`{word}` is given twice"));
+                }
+                Some((_, constant)) => self.off.push(constant),
+                None => {
+                    let names = || SERVICES.iter().map(|(name, _)| *name);
+                    let help = match words::near(&text, names()) {
+                        Some(meant) => format!("did you mean `{meant}`?"),
+                        None => format!("`{}`", names().collect::<Vec<_>>().join("`, `")),
+                    };
+                    let message = format!("`{word}` is not a service\nhelp: {help}");
+                    report.at(word.span(), message);
+                }
+            }
+            if body.parse::<Option<Token![,]>>()?.is_none() {
+                return Ok(word.span());
+            }
+        }
+    }
+
+    /// The path behind `behaves =`.
+    pub(crate) fn behaves(&mut self, body: ParseStream) -> syn::Result<()> {
+        let path = Path::parse_mod_style(body).map_err(|e| {
+            let help = "`behaves = PROFILE;`, where PROFILE is a `static` or a `const`";
+            syn::Error::new(e.span(), format!("expected a profile's path\nhelp: {help}"))
+        })?;
+        self.profile = Some(path);
+        Ok(())
+    }
+
+    /// Whether `behaves` was given.
+    pub(crate) const fn has_profile(&self) -> bool {
+        self.profile.is_some()
+    }
+
+    /// The constants, for a module `depth` levels below the call.
+    pub(crate) fn constants(&self, out: &mut String, root: &str, depth: usize) {
+        for constant in &self.off {
+            let _ = writeln!(out, "const {constant}: bool = false;");
+        }
+        let Some(path) = &self.profile else { return };
+        let first = path
+            .segments
+            .first()
+            .map(|segment| segment.ident.to_string());
+        let is_absolute = path.leading_colon.is_some() || first.as_deref() == Some("crate");
+        let up = "super::".repeat(if is_absolute { 0 } else { depth });
+        let path = path.to_token_stream();
+        let _ = writeln!(
+            out,
+            "const PROFILE: ::core::option::Option<&'static {root}::Profile> =
+::core::option::Option::Some(&{up}{path});"
+        );
+    }
+}

@@ -1,0 +1,94 @@
+//! `without` and `behaves`: a node has code for what its device uses, and the profile that the
+//! compiler knows counts.
+
+use odkit::storage::Memory;
+use odkit::{Frame, Instant, Lent, NoApplication, NodeId, PdoProfile, Profile, SdoProfile};
+
+static PROFILE: Profile = Profile {
+    sdo: SdoProfile {
+        min_dlc: 4,
+        ..Profile::CIA301.sdo
+    },
+    pdo: PdoProfile {
+        event_on_change: false,
+        ..Profile::CIA301.pdo
+    },
+    ..Profile::CIA301
+};
+
+macro_rules! device {
+    ($name:ident, $($without:tt)*) => {
+        odkit::object_dictionary! {
+            mod $name {
+                $($without)*
+                add 0x1000 { name = "Device type"; type = u32; default = 0 }
+                add 0x1001 { name = "Error register"; type = u8 }
+                add 0x1018 { code = record; name = "Identity object" }
+                add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 1 }
+                add 0x2000 { name = "Text"; type = str; access = rw; default = "more than four" }
+                add 0x2001 { name = "Number"; type = u32; access = rw; default = 7 }
+
+                variant small {
+                    remove 0x2001;
+                }
+            }
+        }
+    };
+}
+
+device!(full,);
+device!(lean, without lss, segmented, block, events; behaves = PROFILE;);
+
+/// What a node answers to each request, and whether it had something to tell its host.
+macro_rules! answers {
+    ($module:path, $requests:expr) => {{
+        use $module as device;
+        let mut node = device::Node::new(NodeId::ONE);
+        let mut values = [0; device::STORE_LEN];
+        let mut device = Lent {
+            dictionary: device::DICTIONARY,
+            values: &mut values,
+            application: &mut NoApplication,
+            storage: &mut Memory::new([]),
+            profile: &Profile::CIA301,
+        };
+        let now = Instant::ZERO;
+        node.power_on(&mut device, now).unwrap();
+        while node.poll_transmit(&mut device, now).is_some() {}
+        let mut found = Vec::new();
+        for request in $requests {
+            let request = Frame::new(odkit::CanId::standard(0x601), request).unwrap();
+            node.handle_frame(&mut device, now, &request);
+            let answer = node.poll_transmit(&mut device, now);
+            found.push(answer.map_or(String::from("nothing"), |frame| frame.to_string()));
+        }
+        (found, node.poll_event().is_some())
+    }};
+}
+
+const REQUESTS: [&[u8]; 5] = [
+    &[0x40, 0x00, 0x20, 0, 0, 0, 0, 0],
+    &[0xA4, 0x00, 0x20, 0, 127, 0, 0, 0],
+    &[0x21, 0x00, 0x20, 0, 9, 0, 0, 0],
+    &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0],
+    &[0x40, 0x00, 0x10, 0],
+];
+
+#[test]
+fn a_service_that_is_off_is_answered_as_one_that_the_family_lacks() {
+    let (full, has_events) = answers!(full, REQUESTS);
+    assert_eq!(full[0], "581#410020000E000000");
+    assert_eq!(full[1], "581#C60020000E000000");
+    assert_eq!(full[2], "581#6000200000000000");
+    assert_eq!(full[3..], ["581#4300100000000000", "nothing"]);
+    assert!(has_events);
+
+    let (lean, has_events) = answers!(lean, REQUESTS);
+    assert_eq!(lean[0], "581#8000200000000106", "06010000h");
+    assert_eq!(lean[1], "581#8000200001000405", "05040001h");
+    assert_eq!(lean[2], "581#8000200001000405", "05040001h");
+    // The profile that the compiler knows counts, and not the one that was lent.
+    assert_eq!(lean[3..], ["581#4300100000000000", "581#4300100000000000"]);
+    assert!(!has_events);
+    assert_eq!(answers!(lean::small, REQUESTS).0, lean);
+}
