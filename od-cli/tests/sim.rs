@@ -106,6 +106,8 @@ fn standard_input_takes_frames_and_the_world_outside() {
     assert_eq!(
         frames,
         [
+            "701#00",
+            "702#00",
             "581#4300100096010200",
             "701#00",
             "582#4300100096010200",
@@ -121,6 +123,7 @@ fn standard_input_takes_frames_and_the_world_outside() {
     ] {
         assert!(sim.err.contains(said), "{said}: {}", sim.err);
     }
+    assert!(!sim.err.contains("have node ID"), "{}", sim.err);
     assert!(
         sim.err.contains("2 devices; standard input and output"),
         "{}",
@@ -132,7 +135,11 @@ fn standard_input_takes_frames_and_the_world_outside() {
 fn shafts_start_where_the_seed_says() {
     let position = |seed: &str| {
         let sim = console(&["gxmm", "--seed", seed], "601#4004600000000000\n");
-        sim.out.split(' ').nth(2).unwrap_or_default().to_owned()
+        let answer = sim
+            .out
+            .split_whitespace()
+            .find(|word| word.starts_with("581#"));
+        answer.unwrap_or_default().to_owned()
     };
     assert!(
         position("1").starts_with("581#43046000"),
@@ -197,6 +204,42 @@ fn nodes_of_one_type_have_serial_numbers_of_their_own() {
 }
 
 #[test]
+fn two_devices_with_one_node_id_get_a_warning() {
+    let args = [
+        "gxmm",
+        "gxmm",
+        "gxmm",
+        "--node-id",
+        "5",
+        "--node-id",
+        "6",
+        "--node-id",
+        "5",
+    ];
+    let sim = console(&args, "");
+    assert_eq!(sim.code, 0, "{}", sim.err);
+    let warning = "warning: 2 devices have node ID 5, and their frames collide";
+    assert!(sim.err.contains(warning), "{}", sim.err);
+    assert!(!sim.err.contains("have node ID 6"), "{}", sim.err);
+}
+
+/// Opening a FIFO waits until another program opens its other end.
+#[cfg(unix)]
+#[test]
+fn a_fifo_is_not_an_eeprom() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("eeprom.fifo");
+    let _ = std::fs::remove_file(&path);
+    let made = std::process::Command::new("mkfifo").arg(&path).status();
+    assert!(made.expect("mkfifo").success());
+    let sim = odkit(
+        &["sim", "gxmm", "--eeprom", &path.display().to_string()],
+        "",
+    );
+    assert_eq!(sim.code, 2);
+    assert!(sim.err.contains("names a device or FIFO"), "{}", sim.err);
+}
+
+#[test]
 fn what_cannot_be_is_said_in_one_line() {
     for (args, code, why) in [
         (&["sim", "gxmx"][..], 1, "no built-in device or file"),
@@ -204,6 +247,11 @@ fn what_cannot_be_is_said_in_one_line() {
             &["sim", "gxmm", "--slcan", "nowhere"],
             2,
             "is not a valid address",
+        ),
+        (
+            &["sim", "gxmm", "--link", "slcan:127.0.0.1:99999"],
+            2,
+            "'--link <LINK>': port 99999 of `127.0.0.1:99999` is outside the range",
         ),
         (
             &["sim", "gxmm", "--position", "north"],
@@ -252,6 +300,10 @@ fn what_cannot_be_is_said_in_one_line() {
         assert_eq!(sim.code, code, "{args:?}: {}", sim.err);
         assert!(sim.err.contains(why), "{args:?}: {}", sim.err);
     }
+    let folder = env!("CARGO_TARGET_TMPDIR");
+    let sim = odkit(&["sim", "gxmm", "--eeprom", folder], "");
+    assert_eq!(sim.code, 2);
+    assert!(sim.err.contains("names a directory"), "{}", sim.err);
     let foreign = file("letter.txt", "Dear somebody").display().to_string();
     let sim = odkit(&["sim", "gxmm", "--eeprom", &foreign], "");
     assert_eq!(sim.code, 1);

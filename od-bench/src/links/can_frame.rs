@@ -20,7 +20,7 @@ pub struct CanSocket;
 
 impl Codec for CanSocket {
     fn receive(&mut self, bytes: &[u8], _: Instant, steps: &mut Vec<Step>) {
-        steps.extend(decode(bytes).map(Step::Frame));
+        steps.extend(bytes.chunks(SIZE).filter_map(decode).map(Step::Frame));
     }
 
     fn form(&self) -> Option<&'static str> {

@@ -1,84 +1,135 @@
-//! A client, as the bus sees it: its codec, and what waits for it.
+//! A client, as the bus sees it: its port, its codec, and what waits for it.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::io::{self, ErrorKind};
+use std::time::{Duration, Instant as Clock};
 
 use od_runtime::{Frame, Instant};
 
+use super::http::Opening;
 use super::links::opened::Protocol;
+use super::links::port::Port;
+use super::outbox::Outbox;
 use super::terminal::note;
 use crate::links::Codec;
+use crate::words::plural;
 
-/// Messages and bytes that may wait for a slow client. Past that the newest lines are
-/// dropped, so that nobody else has to wait and memory stays bounded.
-const QUEUE: usize = 4096;
+/// Most bytes that wait for a client. Past that the newest lines are dropped, so that nobody else has
+/// to wait and memory stays bounded.
 const WAITING: usize = 1024 * 1024;
+/// Fewest bytes that may wait for a client, however many clients there are.
+const FEWEST: usize = 16 * 1024;
+/// Bytes that may wait for all clients together.
+const TOTAL: usize = 8 * 1024 * 1024;
+/// A client that does not read is told no more often than this.
+const AGAIN: Duration = Duration::from_secs(10);
 
-/// Work for the thread that writes.
-pub(super) enum Message {
-    Bytes(Vec<u8>),
-    Pause,
+/// Room of each of `count` clients, in bytes.
+pub(super) fn room(count: usize) -> usize {
+    (TOTAL / count.max(1)).clamp(FEWEST, WAITING)
 }
 
 /// A client, as the bus sees it.
 pub(super) struct Client {
-    pub(super) number: u64,
+    pub(super) number: usize,
     /// Name in messages.
     pub(super) name: String,
     pub(super) protocol: Protocol,
     pub(super) codec: Box<dyn Codec>,
-    queue: SyncSender<Message>,
-    /// Bytes in the queue.
-    queued: Arc<AtomicUsize>,
-    /// Bytes of this turn so far.
-    gathered: Vec<u8>,
+    pub(super) port: Box<dyn Port>,
+    /// First bytes of a client that anybody may be.
+    opening: Option<Opening>,
+    outbox: Outbox,
+    /// There may be more to read.
+    pub(super) readable: bool,
+    /// There may be room to write.
+    writable: bool,
+    /// When it sent its last byte; what waits still goes out.
+    pub(super) ended: Option<Clock>,
+    /// It does not read; `true`: that was told.
+    deaf: Option<bool>,
+    /// Messages dropped for it that were not told.
     dropped: usize,
-}
-
-/// The other ends of a client, for the thread that writes.
-pub(super) struct Waiting {
-    pub(super) messages: Receiver<Message>,
-    /// Bytes in the queue.
-    pub(super) queued: Arc<AtomicUsize>,
+    /// When it was told the last time that it does not read.
+    told: Option<Clock>,
 }
 
 /// Frames in the forms that several clients get alike, each with its bytes.
 pub(super) type Encoded = Vec<(&'static str, Vec<u8>)>;
 
 impl Client {
-    /// A client that speaks `protocol`, and the ends for the thread that writes to it.
-    pub(super) fn new(number: u64, name: String, protocol: Protocol) -> (Self, Waiting) {
-        Self::with_room(number, name, protocol, QUEUE)
-    }
-
-    fn with_room(number: u64, name: String, protocol: Protocol, room: usize) -> (Self, Waiting) {
-        let (queue, messages) = sync_channel(room);
-        let queued = Arc::new(AtomicUsize::new(0));
-        let waiting = Waiting {
-            messages,
-            queued: Arc::clone(&queued),
-        };
-        let client = Self {
+    /// A client that speaks `protocol`. `is_guest`: it came over a network, and may be anybody.
+    pub(super) fn new(
+        number: usize,
+        name: String,
+        protocol: Protocol,
+        port: Box<dyn Port>,
+        is_guest: bool,
+    ) -> Self {
+        Self {
             number,
             name,
             protocol,
             codec: protocol.codec(),
-            queue,
-            queued,
-            gathered: Vec::new(),
+            port,
+            opening: is_guest.then(Opening::default),
+            outbox: Outbox::default(),
+            readable: true,
+            writable: true,
+            ended: None,
+            deaf: None,
             dropped: 0,
-        };
-        (client, waiting)
+            told: None,
+        }
     }
 
-    /// A frame of the bus for the client, whose time of day is `stamp` in microseconds. `encoded`
-    /// keeps the bytes for further clients.
-    pub(super) fn hear(&mut self, frame: &Frame, now: Instant, stamp: u64, encoded: &mut Encoded) {
+    /// Events came for its port.
+    pub(super) fn wake(&mut self, readable: bool, writable: bool) {
+        self.readable |= readable && self.ended.is_none();
+        self.writable |= writable;
+    }
+
+    /// Reads what is there, into `buffer`; `None`: nothing is there now. 0 bytes: it has ended.
+    pub(super) fn read(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        match self.port.read(buffer) {
+            Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                self.readable = false;
+                Ok(None)
+            }
+            Err(error) if error.kind() == ErrorKind::Interrupted => Ok(None),
+            read => read.map(Some),
+        }
+    }
+
+    /// Begins again for the next host, to whom nothing of the last one matters.
+    pub(super) fn restart(&mut self) {
+        self.codec = self.protocol.codec();
+        self.outbox = Outbox::default();
+        self.deaf = None;
+    }
+
+    /// Takes its next bytes, and returns whether a browser sent them.
+    pub(super) fn is_http(&mut self, bytes: &[u8]) -> bool {
+        let opening = self.opening.as_mut();
+        opening.is_some_and(|opening| opening.is_http(bytes))
+    }
+
+    /// A frame of the bus for the client, whose time of day is `stamp` in microseconds; `own`: no
+    /// other client brought it about. `encoded` keeps the bytes for further clients.
+    pub(super) fn hear(
+        &mut self,
+        frame: &Frame,
+        now: Instant,
+        stamp: u64,
+        encoded: &mut Encoded,
+        (own, room): (bool, usize),
+    ) {
+        if self.ended.is_some() && self.protocol != Protocol::Lines {
+            return;
+        }
         let Some(form) = self.codec.form() else {
-            let mut own = Vec::new();
-            self.codec.encode(frame, now, stamp, &mut own);
-            return self.push(&own);
+            let mut bytes = Vec::new();
+            self.codec.encode(frame, now, stamp, &mut bytes);
+            return self.push(&bytes, own, room);
         };
         let place = match encoded.iter().position(|(known, _)| *known == form) {
             Some(place) => place,
@@ -89,70 +140,94 @@ impl Client {
                 encoded.len() - 1
             }
         };
-        self.push(&encoded[place].1);
+        self.push(&encoded[place].1, own, room);
     }
 
     /// Whole lines for the client, behind those before them. They go out with
-    /// [`flush`](Self::flush), or are dropped where too much waits.
-    pub(super) fn push(&mut self, lines: &[u8]) {
+    /// [`flush`](Self::flush), or are dropped if too much waits: half of the `room` is for what is
+    /// its `own`, so that a flood of other clients takes no answer away.
+    pub(super) fn push(&mut self, lines: &[u8], own: bool, room: usize) {
         if lines.is_empty() {
             return;
         }
-        let waiting = self.queued.load(Ordering::Relaxed) + self.gathered.len();
-        // Half of the room is free again before a client counts as reading.
-        let room = if self.dropped == 0 {
-            WAITING
-        } else {
-            WAITING / 2
+        let waiting = self.outbox.len();
+        // Half of that is free again before a client counts as reading.
+        let reads = waiting <= room / 4;
+        let most = match own {
+            true => room,
+            false if reads || self.deaf.is_none() => room / 2,
+            false => room / 4,
         };
-        if waiting + lines.len() > room {
-            self.drop_lines(lines);
-            return;
+        if waiting + lines.len() > most {
+            return self.drop_lines(lines);
         }
-        if self.dropped > 0 {
-            let (name, dropped) = (&self.name, self.dropped);
-            note(&format!(
-                "{name} reads again; {dropped} messages were dropped"
-            ));
+        if reads
+            && let Some(was_told) = self.deaf.take()
+            && was_told
+        {
+            let (name, dropped) = (&self.name, plural(self.dropped, "message"));
+            note(&format!("{name} reads again; odkit dropped {dropped}"));
             self.dropped = 0;
         }
-        self.gathered.extend_from_slice(lines);
+        self.outbox.push(lines);
     }
 
-    /// All that was gathered goes out, as one message.
-    pub(super) fn flush(&mut self) {
-        if self.gathered.is_empty() {
-            return;
+    /// A short pause after what was pushed.
+    pub(super) fn pause(&mut self) {
+        self.outbox.pause();
+    }
+
+    /// Is there nothing left to be written?
+    pub(super) fn is_flushed(&self) -> bool {
+        self.outbox.is_empty()
+    }
+
+    /// Writes what its port takes.
+    pub(super) fn flush(&mut self) -> io::Result<()> {
+        if !self.writable || self.outbox.is_empty() {
+            return Ok(());
         }
-        let lines = std::mem::take(&mut self.gathered);
-        let len = lines.len();
-        // First counted, then sent: the writer takes off what it has seen.
-        self.queued.fetch_add(len, Ordering::Relaxed);
-        match self.queue.try_send(Message::Bytes(lines)) {
-            // A client that is gone is reported by its reader.
-            Ok(()) | Err(TrySendError::Disconnected(_)) => {}
-            Err(TrySendError::Full(message)) => {
-                self.queued.fetch_sub(len, Ordering::Relaxed);
-                if let Message::Bytes(lines) = message {
-                    self.drop_lines(&lines);
+        let now = Clock::now();
+        loop {
+            let bytes = self.outbox.next(now);
+            if bytes.is_empty() {
+                return Ok(());
+            }
+            match self.port.write(bytes) {
+                Ok(count) => self.outbox.wrote(count, now),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    self.writable = false;
+                    return Ok(());
                 }
+                Err(error) => return Err(error),
             }
         }
     }
 
-    /// Sends the pushed bytes as one message, with a short pause after it.
-    pub(super) fn pause(&mut self) {
-        self.flush();
-        // A client for which so much waits does not read one by one anyway.
-        let _ = self.queue.try_send(Message::Pause);
+    /// When something is due that no event tells.
+    pub(super) fn deadline(&self) -> Option<Clock> {
+        let pause = self.outbox.deadline().into_iter();
+        pause.chain(self.port.next_check()).min()
+    }
+
+    /// Does what is due at `now`.
+    pub(super) fn check(&mut self, now: Clock) {
+        if self.port.next_check().is_some_and(|at| at <= now) {
+            self.port.check(now);
+            self.writable = true;
+        }
     }
 
     fn drop_lines(&mut self, lines: &[u8]) {
-        if self.dropped == 0 {
-            note(&format!(
-                "{} does not read; frames for it are dropped",
-                self.name
-            ));
+        if self.deaf.is_none() {
+            let is_told = self.told.is_none_or(|told| told.elapsed() > AGAIN);
+            self.deaf = Some(is_told);
+            if is_told {
+                let name = &self.name;
+                note(&format!("{name} does not read; odkit drops frames for it"));
+                self.told = Some(Clock::now());
+            }
         }
         let ends = lines
             .iter()
@@ -163,63 +238,64 @@ impl Client {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
+    use mio::{Registry, Token, Waker};
+
     use super::*;
 
-    fn client(messages: usize) -> (Client, Waiting) {
-        Client::with_room(0, "somebody".into(), Protocol::Slcan, messages)
-    }
+    /// A port that takes so many bytes.
+    struct Narrow(usize);
 
-    #[track_caller]
-    fn bytes(waiting: &Waiting) -> Vec<u8> {
-        match waiting.messages.try_recv() {
-            Ok(Message::Bytes(bytes)) => bytes,
-            _ => panic!("no bytes"),
+    impl Port for Narrow {
+        fn register(&mut self, _: &Registry, _: Token, _: &Arc<Waker>) -> io::Result<()> {
+            Ok(())
+        }
+
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(ErrorKind::WouldBlock.into())
+        }
+
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let len = bytes.len().min(self.0);
+            self.0 -= len;
+            match len {
+                0 => Err(ErrorKind::WouldBlock.into()),
+                _ => Ok(len),
+            }
         }
     }
 
     #[test]
-    fn a_turn_is_one_message_in_order() {
-        let (mut client, waiting) = client(QUEUE);
-        client.flush();
-        client.push(b"z\r");
-        client.push(b"t70110\r");
-        client.push(b"");
-        client.push(b"\x07");
-        client.flush();
-        client.flush();
-        assert_eq!(bytes(&waiting), b"z\rt70110\r\x07");
-        client.push(b"< ok >");
-        client.pause();
-        assert_eq!(bytes(&waiting), b"< ok >");
-        assert!(matches!(waiting.messages.try_recv(), Ok(Message::Pause)));
-        assert!(waiting.messages.try_recv().is_err());
+    fn a_flood_of_others_takes_no_answer_away() {
+        let port = Box::new(Narrow(0));
+        let mut client = Client::new(0, "somebody".into(), Protocol::Slcan, port, false);
+        let line = [&[b'0'; 1023][..], b"\r"].concat();
+        let room = 64 * 1024;
+        for _ in 0..100 {
+            client.push(&line, false, room);
+        }
+        assert_eq!((client.outbox.len(), client.dropped), (room / 2, 100 - 32));
+        for _ in 0..100 {
+            client.push(&line, true, room);
+        }
+        assert_eq!((client.outbox.len(), client.dropped), (room, 200 - 64));
+        // It reads a little, then more.
+        for (bytes, left) in [(room / 2, room / 2), (room / 4, room / 4 + 1024)] {
+            client.port = Box::new(Narrow(bytes));
+            client.wake(false, true);
+            client.flush().expect("it writes");
+            client.push(&line, false, room);
+            assert_eq!(client.outbox.len(), left);
+        }
+        assert_eq!(client.deaf, None);
     }
 
     #[test]
-    fn what_waits_is_bounded_in_bytes_and_in_messages() {
-        let (mut client, waiting) = client(2);
-        let line = [b'0'; 1023]
-            .iter()
-            .chain(b"\r")
-            .copied()
-            .collect::<Vec<_>>();
-        for _ in 0..WAITING / 1024 {
-            client.push(&line);
-        }
-        assert_eq!(client.dropped, 0);
-        client.push(b"z\r");
-        client.flush();
-        client.push(b"z\rz\r");
-        assert_eq!(client.dropped, 3);
-        let message = bytes(&waiting);
-        assert_eq!(message.len(), WAITING);
-        client.queued.fetch_sub(message.len(), Ordering::Relaxed);
-        for _ in 0..3 {
-            client.push(b"z\r");
-            assert_eq!(client.dropped, 0);
-            client.flush();
-        }
-        assert_eq!(client.dropped, 1);
-        assert_eq!(client.queued.load(Ordering::Relaxed), 4);
+    fn many_clients_have_less_room_each() {
+        assert_eq!(room(0), WAITING);
+        assert_eq!(room(8), WAITING);
+        assert_eq!(room(500), TOTAL / 500);
+        assert_eq!(room(100_000), FEWEST);
     }
 }

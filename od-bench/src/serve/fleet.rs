@@ -1,5 +1,7 @@
 //! The devices on the bus, as the command line asks for them.
 
+use std::path::Path;
+
 use od_runtime::storage::File;
 use od_runtime::{Instant, NodeId};
 
@@ -55,6 +57,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
             device = device.with_serial_number(number);
         }
         if let Some(path) = args.eeproms.get(at) {
+            regular(path)?;
             let file = File::open(path, device.storage_needed());
             let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
             device = device.with_storage(Box::new(file));
@@ -70,6 +73,27 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
         places.push(Place { device, beside });
     }
     Ok(places)
+}
+
+/// Refuses what is there and cannot hold an EEPROM; to open a FIFO would wait for its other end.
+fn regular(path: &Path) -> Result<(), Failure> {
+    match path.metadata() {
+        Ok(data) if !data.is_file() => {
+            let (path, kind) = (
+                path.display(),
+                if data.is_dir() {
+                    "directory"
+                } else {
+                    "device or FIFO"
+                },
+            );
+            Err(Failure::Usage(format!(
+                "`--eeprom {path}` names a {kind}; write the path of a regular file"
+            )))
+        }
+        // What does not exist is created; what cannot be read says so when it is opened.
+        _ => Ok(()),
+    }
 }
 
 /// A device with the node ID that it is given, else its own, else the next one that is free.

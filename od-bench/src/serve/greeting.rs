@@ -1,6 +1,9 @@
 //! Greeting of a live bench: its devices, and the commands to try next.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
+
+use od_runtime::NodeId;
 
 use super::failure::Failure;
 use super::links::opened::{Opened, Protocol};
@@ -28,6 +31,12 @@ pub(super) fn print(
             ));
         }
     }
+    for (id, count) in shared(bus.devices()) {
+        note(&format!(
+            "warning: {count} devices have node ID {id}, and their frames collide; give each its own \
+             with `--node-id`"
+        ));
+    }
     let text = text(first, args, bus, links);
     let has_frames =
         |link: &Opened| matches!(link, Opened::Ends(ends) if ends.protocol == Protocol::Lines);
@@ -36,6 +45,16 @@ pub(super) fn print(
         return Ok(());
     }
     Ok(print_line(&text)?)
+}
+
+/// Node IDs of several devices, each with their number.
+fn shared(devices: &[VirtualDevice]) -> BTreeMap<NodeId, usize> {
+    let mut counts = BTreeMap::new();
+    for device in devices.iter().filter(|device| device.is_configured()) {
+        *counts.entry(device.node_id()).or_default() += 1;
+    }
+    counts.retain(|_, count| *count > 1);
+    counts
 }
 
 fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) -> String {

@@ -1,18 +1,19 @@
 //! The bus in real time: what clients send, what devices send, and the clock.
 
-use std::collections::BTreeMap;
+use std::io::{self, ErrorKind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError};
-use std::time::{Duration, Instant as Clock, SystemTime};
+use std::time::{Duration, Instant as Clock};
 
 use od_runtime::{Event, Frame, Instant};
 
-use super::client::{Client, Encoded};
+use super::clients::Clients;
+use super::failure::Failure;
 use super::fleet::Place;
 use super::links::LINKS;
-use super::links::opened::Protocol;
+use super::links::opened::{Opened, Protocol};
+use super::pace::{LATE, Pace};
 use super::terminal::note;
-use super::threads::Input;
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
@@ -20,32 +21,33 @@ use crate::links::Step;
 use crate::script::Console;
 use crate::words::plural;
 
-/// Bytes of clients that the bus takes in one turn, before its answers go out.
-const TURN: usize = 16 * 1024;
-/// An input counts as this number of bytes at least.
-const INPUT: usize = 64;
-/// Longest time between two turns; after a longer pause of the computer the bus paused too, and nothing is
-/// made up for.
-const SLEPT: Duration = Duration::from_secs(2);
+/// Bytes of one client that the bus takes in its turn.
+const TURN: usize = 4 * 1024;
+/// Bytes of all clients that the bus takes before the frames for them go out.
+const ROUND: usize = 16 * 1024;
+/// A turn counts as this number of bytes at least.
+const LEAST: usize = 64;
 
 /// The bus in real time.
 pub(super) struct Live {
     pub(super) bench: Bench,
-    start: Clock,
-    /// Time of day at the start, in microseconds.
-    epoch: u64,
-    clients: BTreeMap<u64, Client>,
+    pace: Pace,
+    clients: Clients,
     console: Console,
-    /// Links that nobody can come to again once they are gone.
+    stopped: Arc<AtomicBool>,
+    /// The client whose bytes are carried out.
+    cause: Option<usize>,
+    /// Links with a client of their own that are left.
     links: usize,
-    /// Does anything listen for clients that are still to come?
-    listens: bool,
+    /// Why the last link was lost.
+    lost: Option<String>,
     frames: u64,
 }
 
 impl Live {
-    /// Devices get power, and time begins. `links` are clients that are there from the start.
-    pub(super) fn new(places: Vec<Place>, links: usize, listens: bool) -> Self {
+    /// Devices get power. What they send waits until the bench [runs](Self::run), so that every
+    /// link hears it that is there by then.
+    pub(super) fn new(places: Vec<Place>, clients: Clients, stopped: Arc<AtomicBool>) -> Self {
         let mut bus = Bus::new();
         for Place { device, beside } in places {
             let number = match beside {
@@ -54,109 +56,114 @@ impl Live {
             };
             bus.start(number);
         }
-        let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         let mut live = Self {
             bench: Bench::new(bus),
-            start: Clock::now(),
-            epoch: epoch.map_or(0, |since| since.as_micros() as u64),
-            clients: BTreeMap::new(),
+            pace: Pace::new(),
+            clients,
             console: Console::default(),
-            links,
-            listens,
+            stopped,
+            cause: None,
+            links: 0,
+            lost: None,
             frames: 0,
         };
-        // Nobody listens yet; a master that comes later asks for the state.
-        while live.bench.bus.poll().is_some() {}
         live.events(|event| matches!(event, Event::StorageDamaged | Event::SaveCut { .. }));
         live
     }
 
-    fn now(&self) -> Instant {
-        Instant::ZERO + self.start.elapsed()
+    /// Another link.
+    pub(super) fn add(&mut self, link: Opened) -> io::Result<()> {
+        match link {
+            Opened::Listener(protocol, listener, _) => self.clients.open(protocol, listener),
+            Opened::Ends(ends) => {
+                self.links += 1;
+                self.clients.join(ends)
+            }
+        }
     }
 
     /// Runs until Ctrl-C, or until the last link has ended.
-    pub(super) fn run(&mut self, waiting: &Receiver<Input>, stopped: &AtomicBool) {
-        while !stopped.load(Ordering::Relaxed) {
+    pub(super) fn run(&mut self) -> Result<(), Failure> {
+        self.pace = Pace::new();
+        while !self.is_stopped() {
             self.catch_up();
             self.wake();
             self.flush();
-            if self.is_over() {
+            if !self.clients.has_doors() && self.links == 0 && self.console.is_idle() {
                 break;
             }
-            let deadline = self.deadline();
-            let patience = match deadline {
-                Some(at) => at - self.now(),
+            let patience = match self.deadline() {
+                Some(at) => at - self.pace.at(Clock::now()),
                 None => Duration::from_secs(3600),
             };
-            let first = match waiting.recv_timeout(patience) {
-                Ok(input) => Some(input),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => break,
-            };
-            self.wind_back(deadline);
-            // What waits already belongs to this turn, as far as it has room.
-            let mut room = TURN;
-            for input in first.into_iter().chain(waiting.try_iter()) {
-                if stopped.load(Ordering::Relaxed) {
-                    break;
-                }
-                let size = match &input {
-                    Input::Bytes(_, bytes) => bytes.len().max(INPUT),
-                    _ => INPUT,
-                };
-                self.take(input);
-                room = room.saturating_sub(size);
-                if room == 0 {
-                    break;
-                }
-            }
+            self.clients.wait(patience)?;
+            self.turns();
         }
         for number in 0..self.bench.bus.devices().len() {
             self.bench.bus.with(number, VirtualDevice::power_off);
         }
-        // Whoever waits for the last lines sees that there are no more.
-        self.clients.clear();
+        self.finish()?;
         note(&format!(
             "\nodkit: ended; {} went over the bus",
             plural(self.frames as usize, "frame")
         ));
-    }
-
-    fn is_over(&self) -> bool {
-        !self.listens && self.links == 0 && self.console.is_idle()
-    }
-
-    fn deadline(&self) -> Option<Instant> {
-        let clients = self.clients.values();
-        let clients = clients.filter_map(|client| client.codec.deadline());
-        let console = self.console.deadline(self.bench.bus.now());
-        clients
-            .chain(console)
-            .chain(self.bench.bus.next_deadline())
-            .min()
-    }
-
-    /// A machine that slept must not send at once all that it has missed.
-    fn wind_back(&mut self, deadline: Option<Instant>) {
-        let Some(deadline) = deadline else {
-            return;
-        };
-        let late = self.now() - deadline;
-        if late > SLEPT {
-            self.start += late;
-            let seconds = late.as_secs();
-            note(&format!(
-                "the computer paused for {seconds} s; the bus paused too"
-            ));
+        match self.lost.take().filter(|_| !self.is_stopped()) {
+            Some(why) => Err(Failure::Failed(format!("the last link is lost: {why}"))),
+            None => Ok(()),
         }
     }
 
-    /// The bus catches up with the clock, and what devices send goes out.
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// Whoever waits for the last lines gets them.
+    fn finish(&mut self) -> io::Result<()> {
+        self.flush();
+        let console = |clients: &mut Clients| {
+            let mut consoles = clients.all();
+            let console = consoles.find(|client| client.protocol == Protocol::Lines);
+            console.is_some_and(|console| !console.is_flushed())
+        };
+        while console(&mut self.clients) && !self.is_stopped() {
+            self.clients.wait(Duration::from_millis(100))?;
+            self.flush();
+        }
+        for client in self.clients.all() {
+            client.port.finish(&self.stopped);
+        }
+        Ok(())
+    }
+
+    fn deadline(&self) -> Option<Instant> {
+        let console = self.console.deadline(self.bench.bus.now());
+        let all = [
+            self.clients.codecs_due(),
+            console,
+            self.bench.bus.next_deadline(),
+        ];
+        all.into_iter().flatten().min()
+    }
+
+    /// The bus catches up with the clock, and what devices send goes out. A bus that is late, since
+    /// the computer slept or is too slow, must not send at once all that it has missed.
     fn catch_up(&mut self) {
-        let now = self.now();
-        self.bench.bus.advance(now);
+        let clock = Clock::now();
+        let before = self.bench.bus.now();
+        if self.pace.at(clock) - before > LATE
+            && let Some(due) = self.deadline()
+            && let Some(late) = self.pace.shift(due.max(before), clock)
+        {
+            note(&format!(
+                "odkit did not run for {} ms; the bus goes on from now",
+                late.as_millis()
+            ));
+        }
+        self.bench.bus.advance(self.pace.at(clock));
+        // Nobody brought this about.
+        let cause = self.cause.take();
         self.deliver();
+        self.cause = cause;
     }
 
     fn deliver(&mut self) {
@@ -170,13 +177,13 @@ impl Live {
     /// Lets codecs and the console do what is due.
     fn wake(&mut self) {
         let now = self.bench.bus.now();
-        let stamp = self.epoch + now.as_micros();
+        let stamp = self.pace.stamp(now);
         let mut due = Vec::new();
-        for (number, client) in &mut self.clients {
+        for client in self.clients.all() {
             if client.codec.deadline().is_some_and(|at| at <= now) {
                 let mut steps = Vec::new();
                 client.codec.wake(now, stamp, &mut steps);
-                due.push((*number, steps));
+                due.push((client.number, steps));
             }
         }
         for (number, steps) in due {
@@ -185,80 +192,116 @@ impl Live {
         self.run_console();
     }
 
-    /// Sends the bytes of the turn, one message per client.
+    /// Sends what waits for clients.
     fn flush(&mut self) {
-        for client in self.clients.values_mut() {
-            client.flush();
+        for (number, error) in self.clients.flush() {
+            self.end(number, Some(error));
         }
     }
 
     /// A frame for every client but the one it is from.
-    fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<u64>) {
-        let stamp = self.epoch + at.as_micros();
-        let mut encoded = Encoded::new();
-        for (number, client) in &mut self.clients {
-            if Some(*number) != from {
-                client.hear(frame, at, stamp, &mut encoded);
+    fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<usize>) {
+        let stamp = self.pace.stamp(at);
+        self.clients.hear(frame, (at, stamp), from, self.cause);
+    }
+
+    /// Everybody who has sent something gets a turn, as far as this round has room.
+    fn turns(&mut self) {
+        for (number, name) in self.clients.accept() {
+            note(&format!("{name} connected"));
+            let hello = self.clients.get(number).map(|client| client.codec.hello());
+            self.clients.answer(number, hello.unwrap_or_default());
+        }
+        let mut room = ROUND;
+        for number in self.clients.ready() {
+            if room == 0 || self.is_stopped() {
+                break;
             }
+            room = room.saturating_sub(self.turn(number).max(LEAST));
         }
     }
 
-    fn take(&mut self, input: Input) {
-        match input {
-            Input::Connected(mut client) => {
-                if matches!(client.protocol, Protocol::Slcan | Protocol::Socketcand) {
-                    note(&format!("{} connected", client.name));
-                }
-                client.push(client.codec.hello());
-                self.clients.insert(client.number, client);
+    /// The turn of one client. Returns the number of bytes that it sent.
+    fn turn(&mut self, number: usize) -> usize {
+        let mut buffer = [0; TURN];
+        let len = match self.clients.read(number, &mut buffer) {
+            Ok(Some(len)) if len > 0 => len,
+            Ok(None) => return 0,
+            end => {
+                self.end(number, end.err());
+                return 0;
             }
-            Input::Gone(number) => self.gone(number),
-            Input::Bytes(number, bytes) => {
-                if let Some(client) = self.clients.get_mut(&number) {
-                    let mut steps = Vec::new();
-                    client
-                        .codec
-                        .receive(&bytes, self.bench.bus.now(), &mut steps);
-                    self.steps(number, steps);
-                }
-            }
-            Input::Stop => {}
+        };
+        let (bytes, now) = (&buffer[..len], self.bench.bus.now());
+        let Some(client) = self.clients.get(number) else {
+            return len;
+        };
+        if client.is_http(bytes) {
+            note(&format!(
+                "{} was disconnected: it sent an HTTP request, and a browser must not drive the bus",
+                client.name
+            ));
+            self.clients.remove(number);
+            return len;
         }
+        let mut steps = Vec::new();
+        client.codec.receive(bytes, now, &mut steps);
+        self.steps(number, steps);
+        // Its answers go out before the next turn.
+        let flushed = self.clients.get(number).map(|client| client.flush());
+        if let Some(Err(error)) = flushed {
+            self.end(number, Some(error));
+        }
+        len
     }
 
-    fn gone(&mut self, number: u64) {
-        let Some(client) = self.clients.get_mut(&number) else {
+    /// A client has sent everything; with an `error`, it also hears no more.
+    fn end(&mut self, number: usize, error: Option<io::Error>) {
+        let Some(client) = self.clients.get(number) else {
             return;
         };
-        let mut rest = Vec::new();
-        client.codec.finish(&mut rest);
-        let protocol = client.protocol;
-        self.steps(number, rest);
-        if (number as usize) < LINKS {
-            self.links = self.links.saturating_sub(1);
+        if error.is_none() && client.port.outlives_hosts() {
+            return client.restart();
         }
-        if protocol == Protocol::Lines {
-            // It has no more to say, and still hears.
+        let is_first = client.ended.replace(Clock::now()).is_none();
+        client.readable = false;
+        let (name, protocol) = (client.name.clone(), client.protocol);
+        let mut rest = Vec::new();
+        if is_first {
+            client.codec.finish(&mut rest);
+        }
+        self.steps(number, rest);
+        let is_heard = error.is_none() && (number >= LINKS || protocol == Protocol::Lines);
+        if !is_heard {
+            self.clients.remove(number);
+        }
+        if number >= LINKS {
+            if is_first {
+                note(&format!("{name} left"));
+            }
             return;
         }
-        if let Some(mut client) = self.clients.remove(&number) {
-            // It may have ended its own side only, and read on.
-            client.flush();
-            note(&format!("{} left", client.name));
-        }
+        self.links -= usize::from(is_first);
+        self.lost = match (protocol, error) {
+            // A reader that left is not an error.
+            (Protocol::Lines, None) => None,
+            (Protocol::Lines, Some(error)) if error.kind() == ErrorKind::BrokenPipe => None,
+            (_, error) => {
+                let why = error.map_or("hung up".into(), |error| error.to_string());
+                note(&format!("{name} is lost: {why}"));
+                Some(format!("{name}: {why}"))
+            }
+        };
     }
 
     /// Carries out a client's bytes, one input after the other.
-    fn steps(&mut self, number: u64, steps: Vec<Step>) {
+    fn steps(&mut self, number: usize, steps: Vec<Step>) {
+        self.cause = Some(number);
         for step in steps {
             match step {
-                Step::Reply(bytes) => {
-                    if let Some(client) = self.clients.get_mut(&number) {
-                        client.push(&bytes);
-                    }
-                }
+                Step::Reply(bytes) => self.clients.answer(number, &bytes),
                 Step::Pause => {
-                    if let Some(client) = self.clients.get_mut(&number) {
+                    if let Some(client) = self.clients.get(number) {
                         client.pause();
                     }
                 }
@@ -275,14 +318,16 @@ impl Live {
                 }
             }
         }
+        self.cause = None;
     }
 
     /// Lines of the console whose moment has come.
     fn run_console(&mut self) {
         // The console itself does not hear what it sends; the others do.
-        let mut clients = self.clients.values();
+        let mut clients = self.clients.all();
         let console = clients.find(|client| client.protocol == Protocol::Lines);
         let console = console.map(|client| client.number);
+        drop(clients);
         while let Some(done) = self.console.step(&mut self.bench) {
             match done {
                 Ok(Some(frame)) => self.frame(&frame, console),
@@ -293,7 +338,7 @@ impl Live {
     }
 
     /// A frame from outside, and what it brings about.
-    fn frame(&mut self, frame: &Frame, from: Option<u64>) {
+    fn frame(&mut self, frame: &Frame, from: Option<usize>) {
         self.frames += 1;
         self.bench.bus.receive(frame);
         let now = self.bench.bus.now();

@@ -1,20 +1,26 @@
-//! The bench in real time: its clock, its sockets, its threads. Feature `serve`.
+//! The bench in real time: its clock, its sockets, its clients. Feature `serve`.
 //!
 //! [`main`] is the `main` of a crate with a device of its own; [`run`] is for programs that read
 //! their arguments themselves.
 
 mod client;
+mod clients;
+mod door;
+mod events;
 mod failure;
 mod fleet;
 mod greeting;
+mod hangup;
+mod http;
 pub mod links;
 mod live;
 mod maker;
 pub mod options;
+mod outbox;
+mod pace;
 mod program;
 mod run;
 mod terminal;
-mod threads;
 
 pub use failure::Failure;
 pub use links::Link;

@@ -26,6 +26,8 @@ pub struct Options {
     pub seed: Option<u64>,
     /// Bit rate in the connection lines of the greeting, in bit/s.
     pub bitrate: u32,
+    /// Most clients at a time that connect over TCP; further ones are refused.
+    pub max_clients: usize,
 }
 
 impl Default for Options {
@@ -39,6 +41,7 @@ impl Default for Options {
             rpm: None,
             seed: None,
             bitrate: 500_000,
+            max_clients: 512,
         }
     }
 }
@@ -82,7 +85,7 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 9] = [
+pub const CHOICES: [Choice; 10] = [
     Choice {
         name: "node-id",
         value: "N",
@@ -127,7 +130,8 @@ pub const CHOICES: [Choice; 9] = [
         value: "HOST:PORT",
         help: "Same as --link slcan:HOST:PORT; port 0 selects a free port",
         set: |options, text| {
-            options.links.insert(0, Link::slcan(text));
+            let link = Link::parse(&format!("slcan:{text}"))?;
+            options.links.insert(0, link);
             Ok(())
         },
         ..PLAIN
@@ -171,6 +175,14 @@ pub const CHOICES: [Choice; 9] = [
         help: "Bit rate in the printed commands; the simulated bus has no bit rate",
         default: Some("500000"),
         set: |options, text| number(text).map(|value| options.bitrate = value),
+        ..PLAIN
+    },
+    Choice {
+        name: "max-clients",
+        value: "N",
+        help: "Most TCP clients at a time; further ones are refused",
+        default: Some("512"),
+        set: |options, text| number(text).map(|value| options.max_clients = value),
         ..PLAIN
     },
 ];

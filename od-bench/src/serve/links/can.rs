@@ -6,36 +6,13 @@ use crate::serve::failure::Failure;
 /// Opens an interface that exists and is up.
 #[cfg(target_os = "linux")]
 pub(super) fn open(name: &str) -> Result<Opened, Failure> {
-    use socketcan::{CanSocket, Socket};
-
-    let failed = |error: std::io::Error| Failure::Failed(advice(name, &error));
-    // A socket for all interfaces says whether there can be any.
-    CanSocket::open_iface(0).map_err(failed)?;
-    let socket = CanSocket::open(name).map_err(failed)?;
-    if is_down(name) {
-        crate::serve::terminal::note(&format!(
-            "{name} is down; start it with `sudo ip link set {name} up`"
-        ));
-    }
-    let ends = |socket: &CanSocket| socket.as_raw_socket().try_clone();
+    let interface = super::interface::Interface::open(name)
+        .map_err(|error| Failure::Failed(advice(name, &error)))?;
     Ok(Opened::Ends(super::opened::Ends {
         name: name.to_owned(),
         protocol: super::opened::Protocol::CanFrame,
-        reading: Box::new(ends(&socket).map_err(failed)?),
-        writing: Box::new(ends(&socket).map_err(failed)?),
+        port: Box::new(interface),
     }))
-}
-
-/// Is the interface there, and not up? An interface that comes up later works.
-#[cfg(target_os = "linux")]
-fn is_down(name: &str) -> bool {
-    const IFF_UP: u32 = 1;
-    let flags = std::fs::read_to_string(format!("/sys/class/net/{name}/flags"));
-    let flags = flags.ok().and_then(|text| {
-        let digits = text.trim().strip_prefix("0x")?;
-        u32::from_str_radix(digits, 16).ok()
-    });
-    flags.is_some_and(|flags| flags & IFF_UP == 0)
 }
 
 /// Message for an error, with the commands that solve it.

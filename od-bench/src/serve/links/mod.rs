@@ -1,13 +1,20 @@
 //! Links for masters: the values of `--link`, and their ends.
 
 mod can;
+#[cfg(target_os = "linux")]
+mod interface;
 pub(super) mod opened;
+pub(super) mod port;
 mod pty;
 mod serial;
-mod tcp;
+pub(super) mod tcp;
+#[cfg(unix)]
+mod terminal;
+mod threads;
 
 use super::failure::Failure;
 use opened::{Ends, Opened, Protocol};
+use threads::Threads;
 
 /// Forms of `--link`, for error messages.
 const FORMS: &str = "slcan:HOST:PORT, slcan:pty, slcan:DEVICE[@BAUD], socketcand:HOST:PORT, \
@@ -63,8 +70,8 @@ impl Link {
                 let baud = baud.ok_or_else(|| format!("`{place}` has no bit rate after `@`"))?;
                 Ok(Self::Serial(path.to_owned(), baud))
             }
-            "slcan" => Ok(Self::slcan(place)),
-            "socketcand" => Ok(Self::Socketcand(place.to_owned())),
+            "slcan" => tcp::check(place).map(Self::Slcan),
+            "socketcand" => tcp::check(place).map(Self::Socketcand),
             "socketcan" => Ok(Self::SocketCan(place.to_owned())),
             _ => Err(unknown()),
         }
@@ -81,8 +88,7 @@ impl Link {
             Self::Console => Ok(Opened::Ends(Ends {
                 name: "standard input".into(),
                 protocol: Protocol::Lines,
-                reading: Box::new(std::io::stdin()),
-                writing: Box::new(std::io::stdout()),
+                port: Box::new(Threads::new(std::io::stdin(), std::io::stdout())),
             })),
         }
     }
@@ -105,7 +111,7 @@ mod tests {
         for (text, link) in [
             ("-", Ok(Link::Console)),
             ("slcan:pty", Ok(Link::Pty)),
-            ("slcan:29536", slcan("29536")),
+            ("slcan:29536", slcan("127.0.0.1:29536")),
             ("slcan:localhost:1", slcan("localhost:1")),
             ("slcan:[::1]:1", slcan("[::1]:1")),
             (
@@ -129,6 +135,11 @@ mod tests {
             "udp:1",
             "slcan:/dev/ttyS0@",
             "slcan:/dev/x@0",
+            "slcan:127.0.0.1:99999",
+            "slcan:99999",
+            "slcan:nowhere",
+            "slcan::1",
+            "socketcand:127.0.0.1:-1",
         ] {
             assert!(Link::parse(wrong).is_err(), "{wrong}");
         }

@@ -1,10 +1,12 @@
 //! A link that works: who speaks what over it.
 
-use std::io::{Read, Write};
-use std::net::{SocketAddr, TcpListener};
+use std::net::SocketAddr;
 
+use mio::net::TcpListener;
+
+use super::port::Port;
 use crate::links::Codec;
-use crate::links::can_frame::{self, CanSocket};
+use crate::links::can_frame::CanSocket;
 use crate::links::lines::Lines;
 use crate::links::slcan::Channel;
 use crate::links::socketcand::Session;
@@ -30,11 +32,6 @@ impl Protocol {
             Self::Lines => Box::<Lines>::default(),
         }
     }
-
-    /// Length of a message that must be written in one piece.
-    pub(in crate::serve) fn message_len(self) -> Option<usize> {
-        (self == Self::CanFrame).then_some(can_frame::SIZE)
-    }
 }
 
 /// A link that works.
@@ -45,11 +42,10 @@ pub(in crate::serve) enum Opened {
     Ends(Ends),
 }
 
-/// Both directions of a client.
+/// The client of a link that has one.
 pub(in crate::serve) struct Ends {
     /// Name in messages; for a pseudo-terminal the path that others open.
     pub(in crate::serve) name: String,
     pub(in crate::serve) protocol: Protocol,
-    pub(in crate::serve) reading: Box<dyn Read + Send>,
-    pub(in crate::serve) writing: Box<dyn Write + Send>,
+    pub(in crate::serve) port: Box<dyn Port>,
 }

@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 
 use super::opened::{Ends, Opened, Protocol};
+use super::threads::Threads;
 use crate::serve::failure::Failure;
 
 /// The rate that a serial line has where none is asked for.
@@ -32,7 +33,6 @@ pub(super) fn open(path: &str, baud: u32) -> Result<Opened, Failure> {
     Ok(Opened::Ends(Ends {
         name: path.to_owned(),
         protocol: Protocol::Slcan,
-        reading: Box::new(port),
-        writing: Box::new(writing),
+        port: Box::new(Threads::new(port, writing)),
     }))
 }

@@ -1,30 +1,55 @@
 //! A TCP server whose clients come and go.
 
-use std::io::ErrorKind;
-use std::net::{SocketAddr, TcpListener, ToSocketAddrs};
+use std::io::{self, ErrorKind, Write};
+use std::net::{SocketAddr, ToSocketAddrs};
+
+use mio::net::{TcpListener, TcpStream};
 
 use super::opened::{Opened, Protocol};
 use crate::serve::failure::Failure;
 
-/// Listens at `HOST:PORT`, or at a port of this machine.
-pub(super) fn listen(protocol: Protocol, wanted: &str) -> Result<Opened, Failure> {
+/// Bytes of the system's own queue to a client: what waits there can no longer be dropped.
+#[cfg(unix)]
+const QUEUE: usize = 64 * 1024;
+
+/// Reads `HOST:PORT`, or a port of this computer, and returns it as `HOST:PORT`.
+///
+/// # Errors
+/// The problem of the address.
+pub(super) fn check(place: &str) -> Result<String, String> {
+    let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
+    let wrong = |what: String| format!("{what}; write HOST:PORT, such as 127.0.0.1:29536");
+    if host.is_empty() {
+        return Err(wrong(format!("`{place}` is not a valid address")));
+    }
+    if port.is_empty() || !port.bytes().all(|byte| byte.is_ascii_digit()) {
+        return Err(wrong(format!("`{place}` is not a valid address")));
+    }
+    match port.parse::<u16>() {
+        Ok(port) => Ok(format!("{host}:{port}")),
+        Err(_) => {
+            let why = format!("port {port} of `{place}` is outside the range 0 to 65535");
+            Err(wrong(why))
+        }
+    }
+}
+
+/// Listens at `HOST:PORT`.
+pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> {
     let option = match protocol {
         Protocol::Socketcand => "--link socketcand:",
         _ => "--slcan ",
     };
-    let full = match wanted.parse::<u16>() {
-        Ok(port) => format!("127.0.0.1:{port}"),
-        Err(_) => wanted.to_owned(),
-    };
     let addresses: Vec<SocketAddr> = match full.to_socket_addrs() {
         Ok(addresses) => addresses.collect(),
-        Err(_) => {
+        Err(error) => {
             return Err(Failure::Usage(format!(
-                "`{wanted}` is not a valid address; write `{option}127.0.0.1:29536`"
+                "the host of `{full}` is unknown ({error}); write `{option}127.0.0.1:29536`"
             )));
         }
     };
-    let listener = TcpListener::bind(addresses.as_slice()).map_err(|error| {
+    let bound = std::net::TcpListener::bind(addresses.as_slice());
+    let listener = bound.map_err(|error| {
         Failure::Failed(match error.kind() {
             ErrorKind::AddrInUse => format!(
                 "{full} is in use, perhaps by another odkit; end that one, or take any free \
@@ -33,6 +58,49 @@ pub(super) fn listen(protocol: Protocol, wanted: &str) -> Result<Opened, Failure
             _ => format!("{full}: {error}; choose another address with {option}HOST:PORT"),
         })
     })?;
+    listener.set_nonblocking(true)?;
     let address = listener.local_addr()?;
+    let listener = TcpListener::from_std(listener);
     Ok(Opened::Listener(protocol, listener, address))
+}
+
+/// Prepares a client that was accepted.
+pub(in crate::serve) fn prepare(stream: &TcpStream) -> io::Result<()> {
+    #[cfg(unix)]
+    nix::sys::socket::setsockopt(stream, nix::sys::socket::sockopt::SndBuf, &QUEUE)?;
+    stream.set_nodelay(true)
+}
+
+/// Tells a client why it is refused, as well as its protocol can.
+pub(in crate::serve) fn refuse(mut stream: TcpStream, protocol: Protocol, why: &str) {
+    let text = match protocol {
+        Protocol::Socketcand => format!("< error {why} >"),
+        // A host counts the bell as an answer, and skips a line that it does not know.
+        _ => format!("\x07odkit: {why}\r"),
+    };
+    // Who does not hear it sees the end of the connection.
+    let _ = stream.write_all(text.as_bytes());
+    let _ = stream.shutdown(std::net::Shutdown::Write);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+
+    #[test]
+    fn an_address_has_a_host_and_a_port() {
+        for (place, full) in [
+            ("29536", "127.0.0.1:29536"),
+            ("localhost:0", "localhost:0"),
+            ("[::1]:65535", "[::1]:65535"),
+        ] {
+            assert_eq!(check(place).as_deref(), Ok(full));
+        }
+        for place in ["", ":1", "nowhere", "127.0.0.1:", "127.0.0.1:+1"] {
+            let why = check(place).expect_err(place);
+            assert!(why.contains("not a valid address"), "{why}");
+        }
+        let why = check("127.0.0.1:99999").expect_err("a port");
+        assert!(why.contains("port 99999"), "{why}");
+    }
 }

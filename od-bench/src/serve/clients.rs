@@ -1,0 +1,234 @@
+//! All clients: who may come, whose turn it is, and who hears a frame.
+
+use std::io;
+use std::net::SocketAddr;
+use std::time::{Duration, Instant as Clock};
+
+use mio::Token;
+use mio::net::{TcpListener, TcpStream};
+use od_runtime::{Frame, Instant};
+
+use super::client::{Client, Encoded, room};
+use super::door::Door;
+use super::events::Events;
+use super::links::LINKS;
+use super::links::opened::{Ends, Protocol};
+use crate::words::plural;
+
+/// A client that has ended may take this long to read what waits for it.
+const FAREWELL: Duration = Duration::from_secs(10);
+
+/// The clients, and the places where further ones come to.
+pub(super) struct Clients {
+    events: Events,
+    /// By their numbers, the oldest first.
+    list: Vec<Client>,
+    doors: Vec<Door>,
+    /// Number of the next link, and of the next client that comes to a door.
+    next: (usize, usize),
+    /// Number of the client that had its turn last.
+    last: usize,
+    /// Most clients at all doors.
+    max: usize,
+}
+
+impl Clients {
+    pub(super) fn new(events: Events, max: usize) -> Self {
+        Self {
+            events,
+            list: Vec::new(),
+            doors: Vec::new(),
+            next: (0, LINKS),
+            last: 0,
+            max,
+        }
+    }
+
+    /// A link with clients that come and go.
+    pub(super) fn open(&mut self, protocol: Protocol, listener: TcpListener) -> io::Result<()> {
+        let number = self.next.0;
+        self.next.0 += 1;
+        let door = Door::new(number, protocol, listener, self.events.registry())?;
+        self.doors.push(door);
+        Ok(())
+    }
+
+    /// A link that is a client itself.
+    pub(super) fn join(&mut self, ends: Ends) -> io::Result<()> {
+        let number = self.next.0;
+        self.next.0 += 1;
+        let client = Client::new(number, ends.name, ends.protocol, ends.port, false);
+        self.add(client)
+    }
+
+    /// Can further clients come?
+    pub(super) fn has_doors(&self) -> bool {
+        !self.doors.is_empty()
+    }
+
+    fn add(&mut self, mut client: Client) -> io::Result<()> {
+        let (events, token) = (&self.events, Token(client.number));
+        client
+            .port
+            .register(events.registry(), token, events.waker())?;
+        let place = self.place(client.number).unwrap_or_else(|place| place);
+        self.list.insert(place, client);
+        Ok(())
+    }
+
+    fn place(&self, number: usize) -> Result<usize, usize> {
+        self.list
+            .binary_search_by_key(&number, |client| client.number)
+    }
+
+    pub(super) fn get(&mut self, number: usize) -> Option<&mut Client> {
+        let place = self.place(number).ok()?;
+        Some(&mut self.list[place])
+    }
+
+    pub(super) fn remove(&mut self, number: usize) {
+        if let Ok(place) = self.place(number) {
+            self.list.remove(place);
+        }
+    }
+
+    pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Client> {
+        self.list.iter_mut()
+    }
+
+    /// When a codec has something to do next.
+    pub(super) fn codecs_due(&self) -> Option<Instant> {
+        let codecs = self.list.iter().map(|client| client.codec.deadline());
+        codecs.flatten().min()
+    }
+
+    /// Waits for bytes, for `patience` at most.
+    pub(super) fn wait(&mut self, patience: Duration) -> io::Result<()> {
+        let busy = self.list.iter().any(|client| client.readable)
+            || self
+                .doors
+                .iter()
+                .any(|door| door.ready && door.deadline().is_none());
+        let now = Clock::now();
+        let clients = self.list.iter().filter_map(Client::deadline);
+        let due = clients.chain(self.doors.iter().filter_map(Door::deadline));
+        let due = due.min().map(|at| at.saturating_duration_since(now));
+        let patience = match busy {
+            true => Duration::ZERO,
+            false => patience.min(due.unwrap_or(patience)),
+        };
+        for ready in self.events.wait(patience)? {
+            let Some(number) = ready.number else {
+                // A thread called; it does not say for whom.
+                for client in self.list.iter_mut().filter(|client| client.number < LINKS) {
+                    client.wake(true, true);
+                }
+                continue;
+            };
+            if let Some(door) = self.doors.iter_mut().find(|door| door.number == number) {
+                door.ready = true;
+            } else if let Ok(place) = self
+                .list
+                .binary_search_by_key(&number, |client| client.number)
+            {
+                self.list[place].wake(ready.readable, ready.writable);
+            }
+        }
+        let now = Clock::now();
+        for client in &mut self.list {
+            client.check(now);
+        }
+        Ok(())
+    }
+
+    /// Lets clients in, and returns the names and numbers of those that came.
+    pub(super) fn accept(&mut self) -> Vec<(usize, String)> {
+        let mut came = Vec::new();
+        for at in 0..self.doors.len() {
+            while self.doors[at].ready {
+                let guests = self.list.iter().filter(|client| client.number >= LINKS);
+                let full = (guests.count() >= self.max).then(|| {
+                    let clients = plural(self.max, "client");
+                    format!("the limit is {clients}; raise it with `--max-clients`")
+                });
+                let Some((stream, address)) = self.doors[at].accept(full.as_deref()) else {
+                    break;
+                };
+                came.extend(self.welcome(self.doors[at].protocol, stream, address));
+            }
+        }
+        came
+    }
+
+    fn welcome(
+        &mut self,
+        protocol: Protocol,
+        stream: TcpStream,
+        address: SocketAddr,
+    ) -> Option<(usize, String)> {
+        let (number, name) = (self.next.1, address.to_string());
+        self.next.1 += 1;
+        let client = Client::new(number, name.clone(), protocol, Box::new(stream), true);
+        // A connection that broke already is nobody.
+        self.add(client).ok()?;
+        Some((number, name))
+    }
+
+    /// Numbers of the clients that may have sent something, the one that waits longest first.
+    pub(super) fn ready(&self) -> Vec<usize> {
+        let ready = self.list.iter().filter(|client| client.readable);
+        let mut ready: Vec<usize> = ready.map(|client| client.number).collect();
+        let had_turn = ready.partition_point(|number| *number <= self.last);
+        ready.rotate_left(had_turn);
+        ready
+    }
+
+    /// Reads what a client has sent, as much as its turn allows. `Ok(None)`: nothing.
+    pub(super) fn read(&mut self, number: usize, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        self.last = number;
+        self.get(number)
+            .map_or(Ok(None), |client| client.read(buffer))
+    }
+
+    /// A frame of the bus, for every client but the one it is `from`. `cause`: the client that
+    /// brought it about.
+    pub(super) fn hear(
+        &mut self,
+        frame: &Frame,
+        (at, stamp): (Instant, u64),
+        from: Option<usize>,
+        cause: Option<usize>,
+    ) {
+        let room = room(self.list.len());
+        let mut encoded = Encoded::new();
+        for client in &mut self.list {
+            if Some(client.number) != from {
+                let own = cause.is_none_or(|cause| cause == client.number);
+                client.hear(frame, at, stamp, &mut encoded, (own, room));
+            }
+        }
+    }
+
+    /// Lines for one client, in answer to its own.
+    pub(super) fn answer(&mut self, number: usize, lines: &[u8]) {
+        let room = room(self.list.len());
+        if let Some(client) = self.get(number) {
+            client.push(lines, true, room);
+        }
+    }
+
+    /// Writes what ports take. Returns the clients that cannot be written to, with the reason.
+    pub(super) fn flush(&mut self) -> Vec<(usize, io::Error)> {
+        let mut lost = Vec::new();
+        for client in &mut self.list {
+            if let Err(error) = client.flush() {
+                lost.push((client.number, error));
+            }
+        }
+        self.list.retain(|client| match client.ended {
+            Some(at) if client.number >= LINKS => !client.is_flushed() && at.elapsed() < FAREWELL,
+            _ => true,
+        });
+        lost
+    }
+}

@@ -1,0 +1,123 @@
+//! A place where clients come to.
+
+use std::io::{ErrorKind, Result};
+use std::net::SocketAddr;
+use std::time::{Duration, Instant as Clock};
+
+use mio::net::{TcpListener, TcpStream};
+use mio::{Interest, Registry, Token};
+
+use super::links::opened::Protocol;
+use super::links::tcp;
+use super::terminal::note;
+
+/// Most clients that are refused in one turn.
+const TURN: usize = 64;
+/// What the system refuses is tried again after this time.
+const AGAIN: Duration = Duration::from_millis(100);
+/// Files that remain free for everything but clients.
+#[cfg(unix)]
+const FILES: usize = 4;
+
+/// A TCP server.
+pub(super) struct Door {
+    pub(super) number: usize,
+    pub(super) protocol: Protocol,
+    listener: TcpListener,
+    /// Clients may be waiting.
+    pub(super) ready: bool,
+    /// Nobody is let in before this moment.
+    shut: Option<Clock>,
+    /// The last client was refused, and that was told.
+    refuses: bool,
+}
+
+impl Door {
+    pub(super) fn new(
+        number: usize,
+        protocol: Protocol,
+        mut listener: TcpListener,
+        events: &Registry,
+    ) -> Result<Self> {
+        events.register(&mut listener, Token(number), Interest::READABLE)?;
+        Ok(Self {
+            number,
+            protocol,
+            listener,
+            ready: true,
+            shut: None,
+            refuses: false,
+        })
+    }
+
+    /// When to try again what the system refused.
+    pub(super) fn deadline(&self) -> Option<Clock> {
+        self.shut
+    }
+
+    /// The next client. `full` says why there is no room for it.
+    pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(TcpStream, SocketAddr)> {
+        if self.shut.is_some_and(|until| Clock::now() < until) {
+            return None;
+        }
+        self.shut = None;
+        for _ in 0..TURN {
+            let (stream, address) = match self.listener.accept() {
+                Ok(accepted) => accepted,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    self.ready = false;
+                    return None;
+                }
+                // The client went before it was let in.
+                Err(error)
+                    if matches!(
+                        error.kind(),
+                        ErrorKind::ConnectionAborted
+                            | ErrorKind::ConnectionReset
+                            | ErrorKind::Interrupted
+                    ) =>
+                {
+                    continue;
+                }
+                Err(error) => {
+                    self.tell(&format!("no client can connect: {error}"));
+                    self.shut = Some(Clock::now() + AGAIN);
+                    return None;
+                }
+            };
+            let files = "too many open files; raise the limit with `ulimit -n`";
+            let why = full.or_else(|| (!has_files()).then_some(files));
+            match why {
+                Some(why) => {
+                    self.tell(&format!("{address} was refused: {why}"));
+                    tcp::refuse(stream, self.protocol, why);
+                }
+                None if tcp::prepare(&stream).is_err() => {}
+                None => {
+                    self.refuses = false;
+                    return Some((stream, address));
+                }
+            }
+        }
+        None
+    }
+
+    /// Tells it once until a client is let in again.
+    fn tell(&mut self, text: &str) {
+        if !std::mem::replace(&mut self.refuses, true) {
+            note(text);
+        }
+    }
+}
+
+/// Can more files be opened? A save into an EEPROM file has to work whoever connects.
+#[cfg(unix)]
+fn has_files() -> bool {
+    let files = (0..FILES).map(|_| std::fs::File::open("/dev/null"));
+    files.collect::<Result<Vec<_>>>().is_ok()
+}
+
+#[cfg(not(unix))]
+fn has_files() -> bool {
+    true
+}

@@ -1,0 +1,67 @@
+//! The first bytes of a client, which shall not be those of a browser.
+
+/// Longest method of a request.
+const LONGEST: usize = 32;
+
+/// The beginning of what a client sends: any web page can make a browser connect to a port of
+/// this computer and send lines in the body of a `POST`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Opening {
+    letters: usize,
+    is_over: bool,
+}
+
+impl Opening {
+    /// Takes the next bytes, and returns whether they are the beginning of an HTTP request: a word
+    /// and a blank. No command of slcan has a blank, and those of socketcand begin with `<`.
+    pub(super) fn is_http(&mut self, bytes: &[u8]) -> bool {
+        for byte in bytes {
+            match byte {
+                _ if self.is_over => return false,
+                b'\r' | b'\n' if self.letters == 0 => {}
+                b' ' if self.letters > 0 => return true,
+                b'A'..=b'Z' | b'a'..=b'z' | b'-' | b'_' if self.letters < LONGEST => {
+                    self.letters += 1;
+                }
+                _ => self.is_over = true,
+            }
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Opening;
+
+    #[test]
+    fn a_request_is_seen_whatever_its_pieces() {
+        for (text, is_http) in [
+            ("POST / HTTP/1.1\r\nHost: a\r\n\r\nO\r", true),
+            ("GET / HTTP/1.1", true),
+            ("OPTIONS * HTTP/1.1", true),
+            ("PRI * HTTP/2.0", true),
+            ("M-SEARCH * HTTP/1.1", true),
+            ("\r\nget / HTTP/1.1", true),
+            ("C\rS6\rO\r", false),
+            ("\r\r\rC\r POST / HTTP/1.1", false),
+            ("t1230\r", false),
+            ("< open can0 >", false),
+            (" POST", false),
+            ("", false),
+        ] {
+            assert_eq!(
+                Opening::default().is_http(text.as_bytes()),
+                is_http,
+                "{text}"
+            );
+            let mut opening = Opening::default();
+            let mut pieces = text.as_bytes().chunks(1);
+            assert_eq!(
+                pieces.any(|piece| opening.is_http(piece)),
+                is_http,
+                "{text}"
+            );
+        }
+    }
+}

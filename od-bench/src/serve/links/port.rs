@@ -1,0 +1,59 @@
+//! Bytes to and from a client, without waiting.
+
+use std::io::{self, Read, Write};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant as Clock;
+
+use mio::net::TcpStream;
+use mio::{Interest, Registry, Token, Waker};
+
+/// Both directions.
+pub(super) const BOTH: Interest = Interest::READABLE.add(Interest::WRITABLE);
+
+/// Both directions of a client. Neither waits: what cannot be done now is
+/// [`WouldBlock`](io::ErrorKind::WouldBlock), and an event tells when to try again.
+pub(in crate::serve) trait Port {
+    /// Has events reported under `token`; a port that works on threads of its own calls `waker`.
+    fn register(&mut self, events: &Registry, token: Token, waker: &Arc<Waker>) -> io::Result<()>;
+
+    /// Reads into `buffer`, whole messages where the port has some; 0: the other end has left.
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// Writes what it can of `bytes`.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
+
+    /// Can another one come after the other end has left?
+    fn outlives_hosts(&self) -> bool {
+        false
+    }
+
+    /// Returns when [`check`](Self::check) is due; `None`: an event tells everything.
+    fn next_check(&self) -> Option<Clock> {
+        None
+    }
+
+    /// Looks at what no event tells, at `now`.
+    fn check(&mut self, now: Clock) {
+        let _ = now;
+    }
+
+    /// Waits until what was written has arrived, or `stopped` is set.
+    fn finish(&mut self, stopped: &AtomicBool) {
+        let _ = stopped;
+    }
+}
+
+impl Port for TcpStream {
+    fn register(&mut self, events: &Registry, token: Token, _: &Arc<Waker>) -> io::Result<()> {
+        events.register(self, token, BOTH)
+    }
+
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        Read::read(self, buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Write::write(self, bytes)
+    }
+}

@@ -1,0 +1,143 @@
+//! A port that cannot be polled: standard input and output, a serial line. One thread reads, one writes.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::sync_channel;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, TrySendError};
+use std::thread;
+use std::time::Duration;
+
+use mio::{Registry, Token, Waker};
+
+use super::port::Port;
+
+/// Pieces that wait in each direction.
+const PIECES: usize = 4;
+/// Longest piece, in bytes.
+const PIECE: usize = 4096;
+
+/// Both directions, each on a thread of its own.
+pub(super) struct Threads {
+    /// Until the threads have them.
+    ends: Option<(Box<dyn Read + Send>, Box<dyn Write + Send>)>,
+    /// Input, nothing at its end, or why there is no more of it, or of output.
+    input: Option<Receiver<io::Result<Vec<u8>>>>,
+    /// Input that found no room in the buffer of the reader.
+    rest: Vec<u8>,
+    output: Option<SyncSender<Vec<u8>>>,
+    /// Disconnects when all is written.
+    done: Option<Receiver<()>>,
+}
+
+impl Threads {
+    pub(super) fn new(
+        reading: impl Read + Send + 'static,
+        writing: impl Write + Send + 'static,
+    ) -> Self {
+        Self {
+            ends: Some((Box::new(reading), Box::new(writing))),
+            input: None,
+            rest: Vec::new(),
+            output: None,
+            done: None,
+        }
+    }
+}
+
+impl Port for Threads {
+    fn register(&mut self, _: &Registry, _: Token, waker: &Arc<Waker>) -> io::Result<()> {
+        let Some((reading, writing)) = self.ends.take() else {
+            return Ok(());
+        };
+        let (heard, input) = sync_channel(PIECES);
+        let (output, said) = sync_channel(PIECES);
+        let (alive, done) = sync_channel(1);
+        (self.input, self.output, self.done) = (Some(input), Some(output), Some(done));
+        let (failed, calls) = (heard.clone(), Arc::clone(waker));
+        thread::Builder::new().spawn(move || {
+            if let Err(error) = write(writing, &said, &calls) {
+                // Nothing else wakes up a reader of standard input when standard output closes.
+                let _ = failed.send(Err(error));
+                let _ = calls.wake();
+            }
+            drop(alive);
+        })?;
+        let calls = Arc::clone(waker);
+        thread::Builder::new().spawn(move || read(reading, &heard, &calls))?;
+        Ok(())
+    }
+
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.rest.is_empty() {
+            let input = self.input.as_ref().map(Receiver::try_recv);
+            self.rest = match input {
+                Some(Ok(input)) => input?,
+                Some(Err(TryRecvError::Empty)) => return Err(ErrorKind::WouldBlock.into()),
+                Some(Err(TryRecvError::Disconnected)) | None => return Ok(0),
+            };
+        }
+        let len = self.rest.len().min(buffer.len());
+        buffer[..len].copy_from_slice(&self.rest[..len]);
+        self.rest.drain(..len);
+        Ok(len)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let piece = &bytes[..bytes.len().min(PIECE)];
+        let sent = self
+            .output
+            .as_ref()
+            .map(|output| output.try_send(piece.to_vec()));
+        match sent {
+            Some(Ok(())) => Ok(piece.len()),
+            Some(Err(TrySendError::Full(_))) => Err(ErrorKind::WouldBlock.into()),
+            // The reader gets the reason.
+            Some(Err(TrySendError::Disconnected(_))) | None => Ok(bytes.len()),
+        }
+    }
+
+    fn finish(&mut self, stopped: &AtomicBool) {
+        self.output = None;
+        let patience = Duration::from_millis(100);
+        let Some(done) = &self.done else {
+            return;
+        };
+        while let Err(RecvTimeoutError::Timeout) = done.recv_timeout(patience) {
+            if stopped.load(Ordering::Relaxed) {
+                return;
+            }
+        }
+    }
+}
+
+fn read(mut reading: impl Read, heard: &SyncSender<io::Result<Vec<u8>>>, waker: &Waker) {
+    let mut buffer = [0; PIECE];
+    loop {
+        let (piece, is_last) = match reading.read(&mut buffer) {
+            Ok(len) => (Ok(buffer[..len].to_vec()), len == 0),
+            Err(error) if passes(&error) => continue,
+            Err(error) => (Err(error), true),
+        };
+        // The bench is gone when nobody takes it.
+        if heard.send(piece).is_err() || waker.wake().is_err() || is_last {
+            break;
+        }
+    }
+}
+
+/// A serial line that says nothing for a while is well.
+fn passes(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::Interrupted | ErrorKind::TimedOut | ErrorKind::WouldBlock
+    )
+}
+
+fn write(mut writing: impl Write, said: &Receiver<Vec<u8>>, waker: &Waker) -> io::Result<()> {
+    while let Ok(piece) = said.recv() {
+        writing.write_all(&piece).and_then(|()| writing.flush())?;
+        let _ = waker.wake();
+    }
+    Ok(())
+}

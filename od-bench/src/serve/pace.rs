@@ -1,0 +1,87 @@
+//! The time of the bus beside the time of the computer.
+
+use std::time::{Duration, Instant as Clock, SystemTime};
+
+use od_runtime::Instant;
+
+/// A bus that is later than this goes on from now: it makes up for nothing.
+pub(super) const LATE: Duration = Duration::from_millis(50);
+/// Lateness within this time after an earlier one is not told again.
+const AGAIN: Duration = Duration::from_secs(1);
+
+/// The time of the bus: that of the computer, without the times in which the process did not run.
+pub(super) struct Pace {
+    start: Clock,
+    /// Time of day at the start of the bus, in microseconds.
+    epoch: u64,
+    /// When the bus was late the last time.
+    last: Option<Clock>,
+}
+
+impl Pace {
+    /// Time begins now.
+    pub(super) fn new() -> Self {
+        let epoch = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        Self {
+            start: Clock::now(),
+            epoch: epoch.map_or(0, |since| since.as_micros() as u64),
+            last: None,
+        }
+    }
+
+    /// The time of the bus at `clock`.
+    pub(super) fn at(&self, clock: Clock) -> Instant {
+        Instant::ZERO + clock.saturating_duration_since(self.start)
+    }
+
+    /// The time of day at a moment of the bus, in microseconds.
+    pub(super) fn stamp(&self, at: Instant) -> u64 {
+        self.epoch + at.as_micros()
+    }
+
+    /// Shifts the time of the bus so that it is `due` at `clock`, if it were late otherwise. Returns
+    /// how late it was, if that has to be told.
+    pub(super) fn shift(&mut self, due: Instant, clock: Clock) -> Option<Duration> {
+        let late = self.at(clock) - due;
+        if late <= LATE {
+            return None;
+        }
+        self.start += late;
+        self.epoch += late.as_micros() as u64;
+        let before = self.last.replace(clock);
+        let told = before.is_some_and(|last| clock.duration_since(last) < AGAIN);
+        (!told).then_some(late)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_late_is_not_made_up_for() {
+        let mut pace = Pace::new();
+        let after = |millis| pace_start() + Duration::from_millis(millis);
+        fn pace_start() -> Clock {
+            static START: std::sync::OnceLock<Clock> = std::sync::OnceLock::new();
+            *START.get_or_init(Clock::now)
+        }
+        pace.start = pace_start();
+        let millis = |millis: u64| Instant::from_micros(millis * 1000);
+        let day = pace.stamp(millis(100));
+        assert_eq!(pace.at(after(100)), millis(100));
+        // 50 ms are not late, and a bus without anything due never is.
+        assert_eq!(pace.shift(millis(100), after(150)), None);
+        assert_eq!(pace.shift(millis(900), after(700)), None);
+        assert_eq!(pace.at(after(150)), millis(150));
+        // 5 s are, and are told once.
+        let late = Some(Duration::from_secs(5));
+        assert_eq!(pace.shift(millis(100), after(5100)), late);
+        assert_eq!(pace.at(after(5100)), millis(100));
+        assert_eq!(pace.stamp(millis(100)), day + 5_000_000);
+        assert_eq!(pace.shift(millis(100), after(5200)), None);
+        assert_eq!(pace.at(after(5200)), millis(100));
+        let late = Some(Duration::from_millis(1000));
+        assert_eq!(pace.shift(millis(100), after(6200)), late);
+    }
+}
