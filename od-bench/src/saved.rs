@@ -71,7 +71,7 @@ impl VirtualDevice {
         let dictionary = source.dictionary();
         let mut values = vec![0; dictionary.store_len()];
         if let Ok(mut store) = Store::new(dictionary, &mut values, node.node_id()) {
-            profile.store.reset(&mut store, |_| true);
+            profile.store.reset(&mut store, &|_| true);
             // Nothing that can be read: the defaults come back.
             let _ = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
         }

@@ -125,12 +125,15 @@ pub struct StoreProfile {
 
 impl StoreProfile {
     /// Every value for which `which` is true becomes what the device was delivered with.
-    pub fn reset(&self, store: &mut Store<'_>, mut which: impl FnMut(&Entry) -> bool) {
-        store.reset(&mut which);
+    #[inline(never)]
+    pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Entry) -> bool) {
+        store.reset(which);
         if let Some((address, node_id)) = self.node_id
-            && store.dictionary().find(address).is_ok_and(which)
+            && let Ok(entry) = store.dictionary().find(address)
+            && which(entry)
         {
-            store.set_unsigned(address, node_id.raw().into());
+            // An UNSIGNED8, or the dictionary's own default stays.
+            let _ = store.put(entry, &[node_id.raw()]);
         }
     }
 }

@@ -181,7 +181,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         };
         for pass in 0..2 {
             let profile = &objects.profile().store;
-            profile.reset(&mut objects.store, which);
+            profile.reset(&mut objects.store, &which);
             let loaded = match D::STORAGE {
                 true => image::load(objects.storage, &mut objects.store, profile, &which),
                 false => Ok(Loaded::Blank),

@@ -197,7 +197,7 @@ impl<'c, D: Device> Objects<'c, D> {
         self.storage_is_sound();
         if profile.restore == crate::profile::Restore::AtOnce {
             let which = |entry: &Entry| image::restores(profile, entry, sub);
-            profile.reset(&mut self.store, which);
+            profile.reset(&mut self.store, &which);
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
         self.outbox.effect(Effect::Restored(sub));
