@@ -7,6 +7,7 @@
 
 mod check;
 mod convert;
+mod ctl;
 mod diff;
 mod dump;
 mod explain;
@@ -41,6 +42,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Sim(sim::Args),
+    Ctl(ctl::Args),
     Run(run::Args),
     Lesson(lesson::Args),
     Check(check::Args),
@@ -72,6 +74,7 @@ pub fn main() -> ExitCode {
     };
     let result = match cli.command {
         Command::Sim(args) => sim::run(&args),
+        Command::Ctl(args) => ctl::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Lesson(args) => lesson::run(&args),
         Command::Check(args) => check::run(&args),

@@ -46,10 +46,12 @@ fn argument(choice: &'static Choice) -> Arg {
         let result = choice.set(&mut Options::default(), text);
         result.map(|()| text.to_owned())
     };
-    let argument = Arg::new(choice.name)
-        .long(choice.name)
+    let argument = Arg::new(choice.name).long(choice.name).help(choice.help);
+    if choice.value.is_empty() {
+        return argument.action(ArgAction::SetTrue);
+    }
+    let argument = argument
         .value_name(choice.value)
-        .help(choice.help)
         .allow_negative_numbers(choice.name == "rpm")
         .default_value(choice.default)
         .conflicts_with_all(choice.conflicts)
@@ -69,11 +71,14 @@ impl clap::FromArgMatches for Live {
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
         for choice in &CHOICES {
-            for text in matches
-                .get_many::<String>(choice.name)
-                .into_iter()
-                .flatten()
-            {
+            let texts: Vec<&str> = match choice.value {
+                "" => Vec::from_iter(matches.get_flag(choice.name).then_some("")),
+                _ => {
+                    let texts = matches.get_many::<String>(choice.name);
+                    texts.into_iter().flatten().map(String::as_str).collect()
+                }
+            };
+            for text in texts {
                 let result = choice.set(&mut self.0, text);
                 result.map_err(|why| {
                     clap::Error::raw(clap::error::ErrorKind::ValueValidation, why)

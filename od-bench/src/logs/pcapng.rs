@@ -103,16 +103,18 @@ fn resolution(file: File<'_>, from: usize, to: usize) -> f64 {
 }
 
 /// A section with one interface, times in microseconds.
-pub(super) fn write(records: &[Record]) -> Vec<u8> {
+pub(super) fn head() -> Vec<u8> {
     let mut out = Vec::new();
     block(&mut out, SECTION, |out| {
         words(out, &[LITTLE, 1, u32::MAX, u32::MAX]);
     });
     block(&mut out, INTERFACE, |out| words(out, &[LINK.into(), 0]));
-    for record in records {
-        block(&mut out, PACKET, |out| packet_body(out, record));
-    }
     out
+}
+
+/// A record behind those before it.
+pub(super) fn add(out: &mut Vec<u8>, record: &Record) {
+    block(out, PACKET, |out| packet_body(out, record));
 }
 
 fn packet_body(out: &mut Vec<u8>, record: &Record) {

@@ -36,23 +36,41 @@ impl Format {
         let mut text = String::new();
         // Writing to a text does not fail.
         let _ = match self {
-            Self::Candump => as_candump(&mut text, records),
             Self::Asc => as_asc(&mut text, records),
             Self::Trc => as_trc(&mut text, records),
-            Self::Pcapng => return pcapng::write(records),
+            Self::Candump | Self::Pcapng => {
+                let mut out = self.head();
+                records.iter().for_each(|record| self.add(&mut out, record));
+                return out;
+            }
         };
         text.into_bytes()
     }
-}
 
-fn as_candump(text: &mut String, records: &[Record]) -> std::fmt::Result {
-    for Record { at, what, .. } in records {
-        match what {
-            What::Frame(frame) => writeln!(text, "{}", candump::format_line(*at, "can0", frame))?,
-            What::Error => writeln!(text, "({at:?}) can0 20000008#0000040000000000")?,
+    /// Whether a file of this format can grow record by record.
+    pub const fn grows(self) -> bool {
+        matches!(self, Self::Candump | Self::Pcapng)
+    }
+
+    /// The beginning of a file that [grows](Self::grows).
+    pub fn head(self) -> Vec<u8> {
+        match self {
+            Self::Pcapng => pcapng::head(),
+            _ => Vec::new(),
         }
     }
-    Ok(())
+
+    /// Adds a record to a file that [grows](Self::grows).
+    pub fn add(self, out: &mut Vec<u8>, record: &Record) {
+        let at = record.at;
+        let line = match record.what {
+            _ if self == Self::Pcapng => return pcapng::add(out, record),
+            What::Frame(frame) => candump::format_line(at, "can0", &frame),
+            What::Error => format!("({at:?}) can0 20000008#0000040000000000"),
+        };
+        out.extend_from_slice(line.as_bytes());
+        out.push(b'\n');
+    }
 }
 
 /// Bytes with a blank before each.

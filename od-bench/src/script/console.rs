@@ -45,13 +45,14 @@ pub struct Console {
 }
 
 impl Console {
-    /// A line that was read; empty lines and comments mean nothing.
+    /// A line that was read; empty lines and comments mean nothing. Returns whether there is something
+    /// to do.
     ///
     /// # Errors
     /// The problem, and the text to write instead; then nothing of the line is done.
-    pub fn push(&mut self, text: &str) -> Result<(), Problem> {
+    pub fn push(&mut self, text: &str) -> Result<bool, Problem> {
         let Some(statement) = self.reader.statement(text)? else {
-            return Ok(());
+            return Ok(false);
         };
         let Action::Deed(deed) = statement.action else {
             return Err(Problem::new(
@@ -68,7 +69,27 @@ impl Console {
             ));
         }
         self.lines.push_back((statement.when, deed));
-        Ok(())
+        Ok(true)
+    }
+
+    /// The action that begins next, if none goes on.
+    #[cfg(feature = "serve")]
+    pub(crate) fn front(&self) -> Option<&Deed> {
+        let front = self.lines.front().filter(|_| self.rest.is_none());
+        front.map(|(_, deed)| deed)
+    }
+
+    /// Does the last line go on?
+    #[cfg(feature = "serve")]
+    pub(crate) fn goes_on(&self) -> bool {
+        self.rest.is_some()
+    }
+
+    /// Forgets all lines, but for power that a line has switched off for a time.
+    #[cfg(feature = "serve")]
+    pub(crate) fn abandon(&mut self) {
+        self.lines.clear();
+        self.rest.take_if(|(_, rest)| *rest != Deed::Power(true));
     }
 
     /// Has everything been carried out?

@@ -49,6 +49,8 @@ pub(super) struct Client {
     deaf: Option<bool>,
     /// Messages dropped for it that were not told.
     dropped: usize,
+    /// Messages dropped for it.
+    pub(super) lost: u64,
     /// When it was told the last time that it does not read.
     told: Option<Clock>,
 }
@@ -71,13 +73,17 @@ impl Client {
             protocol,
             codec: protocol.codec(),
             port,
-            opening: is_guest.then(Opening::default),
+            opening: is_guest.then(|| match protocol {
+                Protocol::Control => Opening::of_lines(),
+                _ => Opening::default(),
+            }),
             outbox: Outbox::default(),
             readable: true,
             writable: true,
             ended: None,
             deaf: None,
             dropped: 0,
+            lost: 0,
             told: None,
         }
     }
@@ -123,7 +129,12 @@ impl Client {
         encoded: &mut Encoded,
         (own, room): (bool, usize),
     ) {
-        if self.ended.is_some() && self.protocol != Protocol::Lines {
+        let hears = match self.protocol {
+            Protocol::Lines => true,
+            Protocol::Control => false,
+            _ => self.ended.is_none(),
+        };
+        if !hears {
             return;
         }
         let Some(form) = self.codec.form() else {
@@ -232,7 +243,9 @@ impl Client {
         let ends = lines
             .iter()
             .filter(|byte| matches!(byte, b'\r' | b'\n' | b'>' | 7));
-        self.dropped += ends.count().max(1);
+        let count = ends.count().max(1);
+        self.dropped += count;
+        self.lost += count as u64;
     }
 }
 

@@ -1,22 +1,24 @@
 //! All clients: who may come, whose turn it is, and who hears a frame.
 
 use std::io;
-use std::net::SocketAddr;
 use std::time::{Duration, Instant as Clock};
 
 use mio::Token;
-use mio::net::{TcpListener, TcpStream};
 use od_runtime::{Frame, Instant};
 
 use super::client::{Client, Encoded, room};
 use super::door::Door;
 use super::events::Events;
 use super::links::LINKS;
+use super::links::listener::{Listener, Stream};
 use super::links::opened::{Ends, Protocol};
 use crate::words::plural;
 
 /// A client that has ended may take this long to read what waits for it.
 const FAREWELL: Duration = Duration::from_secs(10);
+
+/// Most clients of the control socket.
+const CONTROLS: usize = 16;
 
 /// The clients, and the places where further ones come to.
 pub(super) struct Clients {
@@ -44,8 +46,8 @@ impl Clients {
         }
     }
 
-    /// A link with clients that come and go.
-    pub(super) fn open(&mut self, protocol: Protocol, listener: TcpListener) -> io::Result<()> {
+    /// A link, or the control socket, with clients that come and go.
+    pub(super) fn open(&mut self, protocol: Protocol, listener: Listener) -> io::Result<()> {
         let number = self.next.0;
         self.next.0 += 1;
         let door = Door::new(number, protocol, listener, self.events.registry())?;
@@ -63,7 +65,8 @@ impl Clients {
 
     /// Can further clients come?
     pub(super) fn has_doors(&self) -> bool {
-        !self.doors.is_empty()
+        let mut doors = self.doors.iter();
+        doors.any(|door| door.protocol != Protocol::Control)
     }
 
     fn add(&mut self, mut client: Client) -> io::Result<()> {
@@ -146,29 +149,38 @@ impl Clients {
         let mut came = Vec::new();
         for at in 0..self.doors.len() {
             while self.doors[at].ready {
-                let guests = self.list.iter().filter(|client| client.number >= LINKS);
-                let full = (guests.count() >= self.max).then(|| {
-                    let clients = plural(self.max, "client");
-                    format!("the limit is {clients}; raise it with `--max-clients`")
-                });
-                let Some((stream, address)) = self.doors[at].accept(full.as_deref()) else {
+                let protocol = self.doors[at].protocol;
+                let full = self.full(protocol == Protocol::Control);
+                let Some((stream, name)) = self.doors[at].accept(full.as_deref()) else {
                     break;
                 };
-                came.extend(self.welcome(self.doors[at].protocol, stream, address));
+                came.extend(self.welcome(protocol, stream, name));
             }
         }
         came
     }
 
+    /// Why no further client is let in: at the control socket, or at a link.
+    fn full(&self, control: bool) -> Option<String> {
+        let guests = self.list.iter().filter(|client| client.number >= LINKS);
+        let guests = guests.filter(|client| (client.protocol == Protocol::Control) == control);
+        let (max, help) = match control {
+            true => (CONTROLS, "try again when one has left"),
+            false => (self.max, "raise it with `--max-clients`"),
+        };
+        let full = guests.count() >= max;
+        full.then(|| format!("the limit is {}; {help}", plural(max, "client")))
+    }
+
     fn welcome(
         &mut self,
         protocol: Protocol,
-        stream: TcpStream,
-        address: SocketAddr,
+        stream: Stream,
+        name: String,
     ) -> Option<(usize, String)> {
-        let (number, name) = (self.next.1, address.to_string());
+        let number = self.next.1;
         self.next.1 += 1;
-        let client = Client::new(number, name.clone(), protocol, Box::new(stream), true);
+        let client = Client::new(number, name.clone(), protocol, stream.into_port(), true);
         // A connection that broke already is nobody.
         self.add(client).ok()?;
         Some((number, name))

@@ -1,14 +1,12 @@
 //! A place where clients come to.
 
 use std::io::{ErrorKind, Result};
-use std::net::SocketAddr;
 use std::time::{Duration, Instant as Clock};
 
-use mio::net::{TcpListener, TcpStream};
-use mio::{Interest, Registry, Token};
+use mio::{Registry, Token};
 
+use super::links::listener::{Listener, Stream};
 use super::links::opened::Protocol;
-use super::links::tcp;
 use super::terminal::note;
 
 /// Most clients that are refused in one turn.
@@ -19,11 +17,11 @@ const AGAIN: Duration = Duration::from_millis(100);
 #[cfg(unix)]
 const FILES: usize = 4;
 
-/// A TCP server.
+/// A server.
 pub(super) struct Door {
     pub(super) number: usize,
     pub(super) protocol: Protocol,
-    listener: TcpListener,
+    listener: Listener,
     /// Clients may be waiting.
     pub(super) ready: bool,
     /// Nobody is let in before this moment.
@@ -36,10 +34,10 @@ impl Door {
     pub(super) fn new(
         number: usize,
         protocol: Protocol,
-        mut listener: TcpListener,
+        mut listener: Listener,
         events: &Registry,
     ) -> Result<Self> {
-        events.register(&mut listener, Token(number), Interest::READABLE)?;
+        listener.register(events, Token(number))?;
         Ok(Self {
             number,
             protocol,
@@ -56,13 +54,13 @@ impl Door {
     }
 
     /// The next client. `full` says why there is no room for it.
-    pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(TcpStream, SocketAddr)> {
+    pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(Stream, String)> {
         if self.shut.is_some_and(|until| Clock::now() < until) {
             return None;
         }
         self.shut = None;
         for _ in 0..TURN {
-            let (stream, address) = match self.listener.accept() {
+            let (stream, name) = match self.listener.accept() {
                 Ok(accepted) => accepted,
                 Err(error) if error.kind() == ErrorKind::WouldBlock => {
                     self.ready = false;
@@ -89,13 +87,13 @@ impl Door {
             let why = full.or_else(|| (!has_files()).then_some(files));
             match why {
                 Some(why) => {
-                    self.tell(&format!("{address} was refused: {why}"));
-                    tcp::refuse(stream, self.protocol, why);
+                    self.tell(&format!("{name} was refused: {why}"));
+                    stream.refuse(self.protocol, why);
                 }
-                None if tcp::prepare(&stream).is_err() => {}
+                None if stream.prepare().is_err() => {}
                 None => {
                     self.refuses = false;
-                    return Some((stream, address));
+                    return Some((stream, name));
                 }
             }
         }

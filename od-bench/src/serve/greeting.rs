@@ -5,9 +5,11 @@ use std::fmt::Write as _;
 
 use od_runtime::NodeId;
 
+use super::control::place::Place;
 use super::failure::Failure;
 use super::links::opened::{Opened, Protocol};
 use super::maker::Maker;
+use super::once;
 use super::options::Options;
 use super::terminal::{note, print as print_line};
 use crate::bus::Bus;
@@ -20,6 +22,7 @@ pub(super) fn print(
     args: &Options,
     bus: &Bus,
     links: &[Opened],
+    control: Option<&Place>,
 ) -> Result<(), Failure> {
     for (device, wanted) in bus.devices().iter().zip(&args.node_ids) {
         let node = device.node_id();
@@ -37,10 +40,32 @@ pub(super) fn print(
              with `--node-id`"
         ));
     }
-    let text = text(first, args, bus, links);
+    if args.quiet {
+        return Ok(());
+    }
     let has_frames =
         |link: &Opened| matches!(link, Opened::Ends(ends) if ends.protocol == Protocol::Lines);
-    if links.iter().any(has_frames) {
+    let to_error = links.iter().any(has_frames);
+    let mut text = text(args, bus, links);
+    if let Some(place) = control {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "control {place}; `odkit ctl {place} \"power cycle 2s\"`"
+        );
+    }
+    if let (Some(device), Some(first)) = (bus.devices().first(), first) {
+        match once::is_due(to_error) {
+            true => {
+                for link in links {
+                    help(&mut text, link, first, device, args.bitrate);
+                }
+            }
+            false => text.push_str("the commands to connect are further up in this terminal\n"),
+        }
+        text.push_str("\nPress Ctrl-C to stop.");
+    }
+    if to_error {
         note(&text);
         return Ok(());
     }
@@ -57,7 +82,7 @@ fn shared(devices: &[VirtualDevice]) -> BTreeMap<NodeId, usize> {
     counts
 }
 
-fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) -> String {
+fn text(args: &Options, bus: &Bus, links: &[Opened]) -> String {
     let places: Vec<String> = links.iter().map(place).collect();
     let places = places.join(", ");
     let mut text = String::new();
@@ -89,13 +114,6 @@ fn text(first: Option<&Maker<'_>>, args: &Options, bus: &Bus, links: &[Opened]) 
         _ => files.join(", "),
     };
     let _ = writeln!(text, "EEPROM {eeprom}");
-    let (Some(device), Some(first)) = (devices.first(), first) else {
-        return text;
-    };
-    for link in links {
-        help(&mut text, link, first, device, args.bitrate);
-    }
-    text.push_str("\nPress Ctrl-C to stop.");
     text
 }
 

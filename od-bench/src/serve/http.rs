@@ -9,9 +9,19 @@ const LONGEST: usize = 32;
 pub(super) struct Opening {
     letters: usize,
     is_over: bool,
+    /// Only a word in capitals is a method: the client sends words, too.
+    capitals: bool,
 }
 
 impl Opening {
+    /// Of a client that sends lines of the script language.
+    pub(super) fn of_lines() -> Self {
+        Self {
+            capitals: true,
+            ..Self::default()
+        }
+    }
+
     /// Takes the next bytes, and returns whether they are the beginning of an HTTP request: a word
     /// and a blank. No command of slcan has a blank, and those of socketcand begin with `<`.
     pub(super) fn is_http(&mut self, bytes: &[u8]) -> bool {
@@ -20,6 +30,7 @@ impl Opening {
                 _ if self.is_over => return false,
                 b'\r' | b'\n' if self.letters == 0 => {}
                 b' ' if self.letters > 0 => return true,
+                b'a'..=b'z' if self.capitals => self.is_over = true,
                 b'A'..=b'Z' | b'a'..=b'z' | b'-' | b'_' if self.letters < LONGEST => {
                     self.letters += 1;
                 }
@@ -33,6 +44,22 @@ impl Opening {
 #[cfg(test)]
 mod tests {
     use super::Opening;
+
+    #[test]
+    fn a_verb_is_no_method() {
+        for (text, is_http) in [
+            ("POST / HTTP/1.1", true),
+            ("power off", false),
+            ("can0 601#40", false),
+            ("701#R", false),
+        ] {
+            assert_eq!(
+                Opening::of_lines().is_http(text.as_bytes()),
+                is_http,
+                "{text}"
+            );
+        }
+    }
 
     #[test]
     fn a_request_is_seen_whatever_its_pieces() {

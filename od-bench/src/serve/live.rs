@@ -8,12 +8,17 @@ use std::time::{Duration, Instant as Clock};
 use od_runtime::{Event, Frame, Instant};
 
 use super::clients::Clients;
+use super::control::Control;
 use super::failure::Failure;
 use super::fleet::Place;
 use super::links::LINKS;
+use super::links::listener::Listener;
 use super::links::opened::{Opened, Protocol};
+use super::log::Log;
 use super::pace::{LATE, Pace};
-use super::terminal::note;
+use super::stats::Stats;
+use super::terminal::{news, note};
+use super::told::events;
 use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
@@ -32,8 +37,12 @@ const LEAST: usize = 64;
 pub(super) struct Live {
     pub(super) bench: Bench,
     pace: Pace,
-    clients: Clients,
+    pub(super) clients: Clients,
     console: Console,
+    pub(super) control: Control,
+    pub(super) stats: Stats,
+    /// Log file of the bus.
+    pub(super) log: Option<Log>,
     stopped: Arc<AtomicBool>,
     /// The client whose bytes are carried out.
     cause: Option<usize>,
@@ -41,13 +50,17 @@ pub(super) struct Live {
     links: usize,
     /// Why the last link was lost.
     lost: Option<String>,
-    frames: u64,
 }
 
 impl Live {
     /// Devices get power. What they send waits until the bench [runs](Self::run), so that every
     /// link hears it that is there by then.
-    pub(super) fn new(places: Vec<Place>, clients: Clients, stopped: Arc<AtomicBool>) -> Self {
+    pub(super) fn new(
+        places: Vec<Place>,
+        clients: Clients,
+        stats: Stats,
+        stopped: Arc<AtomicBool>,
+    ) -> Self {
         let mut bus = Bus::new();
         for Place { device, beside } in places {
             let number = match beside {
@@ -61,20 +74,26 @@ impl Live {
             pace: Pace::new(),
             clients,
             console: Console::default(),
+            control: Control::default(),
+            stats,
+            log: None,
             stopped,
             cause: None,
             links: 0,
             lost: None,
-            frames: 0,
         };
-        live.events(|event| matches!(event, Event::StorageDamaged | Event::SaveCut { .. }));
+        events(&mut live.bench, |event| {
+            matches!(event, Event::StorageDamaged | Event::SaveCut { .. })
+        });
         live
     }
 
     /// Another link.
     pub(super) fn add(&mut self, link: Opened) -> io::Result<()> {
         match link {
-            Opened::Listener(protocol, listener, _) => self.clients.open(protocol, listener),
+            Opened::Listener(protocol, listener, _) => {
+                self.clients.open(protocol, Listener::Tcp(listener))
+            }
             Opened::Ends(ends) => {
                 self.links += 1;
                 self.clients.join(ends)
@@ -103,9 +122,9 @@ impl Live {
             self.bench.bus.with(number, VirtualDevice::power_off);
         }
         self.finish()?;
-        note(&format!(
+        news(&format!(
             "\nodkit: ended; {} went over the bus",
-            plural(self.frames as usize, "frame")
+            plural(self.stats.frames as usize, "frame")
         ));
         match self.lost.take().filter(|_| !self.is_stopped()) {
             Some(why) => Err(Failure::Failed(format!("the last link is lost: {why}"))),
@@ -132,6 +151,9 @@ impl Live {
         for client in self.clients.all() {
             client.port.finish(&self.stopped);
         }
+        if let Some(log) = self.log.take() {
+            log.finish();
+        }
         Ok(())
     }
 
@@ -140,6 +162,7 @@ impl Live {
         let all = [
             self.clients.codecs_due(),
             console,
+            self.control.deadline(self.bench.bus.now()),
             self.bench.bus.next_deadline(),
         ];
         all.into_iter().flatten().min()
@@ -147,7 +170,7 @@ impl Live {
 
     /// The bus catches up with the clock, and what devices send goes out. A bus that is late, since
     /// the computer slept or is too slow, must not send at once all that it has missed.
-    fn catch_up(&mut self) {
+    pub(super) fn catch_up(&mut self) {
         let clock = Clock::now();
         let before = self.bench.bus.now();
         if self.pace.at(clock) - before > LATE
@@ -166,12 +189,11 @@ impl Live {
         self.cause = cause;
     }
 
-    fn deliver(&mut self) {
+    pub(super) fn deliver(&mut self) {
         while let Some(sent) = self.bench.bus.poll() {
-            self.frames += 1;
             self.pass_on(&sent.frame, sent.at, None);
         }
-        self.events(|_| true);
+        events(&mut self.bench, |_| true);
     }
 
     /// Lets codecs and the console do what is due.
@@ -190,6 +212,7 @@ impl Live {
             self.steps(number, steps);
         }
         self.run_console();
+        self.run_control();
     }
 
     /// Sends what waits for clients.
@@ -202,15 +225,24 @@ impl Live {
     /// A frame for every client but the one it is from.
     fn pass_on(&mut self, frame: &Frame, at: Instant, from: Option<usize>) {
         let stamp = self.pace.stamp(at);
+        self.stats.frame(frame, from, self.cause);
+        if let Some(log) = &mut self.log {
+            log.add(stamp, frame);
+        }
         self.clients.hear(frame, (at, stamp), from, self.cause);
     }
 
     /// Everybody who has sent something gets a turn, as far as this round has room.
     fn turns(&mut self) {
         for (number, name) in self.clients.accept() {
-            note(&format!("{name} connected"));
-            let hello = self.clients.get(number).map(|client| client.codec.hello());
-            self.clients.answer(number, hello.unwrap_or_default());
+            let Some(client) = self.clients.get(number) else {
+                continue;
+            };
+            let hello = client.codec.hello();
+            if client.protocol != Protocol::Control {
+                news(&format!("{name} connected"));
+            }
+            self.clients.answer(number, hello);
         }
         let mut room = ROUND;
         for number in self.clients.ready() {
@@ -276,8 +308,13 @@ impl Live {
             self.clients.remove(number);
         }
         if number >= LINKS {
-            if is_first {
-                note(&format!("{name} left"));
+            if protocol == Protocol::Control {
+                self.control.leave(number);
+            } else if is_first {
+                news(&format!("{name} left"));
+            }
+            if !is_heard {
+                self.stats.forget(number);
             }
             return;
         }
@@ -309,6 +346,7 @@ impl Live {
                     self.catch_up();
                     self.frame(&frame, Some(number));
                 }
+                Step::Line(text) if self.is_control(number) => self.command(number, &text),
                 Step::Line(text) => {
                     if let Err(problem) = self.console.push(&text) {
                         note(&format!("odkit: line {problem}"));
@@ -319,6 +357,11 @@ impl Live {
             }
         }
         self.cause = None;
+    }
+
+    fn is_control(&mut self, number: usize) -> bool {
+        let client = self.clients.get(number);
+        client.is_some_and(|client| client.protocol == Protocol::Control)
     }
 
     /// Lines of the console whose moment has come.
@@ -338,56 +381,10 @@ impl Live {
     }
 
     /// A frame from outside, and what it brings about.
-    fn frame(&mut self, frame: &Frame, from: Option<usize>) {
-        self.frames += 1;
+    pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>) {
         self.bench.bus.receive(frame);
         let now = self.bench.bus.now();
         self.pass_on(frame, now, from);
         self.deliver();
     }
-
-    fn events(&mut self, wanted: impl Fn(&Event) -> bool) {
-        let several = self.bench.bus.devices().len() > 1;
-        for number in 0..self.bench.bus.devices().len() {
-            let events = self.bench.bus.with(number, |device, _| {
-                let name = several.then(|| format!("node {}: ", device.node_id()));
-                let events: Vec<_> = std::iter::from_fn(|| device.poll_event()).collect();
-                (name.unwrap_or_default(), events)
-            });
-            let (name, events) = events.unwrap_or_default();
-            for event in events.into_iter().filter(&wanted) {
-                if let Some(text) = words(event) {
-                    note(&format!("{name}{text}"));
-                }
-            }
-        }
-    }
-}
-
-/// Event in words, for the terminal.
-fn words(event: Event) -> Option<String> {
-    Some(match event {
-        Event::State(state) => format!("state: {state}"),
-        Event::Reset(_, node) => format!("reset, node {node}"),
-        Event::Saved(_) => "parameters saved".into(),
-        Event::Restored(_) => "defaults restored".into(),
-        Event::StorageDamaged => {
-            "the EEPROM is damaged or of another version; the device loaded defaults or an older set"
-                .into()
-        }
-        Event::SaveCut { factory: true } => {
-            "a save was interrupted; the device loaded its factory values".into()
-        }
-        Event::SaveCut { factory: false } => {
-            "a save was interrupted; the values saved before it remain".into()
-        }
-        Event::BusOff { .. } => "bus-off".into(),
-        Event::BusOn => "back from bus-off".into(),
-        Event::Error(error) => format!("error {:04X}h", error.code),
-        Event::ErrorCleared(code) => format!("error {code:04X}h cleared"),
-        Event::BitRate(code) => {
-            format!("LSS set bit rate index {code}; the simulated bus has no bit rate")
-        }
-        _ => return None,
-    })
 }

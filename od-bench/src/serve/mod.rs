@@ -5,6 +5,8 @@
 
 mod client;
 mod clients;
+mod commands;
+mod control;
 mod door;
 mod events;
 mod failure;
@@ -12,16 +14,23 @@ mod fleet;
 mod greeting;
 mod hangup;
 mod http;
+mod json;
 pub mod links;
 mod live;
+mod log;
 mod maker;
+mod once;
 pub mod options;
 mod outbox;
 mod pace;
 mod program;
+mod ready;
 mod run;
+mod stats;
 mod terminal;
+mod told;
 
+pub use control::place::Place;
 pub use failure::Failure;
 pub use links::Link;
 pub use maker::{Make, Maker};

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use od_model::values;
 use od_runtime::NodeId;
 
+use super::control::place::Place;
 use super::links::Link;
+use super::log;
 
 /// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]
@@ -28,6 +30,14 @@ pub struct Options {
     pub bitrate: u32,
     /// Most clients at a time that connect over TCP; further ones are refused.
     pub max_clients: usize,
+    /// Place of the control socket.
+    pub control: Option<Place>,
+    /// Log file of the bus: pcapng by its name, else candump.
+    pub log: Option<PathBuf>,
+    /// File that is there while the bench can be reached; `-`: a line on standard output.
+    pub ready_file: Option<PathBuf>,
+    /// No greeting and no news, only problems.
+    pub quiet: bool,
 }
 
 impl Default for Options {
@@ -42,6 +52,10 @@ impl Default for Options {
             seed: None,
             bitrate: 500_000,
             max_clients: 512,
+            control: None,
+            log: None,
+            ready_file: None,
+            quiet: false,
         }
     }
 }
@@ -51,7 +65,7 @@ impl Default for Options {
 pub struct Choice {
     /// Without the two dashes.
     pub name: &'static str,
-    /// Placeholder of its value in help texts.
+    /// Placeholder of its value in help texts; empty: it has none.
     pub value: &'static str,
     /// Description, for help texts.
     pub help: &'static str,
@@ -85,7 +99,7 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 10] = [
+pub const CHOICES: [Choice; 14] = [
     Choice {
         name: "node-id",
         value: "N",
@@ -185,6 +199,44 @@ pub const CHOICES: [Choice; 10] = [
         set: |options, text| number(text).map(|value| options.max_clients = value),
         ..PLAIN
     },
+    Choice {
+        name: "control",
+        value: "unix:PATH|tcp:HOST:PORT",
+        help: "Socket that takes lines while the bench runs, from `odkit ctl`: power, shaft, faults, \
+               values, `stats`; only for this user (TCP: this computer)",
+        set: |options, text| Place::parse(text).map(|value| options.control = Some(value)),
+        ..PLAIN
+    },
+    Choice {
+        name: "log",
+        value: "FILE",
+        help: "Log file of all frames with their times of day: pcapng by its name, else candump",
+        set: |options, text| {
+            log::format(text.as_ref()).map(|_| options.log = Some(PathBuf::from(text)))
+        },
+        ..PLAIN
+    },
+    Choice {
+        name: "ready-file",
+        value: "PATH",
+        help: "File that is written when everything listens, in JSON: links with their ports and \
+               paths, nodes, control socket; `-`: one line on standard output",
+        set: |options, text| {
+            options.ready_file = Some(PathBuf::from(text));
+            Ok(())
+        },
+        ..PLAIN
+    },
+    Choice {
+        name: "quiet",
+        value: "",
+        help: "Print problems only, no greeting and no news",
+        set: |options, _| {
+            options.quiet = true;
+            Ok(())
+        },
+        ..PLAIN
+    },
 ];
 
 /// Reads a node ID.
@@ -237,8 +289,13 @@ pub(super) fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Optio
             return Err(format!("`{name}` is given twice"));
         }
         given.push(choice.name);
-        let Some(value) = value.or_else(|| arguments.next()) else {
-            return Err(format!("`{name}` needs a value, {}", choice.value));
+        let value = match (choice.value, value) {
+            ("", None) => String::new(),
+            ("", Some(_)) => return Err(format!("`{name}` has no value")),
+            (form, value) => match value.or_else(|| arguments.next()) {
+                Some(value) => value,
+                None => return Err(format!("`{name}` needs a value, {form}")),
+            },
         };
         choice
             .set(&mut options, &value)
@@ -254,7 +311,11 @@ pub(super) fn help() -> String {
         let Choice {
             name, value, help, ..
         } = choice;
-        text.push_str(&format!("      --{name} <{value}>\n          {help}\n"));
+        let value = match *value {
+            "" => String::new(),
+            value => format!(" <{value}>"),
+        };
+        text.push_str(&format!("      --{name}{value}\n          {help}\n"));
         if let Some(default) = choice.default {
             text.push_str(&format!("          [default: {default}]\n"));
         }
@@ -275,7 +336,7 @@ mod tests {
     fn arguments_are_read_with_a_blank_or_an_equals_sign() {
         let options = parsed(
             "--node-id 5 --node-id=0x06 --node-id none --serial 0x1268 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
-             --position=79592h --bitrate 125000 --eeprom a.bin",
+             --position=79592h --bitrate 125000 --eeprom a.bin --quiet --control unix:a --log b.log",
         )
         .expect("options");
         assert_eq!(options.node_ids, [NodeId::new(5), NodeId::new(6), None]);
@@ -285,6 +346,8 @@ mod tests {
         assert_eq!(options.position, Some(0x79592));
         assert_eq!(options.bitrate, 125_000);
         assert_eq!(options.eeproms, [PathBuf::from("a.bin")]);
+        assert_eq!(options.control, Place::parse("unix:a").ok());
+        assert!(options.quiet && !Options::default().quiet);
         assert_eq!(parsed(""), Ok(Options::default()));
     }
 
@@ -294,6 +357,8 @@ mod tests {
             ("5", "`5`"),
             ("--speed 5", "`--speed`"),
             ("--rpm", "`--rpm`"),
+            ("--quiet=yes", "`--quiet` has no value"),
+            ("--log a.trc", ".pcapng"),
             ("--rpm fast", "`fast`"),
             ("--node-id 128", "1 to 127"),
             ("--serial 4294967296", "32 bits"),

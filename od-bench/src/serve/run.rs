@@ -1,17 +1,21 @@
 //! Devices on a bus in real time, until Ctrl-C.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::clients::Clients;
 use super::events::Events;
 use super::failure::Failure;
-use super::links::opened::Opened;
+use super::links::opened::{Opened, Protocol};
 use super::links::{LINKS, Link};
 use super::live::Live;
+use super::log::Log;
 use super::maker::Maker;
 use super::options::Options;
-use super::{fleet, greeting, hangup};
+use super::ready::{self, Ready};
+use super::stats::Stats;
+use super::{control, fleet, greeting, hangup, terminal};
 
 /// Puts the devices on a bus and runs it until Ctrl-C, or until its last link has ended.
 ///
@@ -20,8 +24,18 @@ use super::{fleet, greeting, hangup};
 pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     // Before any thread: threads take it over.
     hangup::respect();
+    if options.quiet {
+        terminal::be_quiet();
+    }
+    let ready = match &options.ready_file {
+        Some(path) if !is_output(path) => Some(Ready::at(path)?),
+        _ => None,
+    };
     let devices = fleet::make(makers, options)?;
+    let control = options.control.as_ref().map(control::open::listen);
+    let control = control.transpose()?;
     let opened = open(options)?;
+    let log = options.log.as_deref().map(Log::create).transpose()?;
     let events = Events::new()?;
     let (waker, stopped) = (Arc::clone(events.waker()), Arc::new(AtomicBool::new(false)));
     let stop = Arc::clone(&stopped);
@@ -31,13 +45,40 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
         let _ = waker.wake();
     })
     .map_err(|error| Failure::Failed(format!("cannot handle Ctrl-C: {error}")))?;
-    let clients = Clients::new(events, options.max_clients);
-    let mut live = Live::new(devices, clients, stopped);
-    greeting::print(makers.first(), options, &live.bench.bus, &opened)?;
+    let mut clients = Clients::new(events, options.max_clients);
+    let (place, _path) = match control {
+        Some(control) => {
+            clients.open(Protocol::Control, control.listener)?;
+            (Some(control.place), control.path)
+        }
+        None => (None, None),
+    };
+    let stats = Stats::new(options.bitrate);
+    let mut live = Live::new(devices, clients, stats, stopped);
+    live.log = log;
+    let report = ready::report(&opened, &live.bench.bus, place.as_ref());
+    greeting::print(
+        makers.first(),
+        options,
+        &live.bench.bus,
+        &opened,
+        place.as_ref(),
+    )?;
     for link in opened {
         live.add(link)?;
     }
+    match &ready {
+        Some(ready) => ready.write(&report)?,
+        None if options.ready_file.is_none() => {}
+        None if options.links.contains(&Link::Console) => terminal::note(&report.to_string()),
+        None => terminal::print(&report.to_string())?,
+    }
     live.run()
+}
+
+/// Whether a path means standard output.
+fn is_output(path: &Path) -> bool {
+    path.as_os_str() == "-"
 }
 
 fn open(options: &Options) -> Result<Vec<Opened>, Failure> {

@@ -1,6 +1,22 @@
 //! Texts for the person at the terminal.
 
 use std::io::{self, ErrorKind, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// News are not wanted.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on there are no [`news`].
+pub(super) fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// As [`note`], for what goes as it should.
+pub(super) fn news(line: &str) {
+    if !QUIET.load(Ordering::Relaxed) {
+        note(line);
+    }
+}
 
 /// Writes a line to standard error. Unlike `eprintln!` it does not panic if nobody reads.
 pub(super) fn note(line: &str) {

@@ -3,6 +3,7 @@
 mod can;
 #[cfg(target_os = "linux")]
 mod interface;
+pub(super) mod listener;
 pub(super) mod opened;
 pub(super) mod port;
 mod pty;

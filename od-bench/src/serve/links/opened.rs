@@ -20,6 +20,8 @@ pub(in crate::serve) enum Protocol {
     CanFrame,
     /// Lines of the script language in, a candump log out.
     Lines,
+    /// Lines of the script language in, an answer to each out.
+    Control,
 }
 
 impl Protocol {
@@ -29,7 +31,28 @@ impl Protocol {
             Self::Slcan => Box::<Channel>::default(),
             Self::Socketcand => Box::<Session>::default(),
             Self::CanFrame => Box::new(CanSocket),
-            Self::Lines => Box::<Lines>::default(),
+            Self::Lines | Self::Control => Box::<Lines>::default(),
+        }
+    }
+
+    /// Its name, as `--link` has it.
+    pub(in crate::serve) fn name(self) -> &'static str {
+        match self {
+            Self::Slcan => "slcan",
+            Self::Socketcand => "socketcand",
+            Self::CanFrame => "socketcan",
+            Self::Lines => "-",
+            Self::Control => "control",
+        }
+    }
+
+    /// Bytes that tell a client why it is refused.
+    pub(in crate::serve) fn refusal(self, why: &str) -> String {
+        match self {
+            Self::Socketcand => format!("< error {why} >"),
+            Self::Control => format!("failed {why}\n"),
+            // A host counts the bell as an answer, and skips a line that it does not know.
+            _ => format!("\x07odkit: {why}\r"),
         }
     }
 }

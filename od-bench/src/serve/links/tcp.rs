@@ -65,21 +65,16 @@ pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> 
 }
 
 /// Prepares a client that was accepted.
-pub(in crate::serve) fn prepare(stream: &TcpStream) -> io::Result<()> {
+pub(super) fn prepare(stream: &TcpStream) -> io::Result<()> {
     #[cfg(unix)]
     nix::sys::socket::setsockopt(stream, nix::sys::socket::sockopt::SndBuf, &QUEUE)?;
     stream.set_nodelay(true)
 }
 
 /// Tells a client why it is refused, as well as its protocol can.
-pub(in crate::serve) fn refuse(mut stream: TcpStream, protocol: Protocol, why: &str) {
-    let text = match protocol {
-        Protocol::Socketcand => format!("< error {why} >"),
-        // A host counts the bell as an answer, and skips a line that it does not know.
-        _ => format!("\x07odkit: {why}\r"),
-    };
+pub(super) fn refuse(mut stream: TcpStream, protocol: Protocol, why: &str) {
     // Who does not hear it sees the end of the connection.
-    let _ = stream.write_all(text.as_bytes());
+    let _ = stream.write_all(protocol.refusal(why).as_bytes());
     let _ = stream.shutdown(std::net::Shutdown::Write);
 }
 

@@ -1,0 +1,161 @@
+//! Control of a bench that runs: each line of a client is carried out, and answered when it is done.
+//!
+//! An answer is a line: `ok` and what was done, `failed` and why the bench cannot do it, `wrong` and
+//! why the line cannot be read. Lines before it that begin with `| ` belong to it.
+
+pub(super) mod open;
+pub(super) mod place;
+mod said;
+
+use std::collections::VecDeque;
+
+use od_runtime::{Frame, Instant};
+
+use crate::bench::Bench;
+use crate::script::Console;
+
+/// Lines of one client that wait; a client that sends more is disconnected.
+const MOST: usize = 1000;
+
+/// Clients of the control socket.
+#[derive(Default)]
+pub(super) struct Control(Vec<Session>);
+
+/// Effect of a line.
+pub(super) enum Turn {
+    /// This frame goes to the bus.
+    Frame(Frame),
+    /// Something changed.
+    Changed,
+    /// This goes to the client.
+    Answer(usize, String),
+    /// Figures go to the client, in JSON or as text.
+    Stats(usize, bool),
+}
+
+/// One client, with a console of its own.
+struct Session {
+    client: usize,
+    console: Console,
+    /// The device that its lines are about.
+    current: usize,
+    queue: VecDeque<Entry>,
+    /// Answer to the line that goes on.
+    said: Option<String>,
+    has_left: bool,
+}
+
+/// A line of a client, in order.
+enum Entry {
+    Line,
+    Stats(bool),
+    Answer(String),
+}
+
+impl Control {
+    /// A line of a client. Returns `false` if too many wait.
+    pub(super) fn push(&mut self, client: usize, text: &str) -> bool {
+        let place = self.0.iter().position(|one| one.client == client);
+        let place = place.unwrap_or_else(|| {
+            self.0.push(Session::new(client));
+            self.0.len() - 1
+        });
+        self.0[place].push(text);
+        self.0[place].queue.len() <= MOST
+    }
+
+    /// A client has left: the line that goes on is completed, and those behind it are not begun.
+    pub(super) fn leave(&mut self, client: usize) {
+        for session in self.0.iter_mut().filter(|one| one.client == client) {
+            session.console.abandon();
+            session.queue.clear();
+            session.has_left = true;
+        }
+        self.0.retain(|one| !one.is_over());
+    }
+
+    /// When a line is due, seen from `now`.
+    pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
+        let due = |session: &Session| session.console.deadline(now);
+        self.0.iter().filter_map(due).min()
+    }
+
+    /// Carries out the next line that is due.
+    pub(super) fn step(&mut self, bench: &mut Bench) -> Option<Turn> {
+        let turn = self.0.iter_mut().find_map(|session| session.step(bench));
+        if turn.is_none() {
+            self.0.retain(|one| !one.is_over());
+        }
+        turn
+    }
+}
+
+impl Session {
+    fn new(client: usize) -> Self {
+        Self {
+            client,
+            console: Console::default(),
+            current: 0,
+            queue: VecDeque::new(),
+            said: None,
+            has_left: false,
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.has_left && self.console.is_idle()
+    }
+
+    fn push(&mut self, text: &str) {
+        self.queue.push_back(match text.trim() {
+            "stats" => Entry::Stats(false),
+            "stats json" => Entry::Stats(true),
+            text => match self.console.push(text) {
+                Ok(true) => Entry::Line,
+                Ok(false) => Entry::Answer("ok".into()),
+                Err(problem) => {
+                    Entry::Answer(format!("wrong {}; {}", problem.message, problem.help))
+                }
+            },
+        });
+    }
+
+    fn step(&mut self, bench: &mut Bench) -> Option<Turn> {
+        let client = self.client;
+        match self.queue.front() {
+            Some(Entry::Answer(_)) => match self.queue.pop_front() {
+                Some(Entry::Answer(text)) => return Some(Turn::Answer(client, text)),
+                _ => return None,
+            },
+            Some(Entry::Stats(json)) => {
+                let turn = Turn::Stats(client, *json);
+                self.queue.pop_front();
+                return Some(turn);
+            }
+            Some(Entry::Line) => {}
+            None if self.console.is_idle() => return None,
+            None => {}
+        }
+        let deed = self.console.front().cloned();
+        std::mem::swap(&mut bench.current, &mut self.current);
+        let result = self.console.step(bench);
+        let said = deed.map(|deed| said::said(&deed, bench));
+        std::mem::swap(&mut bench.current, &mut self.current);
+        let result = result?;
+        self.said = said.or(self.said.take());
+        if result.is_err() || !self.console.goes_on() {
+            let said = self.said.take().unwrap_or_default();
+            let answer = match &result {
+                Ok(_) => format!("ok {said}"),
+                Err(why) => format!("failed {why}"),
+            };
+            if let Some(entry) = self.queue.front_mut() {
+                *entry = Entry::Answer(answer);
+            }
+        }
+        Some(match result {
+            Ok(Some(frame)) => Turn::Frame(frame),
+            _ => Turn::Changed,
+        })
+    }
+}

@@ -1,0 +1,158 @@
+//! The control socket, for this user alone.
+
+use std::io::ErrorKind;
+
+use mio::net::TcpListener;
+
+use super::place::Place;
+use crate::serve::failure::Failure;
+use crate::serve::links::listener::Listener;
+
+/// A control socket that works.
+pub(in crate::serve) struct Opened {
+    /// With the port that it has.
+    pub(in crate::serve) place: Place,
+    pub(in crate::serve) listener: Listener,
+    /// Takes the path away at the end.
+    pub(in crate::serve) path: Option<Path>,
+}
+
+/// The path of a socket; it goes with this value.
+pub(in crate::serve) struct Path {
+    #[cfg(unix)]
+    path: std::path::PathBuf,
+    /// Device and inode: another bench may have put its own there.
+    #[cfg(unix)]
+    file: (u64, u64),
+}
+
+/// Listens at a place.
+///
+/// # Errors
+/// Another process listens there, others could reach it, or what the system refuses.
+pub(in crate::serve) fn listen(place: &Place) -> Result<Opened, Failure> {
+    match place {
+        #[cfg(unix)]
+        Place::Unix(path) => unix::listen(path),
+        #[cfg(not(unix))]
+        Place::Unix(_) => {
+            let why = "--control: this system has no Unix sockets; write tcp:127.0.0.1:PORT";
+            Err(Failure::Usage(why.into()))
+        }
+        Place::Tcp(place) => tcp(place),
+    }
+}
+
+fn tcp(place: &str) -> Result<Opened, Failure> {
+    let addresses = Place::own_addresses(place);
+    let addresses = addresses.map_err(|why| Failure::Usage(format!("--control: {why}")))?;
+    let bound = std::net::TcpListener::bind(addresses.as_slice());
+    let listener = bound.map_err(|error| {
+        let free = "take any free port with `--control tcp:127.0.0.1:0`";
+        Failure::Failed(match error.kind() {
+            ErrorKind::AddrInUse => format!("--control: {place} is in use; {free}"),
+            _ => format!("--control: {place}: {error}; {free}"),
+        })
+    })?;
+    listener.set_nonblocking(true)?;
+    Ok(Opened {
+        place: Place::Tcp(listener.local_addr()?.to_string()),
+        listener: Listener::Tcp(TcpListener::from_std(listener)),
+        path: None,
+    })
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::fs;
+    use std::io::{self, ErrorKind};
+    use std::os::unix::fs::{FileTypeExt, MetadataExt};
+    use std::os::unix::net::{UnixListener, UnixStream};
+
+    use nix::sys::stat::{Mode, umask};
+
+    use super::{Failure, Listener, Opened, Path, Place};
+
+    pub(super) fn listen(path: &std::path::Path) -> Result<Opened, Failure> {
+        let shown = path.display();
+        let failed = |why: String| Failure::Failed(format!("--control: {shown} {why}"));
+        let bound = match bind(path) {
+            Err(error) if error.kind() == ErrorKind::AddrInUse => {
+                make_room(path).map_err(failed)?;
+                bind(path)
+            }
+            bound => bound,
+        };
+        let listener = bound.map_err(|error| {
+            Failure::Failed(format!(
+                "--control: {shown}: {error}; give a path in a folder of your own, at most 100 \
+                 characters long"
+            ))
+        })?;
+        listener.set_nonblocking(true)?;
+        let file = fs::symlink_metadata(path)?;
+        let path = path.to_owned();
+        Ok(Opened {
+            place: Place::Unix(path.clone()),
+            listener: Listener::Unix(mio::net::UnixListener::from_std(listener)),
+            path: Some(Path {
+                path,
+                file: (file.dev(), file.ino()),
+            }),
+        })
+    }
+
+    /// With mode 0600 from the first moment.
+    fn bind(path: &std::path::Path) -> io::Result<UnixListener> {
+        let before = umask(Mode::S_IRWXG | Mode::S_IRWXO | Mode::S_IXUSR);
+        let bound = UnixListener::bind(path);
+        umask(before);
+        bound
+    }
+
+    /// Removes the socket of a process that has ended.
+    fn make_room(path: &std::path::Path) -> Result<(), String> {
+        let there = fs::symlink_metadata(path).map_err(|error| format!("is in use: {error}"))?;
+        if !there.file_type().is_socket() {
+            return Err("is not a socket; give another path".into());
+        }
+        match UnixStream::connect(path) {
+            Ok(stream) => Err(format!(
+                "is in use by {}; give another path",
+                owner(&stream)
+            )),
+            Err(error) if error.kind() == ErrorKind::ConnectionRefused => fs::remove_file(path)
+                .map_err(|error| format!("is left of an ended process: {error}")),
+            Err(error) => Err(format!("is in use: {error}; give another path")),
+        }
+    }
+
+    #[cfg(target_os = "linux")]
+    fn owner(stream: &UnixStream) -> String {
+        use nix::sys::socket::{getsockopt, sockopt::PeerCredentials};
+
+        let Ok(peer) = getsockopt(stream, PeerCredentials) else {
+            return String::from("another process");
+        };
+        let pid = peer.pid();
+        let name = fs::read_to_string(format!("/proc/{pid}/comm")).unwrap_or_default();
+        match name.trim() {
+            "" => format!("process {pid}"),
+            name => format!("process {pid} ({name})"),
+        }
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn owner(_: &UnixStream) -> String {
+        String::from("another process")
+    }
+
+    impl Drop for Path {
+        fn drop(&mut self) {
+            let is_own = |file: fs::Metadata| (file.dev(), file.ino()) == self.file;
+            if fs::symlink_metadata(&self.path).is_ok_and(is_own) {
+                let _ = fs::remove_file(&self.path);
+            }
+        }
+    }
+}

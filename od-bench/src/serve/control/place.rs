@@ -1,0 +1,119 @@
+//! Place of the control socket: a path, or a port of this computer.
+
+use std::fmt;
+use std::io::{self, Read, Write};
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs};
+use std::path::PathBuf;
+
+/// Place of the control socket.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// A Unix socket.
+    Unix(PathBuf),
+    /// `HOST:PORT` of this computer.
+    Tcp(String),
+}
+
+/// Both directions of a connection.
+pub trait Connection: Read + Write {}
+
+impl<T: Read + Write> Connection for T {}
+
+impl Place {
+    /// Reads `unix:PATH`, `tcp:HOST:PORT`, or a path.
+    ///
+    /// # Errors
+    /// What to write instead.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let wrong =
+            || format!("`{text}` is not a control socket; write unix:PATH or tcp:127.0.0.1:PORT");
+        match text.split_once(':') {
+            Some(("unix", path)) if !path.is_empty() => Ok(Self::Unix(path.into())),
+            Some(("tcp", place)) => {
+                let (host, port) = place.rsplit_once(':').unwrap_or(("127.0.0.1", place));
+                let port: u16 = port.parse().map_err(|_| wrong())?;
+                match host.is_empty() {
+                    true => Err(wrong()),
+                    false => Ok(Self::Tcp(format!("{host}:{port}"))),
+                }
+            }
+            _ if text.contains('/') || !text.is_empty() && !text.contains(':') => {
+                Ok(Self::Unix(text.into()))
+            }
+            _ => Err(wrong()),
+        }
+    }
+
+    /// Connects to it.
+    ///
+    /// # Errors
+    /// Why nobody is there.
+    pub fn connect(&self) -> io::Result<Box<dyn Connection>> {
+        Ok(match self {
+            #[cfg(unix)]
+            Self::Unix(path) => Box::new(std::os::unix::net::UnixStream::connect(path)?),
+            #[cfg(not(unix))]
+            Self::Unix(_) => return Err(io::ErrorKind::Unsupported.into()),
+            Self::Tcp(place) => {
+                let stream = TcpStream::connect(place)?;
+                stream.set_nodelay(true)?;
+                Box::new(stream)
+            }
+        })
+    }
+
+    /// The addresses of a TCP place, which must be this computer's own.
+    ///
+    /// # Errors
+    /// A sentence: the host is unknown, or others could connect.
+    pub(super) fn own_addresses(place: &str) -> Result<Vec<SocketAddr>, String> {
+        let addresses: Vec<SocketAddr> = match place.to_socket_addrs() {
+            Ok(addresses) => addresses.collect(),
+            Err(error) => return Err(format!("the host of `{place}` is unknown ({error})")),
+        };
+        match addresses.iter().all(|address| address.ip().is_loopback()) {
+            true => Ok(addresses),
+            false => Err(format!(
+                "`{place}` can be reached from other computers; write tcp:127.0.0.1:PORT"
+            )),
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unix(path) => write!(f, "unix:{}", path.display()),
+            Self::Tcp(place) => write!(f, "tcp:{place}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Place;
+
+    #[test]
+    fn a_place_is_a_path_or_a_port_of_this_computer() {
+        for (text, shown) in [
+            ("unix:a.sock", Some("unix:a.sock")),
+            ("unix:/tmp/a:b", Some("unix:/tmp/a:b")),
+            ("./a", Some("unix:./a")),
+            ("tcp:127.0.0.1:5", Some("tcp:127.0.0.1:5")),
+            ("tcp:5", Some("tcp:127.0.0.1:5")),
+            ("tcp:[::1]:0", Some("tcp:[::1]:0")),
+            ("unix:", None),
+            ("tcp:", None),
+            ("tcp::5", None),
+            ("tcp:127.0.0.1:99999", None),
+            ("127.0.0.1:5", None),
+            ("a.sock", Some("unix:a.sock")),
+            ("", None),
+        ] {
+            let place = Place::parse(text).ok().map(|place| place.to_string());
+            assert_eq!(place.as_deref(), shown, "{text}");
+        }
+        assert!(Place::own_addresses("127.0.0.1:5").is_ok());
+        assert!(Place::own_addresses("0.0.0.0:5").is_err());
+    }
+}

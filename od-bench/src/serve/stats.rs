@@ -1,0 +1,205 @@
+//! Figures of a bench that runs: frames, load, and what each client sent.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::time::{Duration, Instant as Clock};
+
+use od_runtime::Frame;
+
+use super::json::Json;
+use crate::bus::Bus;
+use crate::device::VirtualDevice;
+use crate::words::plural;
+
+/// Load and frames per second are those of this time.
+const WINDOW: Duration = Duration::from_secs(1);
+
+/// What a client sent.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Sent {
+    pub(super) frames: u64,
+    /// SDO requests, and the aborts that answered them.
+    pub(super) requests: u64,
+    pub(super) aborts: u64,
+}
+
+/// A client, for a report.
+pub(super) struct Guest<'c> {
+    pub(super) number: usize,
+    pub(super) name: &'c str,
+    pub(super) protocol: &'static str,
+    /// Messages that odkit dropped since it does not read.
+    pub(super) dropped: u64,
+}
+
+/// The figures.
+pub(super) struct Stats {
+    start: Clock,
+    /// Bit rate of a bus that has none, in bit/s.
+    bit_rate: u32,
+    pub(super) frames: u64,
+    sent: BTreeMap<usize, Sent>,
+    /// The window that goes on, and the one before it: frames and bits.
+    since: Clock,
+    now: (u64, f64),
+    before: (u64, f64),
+}
+
+impl Stats {
+    pub(super) fn new(bit_rate: u32) -> Self {
+        let start = Clock::now();
+        Self {
+            start,
+            bit_rate,
+            frames: 0,
+            sent: BTreeMap::new(),
+            since: start,
+            now: (0, 0.0),
+            before: (0, 0.0),
+        }
+    }
+
+    /// A frame of the bus; `from`: the client that sent it; `cause`: the one that brought it about.
+    pub(super) fn frame(&mut self, frame: &Frame, from: Option<usize>, cause: Option<usize>) {
+        self.roll(Clock::now());
+        self.frames += 1;
+        self.now.0 += 1;
+        self.now.1 += bits(frame);
+        let id = frame.id().as_standard().unwrap_or_default();
+        if let Some(sent) = from.map(|from| self.sent.entry(from).or_default()) {
+            sent.frames += 1;
+            sent.requests += u64::from(matches!(id, 0x601..=0x67F));
+        } else if let Some(cause) = cause
+            && matches!(id, 0x581..=0x5FF)
+            && frame.data().first() == Some(&0x80)
+        {
+            self.sent.entry(cause).or_default().aborts += 1;
+        }
+    }
+
+    /// A client has left.
+    pub(super) fn forget(&mut self, client: usize) {
+        self.sent.remove(&client);
+    }
+
+    fn roll(&mut self, clock: Clock) {
+        let passed = clock.duration_since(self.since);
+        if passed < WINDOW {
+            return;
+        }
+        let now = std::mem::take(&mut self.now);
+        self.before = if passed < 2 * WINDOW { now } else { (0, 0.0) };
+        self.since = clock;
+    }
+
+    /// The figures as one line of JSON.
+    pub(super) fn json(&mut self, bus: &Bus, guests: &[Guest<'_>]) -> Json {
+        let (rate, frames, load) = self.load(bus);
+        let nodes = (1_u64..).zip(bus.devices()).map(|(number, device)| {
+            let node_id = match device.is_configured() {
+                true => u64::from(device.node_id().raw()).into(),
+                false => Json::Null,
+            };
+            Json::Object(vec![
+                ("number", number.into()),
+                ("node_id", node_id),
+                ("state", state(device).into()),
+            ])
+        });
+        let dropped = dropped(guests);
+        let clients = guests.iter().map(|guest| {
+            let sent = self.of(guest);
+            Json::Object(vec![
+                ("name", guest.name.into()),
+                ("protocol", guest.protocol.into()),
+                ("frames", sent.frames.into()),
+                ("dropped", guest.dropped.into()),
+                ("sdo_requests", sent.requests.into()),
+                ("sdo_aborts", sent.aborts.into()),
+            ])
+        });
+        Json::Object(vec![
+            ("version", 1.into()),
+            ("uptime", rounded(self.start.elapsed().as_secs_f64(), 1e3)),
+            ("frames", self.frames.into()),
+            ("frames_per_second", frames.into()),
+            ("bit_rate", u64::from(rate).into()),
+            ("load", rounded(load, 1e4)),
+            ("dropped", dropped.into()),
+            ("nodes", Json::List(nodes.collect())),
+            ("clients", Json::List(clients.collect())),
+        ])
+    }
+
+    /// The figures as lines for a person.
+    pub(super) fn text(&mut self, bus: &Bus, guests: &[Guest<'_>]) -> String {
+        let (rate, per_second, load) = self.load(bus);
+        let up = self.start.elapsed().as_secs_f64();
+        let dropped = dropped(guests);
+        let mut text = format!(
+            "up {up:.1} s, {}, {per_second} per second, load {:.1} % of {} kbit/s, {dropped} dropped\n",
+            plural(self.frames as usize, "frame"),
+            load * 100.0,
+            rate / 1000,
+        );
+        for (number, device) in (1..).zip(bus.devices()) {
+            let node = match device.is_configured() {
+                true => format!("node {}", device.node_id()),
+                false => String::from("no node ID"),
+            };
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{number}  {node}: {}", state(device));
+        }
+        for guest in guests {
+            let sent = self.of(guest);
+            let _ = writeln!(
+                text,
+                "{} ({}): {} sent, {} dropped, {}, {}",
+                guest.name,
+                guest.protocol,
+                plural(sent.frames as usize, "frame"),
+                guest.dropped,
+                plural(sent.requests as usize, "SDO request"),
+                plural(sent.aborts as usize, "abort"),
+            );
+        }
+        text
+    }
+
+    fn of(&self, guest: &Guest<'_>) -> Sent {
+        self.sent.get(&guest.number).copied().unwrap_or_default()
+    }
+
+    /// Bit rate in bit/s, frames per second, and the load from 0 to 1.
+    fn load(&mut self, bus: &Bus) -> (u32, u64, f64) {
+        self.roll(Clock::now());
+        let rate = bus.line.bit_rate.or(bus.bit_rate());
+        let rate = rate.map_or(self.bit_rate, |kbit| u32::from(kbit) * 1000);
+        let is_first = self.start == self.since;
+        let (frames, bits) = if is_first { self.now } else { self.before };
+        (rate, frames, bits / f64::from(rate.max(1)))
+    }
+}
+
+fn dropped(guests: &[Guest<'_>]) -> u64 {
+    guests.iter().map(|guest| guest.dropped).sum()
+}
+
+/// `operational`, or `off`.
+fn state(device: &VirtualDevice) -> String {
+    match device.is_powered() {
+        true => device.state().to_string(),
+        false => String::from("off"),
+    }
+}
+
+fn rounded(number: f64, parts: f64) -> Json {
+    Json::Number((number * parts).round() / parts)
+}
+
+/// Bits of a frame on the bus line, a tenth of them stuff bits.
+fn bits(frame: &Frame) -> f64 {
+    let head = if frame.id().is_extended() { 67 } else { 47 };
+    let data = 8 * frame.data().len();
+    f64::from(head + data as u32) * 1.1
+}

@@ -1,0 +1,56 @@
+//! Events of a device in words, for the terminal.
+
+use od_runtime::Event;
+
+use super::terminal::{news, note};
+use crate::bench::Bench;
+
+/// Tells the events of all devices since the last call, of those that are `wanted`.
+pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
+    let several = bench.bus.devices().len() > 1;
+    for number in 0..bench.bus.devices().len() {
+        let events = bench.bus.with(number, |device, _| {
+            let name = several.then(|| format!("node {}: ", device.node_id()));
+            let events: Vec<_> = std::iter::from_fn(|| device.poll_event()).collect();
+            (name.unwrap_or_default(), events)
+        });
+        let (name, events) = events.unwrap_or_default();
+        for event in events.into_iter().filter(&wanted) {
+            let tell = match event {
+                Event::StorageDamaged | Event::SaveCut { .. } => note,
+                _ => news,
+            };
+            if let Some(text) = words(event) {
+                tell(&format!("{name}{text}"));
+            }
+        }
+    }
+}
+
+/// Event in words; `None` for one that is not told.
+fn words(event: Event) -> Option<String> {
+    Some(match event {
+        Event::State(state) => format!("state: {state}"),
+        Event::Reset(_, node) => format!("reset, node {node}"),
+        Event::Saved(_) => "parameters saved".into(),
+        Event::Restored(_) => "defaults restored".into(),
+        Event::StorageDamaged => {
+            "the EEPROM is damaged or of another version; the device loaded defaults or an older set"
+                .into()
+        }
+        Event::SaveCut { factory: true } => {
+            "a save was interrupted; the device loaded its factory values".into()
+        }
+        Event::SaveCut { factory: false } => {
+            "a save was interrupted; the values saved before it remain".into()
+        }
+        Event::BusOff { .. } => "bus-off".into(),
+        Event::BusOn => "back from bus-off".into(),
+        Event::Error(error) => format!("error {:04X}h", error.code),
+        Event::ErrorCleared(code) => format!("error {code:04X}h cleared"),
+        Event::BitRate(code) => {
+            format!("LSS set bit rate index {code}; the simulated bus has no bit rate")
+        }
+        _ => return None,
+    })
+}
