@@ -19,6 +19,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::finding::{Finding, Place};
+use crate::scan::lines::with_ends;
 use crate::scan::names::{List, object_of};
 use crate::span::Span;
 
@@ -190,9 +191,13 @@ fn read(text: &str, origin: Origin) -> Vec<Part<'_>> {
         lines: Vec::new()
     }];
     let mut byte = 0;
-    for (number, piece) in (1..).zip(text.split_inclusive('\n')) {
+    for (number, piece) in (1..).zip(with_ends(text)) {
         let line = Line {
-            text: piece.into(),
+            // Another line may follow, whose first character would make `\r\n` of it.
+            text: match piece.strip_suffix('\r') {
+                Some(line) => format!("{line}\n").into(),
+                None => piece.into(),
+            },
             origin,
             number,
             byte,

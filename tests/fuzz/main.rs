@@ -1,64 +1,69 @@
-//! Fuzzing on a stable compiler (cargo-fuzz needs a nightly one): inputs are made by mutation,
-//! without coverage to steer them, and the same seed makes the same inputs. What an input must not do is panic, hang, or break
-//! what its target says must hold.
+//! Fuzzing on a stable compiler: inputs are made by mutation, without coverage to steer them.
+//! What an input must not do is panic, compute without end, or break what its target says must
+//! hold. `tests/fuzz/src/targets` has the targets, and `cargo xtask fuzz TARGET` runs the same
+//! ones with libFuzzer, which coverage steers.
 //!
 //! ```text
 //! cargo test -p od-tests --test fuzz                      about a second for each target
 //! cargo test -p od-tests --test fuzz -- slcan             one of them
-//! ODKIT_FUZZ_SECONDS=600 ODKIT_FUZZ_SEED=7 cargo test …   longer, and other inputs
-//! cargo test -p od-tests --test fuzz -- --replay FILE     one input, named as it was written
-//! cargo xtask test --long --only fuzz                     a minute each, 10 million SDO frames
+//! ODKIT_FUZZ_SECONDS=600 cargo test …                     longer
+//! ODKIT_FUZZ_SEED=7 cargo test …                          the inputs of seed 7
+//! ODKIT_FUZZ_SEED=7:1200 cargo test …                     the same, from number 1200 on
+//! cargo test -p od-tests --test fuzz -- --replay FILE     one input, with its steps
+//! cargo xtask test --long --only fuzz                     a minute each, 1,000 million frames
 //! ```
 //!
-//! An input that fails is made smaller, written to a file, and printed with the command that
-//! runs it again. Put it under `tests/fuzz/found/<target>/`, and every run tries it first.
+//! Each run has a new seed and prints it; one seed makes the same inputs on every machine. An
+//! input that fails is made smaller and written to `tests/fuzz/found/TARGET`, where every run
+//! tries it first: commit it with the correction. `tests/fuzz/corpus/TARGET` has inputs that
+//! libFuzzer found worth keeping.
 
-mod files;
-mod harness;
-mod mutate;
-mod random;
-mod target;
-mod targets;
-mod trace;
-
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use crate::harness::{Failure, Plan};
-use crate::target::Target;
-use crate::targets::ALL;
+use od_fuzz::files::repository;
+use od_fuzz::harness;
+use od_fuzz::plan::Plan;
+use od_fuzz::target::Target;
+use od_fuzz::targets::{self, ALL};
+use od_fuzz::trace;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     harness::quiet_panics();
-    if let Some(at) = arguments.iter().position(|word| word == "--replay") {
-        return replay(arguments.get(at + 1).map(Path::new));
+    match arguments.first().map(String::as_str) {
+        Some("--replay") => return replay(arguments.get(1).map(Path::new)),
+        Some("--seeds") => return seeds(arguments.get(1), arguments.get(2).map(Path::new)),
+        _ => {}
     }
-    let words: Vec<&String> = arguments
-        .iter()
-        .filter(|word| !word.starts_with('-'))
-        .collect();
-    let plan = Plan::from_environment();
+    let plan = match Plan::from_environment() {
+        Ok(plan) => plan,
+        Err(why) => {
+            eprintln!("{why}");
+            return ExitCode::from(2);
+        }
+    };
+    println!(
+        "fuzz: seed {0}; ODKIT_FUZZ_SEED={0} makes the same inputs again",
+        plan.seed
+    );
+    let is_named = |target: &&Target| {
+        let mut words = arguments.iter().filter(|word| !word.starts_with('-'));
+        let is_any = words.clone().next().is_none();
+        is_any || words.any(|word| target.name.contains(word.as_str()))
+    };
     let start = Instant::now();
     let (mut passed, mut failed) = (0, 0);
-    for target in ALL {
-        if !words.is_empty() && !words.iter().any(|word| target.name.contains(word.as_str())) {
-            continue;
-        }
-        let began = Instant::now();
+    for target in ALL.iter().filter(is_named) {
         match harness::run(target, &plan) {
-            Ok(count) => {
+            Ok(done) => {
                 passed += 1;
-                let seconds = began.elapsed().as_secs_f64();
-                println!(
-                    "fuzz {} ... ok: {count} inputs in {seconds:.1} s",
-                    target.name
-                );
+                println!("fuzz {} ... ok: {}", target.name, done.shown(target));
             }
             Err(failure) => {
                 failed += 1;
-                report(target, &failure, plan.seed);
+                println!("{}", failure.shown(target));
             }
         }
     }
@@ -80,32 +85,16 @@ fn exit_code(well: bool) -> ExitCode {
     }
 }
 
-fn report(target: &Target, failure: &Failure, seed: u64) {
-    println!("fuzz {} ... FAILED with seed {seed}", target.name);
-    println!("  {}", failure.why.replace('\n', "\n  "));
-    println!("  input: {}", mutate::shown(&failure.input));
-    match harness::keep(target.name, &failure.input) {
-        Ok(path) => println!(
-            "  again: cargo test -p od-tests --test fuzz -- --replay {}\n",
-            path.display()
-        ),
-        Err(error) => println!("  it could not be written to a file: {error}\n"),
-    }
-}
-
-/// Runs one file; its folder's name, or the start of its own, names the target.
+/// Runs one file. Its folder is called after its target, or the file is: `sdo-1.input`.
 fn replay(path: Option<&Path>) -> ExitCode {
-    let Some((path, target)) = path.and_then(|path| Some((path, target_of(path)?))) else {
-        let names: Vec<&str> = ALL.iter().map(|target| target.name).collect();
+    let Some((path, target)) = path.and_then(|path| Some((there(path), target_of(path)?))) else {
         eprintln!(
-            "--replay takes a file that is called after its target, like {}-1.input; the \
-             targets are {}",
-            names[0],
-            names.join(", ")
+            "--replay needs a file in a folder that is called after its target; {}",
+            names()
         );
         return ExitCode::from(2);
     };
-    let input = match std::fs::read(path) {
+    let input = match std::fs::read(&path) {
         Ok(input) => input,
         Err(error) => {
             eprintln!("{}: {error}", path.display());
@@ -120,6 +109,36 @@ fn replay(path: Option<&Path>) -> ExitCode {
         Err(why) => println!("{}: {why}", target.name),
     }
     exit_code(result.is_ok())
+}
+
+/// Writes what a target starts from into a folder: `cargo xtask fuzz` begins there, too.
+fn seeds(name: Option<&String>, folder: Option<&Path>) -> ExitCode {
+    let target = name.and_then(|name| targets::of(name));
+    let (Some(target), Some(folder)) = (target, folder) else {
+        eprintln!("--seeds needs a target and a folder; {}", names());
+        return ExitCode::from(2);
+    };
+    for (number, seed) in target.all_seeds().iter().enumerate() {
+        let path = folder.join(format!("seed-{number:04}"));
+        if let Err(error) = std::fs::write(&path, seed) {
+            eprintln!("{}: {error}", path.display());
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn names() -> String {
+    let names: Vec<&str> = ALL.iter().map(|target| target.name).collect();
+    format!("the targets are {}", names.join(", "))
+}
+
+/// The path itself, or from the root of the repository: cargo runs tests in their package.
+fn there(path: &Path) -> PathBuf {
+    match path.exists() {
+        true => path.into(),
+        false => repository("").join(path),
+    }
 }
 
 fn target_of(path: &Path) -> Option<&'static Target> {

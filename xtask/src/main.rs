@@ -1,13 +1,14 @@
 //! `cargo xtask`: everything around the product, and no product code.
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
-//! check, `mutants` checks the tests, `corpus` reads a folder of device files,
-//! `size` says what a node costs, `wasm-pack` makes the npm package. Standard library only.
+//! check, `mutants` checks the tests, `fuzz` runs libFuzzer, `corpus` reads a folder of device
+//! files, `size` says what a node costs, `wasm-pack` makes the npm package. Standard library only.
 
 mod bundle;
 mod console;
 mod corpus;
 mod error;
+mod fuzz;
 mod lock;
 mod mutants;
 mod packages;
@@ -45,6 +46,9 @@ usage: cargo xtask <command> [options]
         change the code of the node, the client and the rules, one thing at a time,
         and check that a test notices; K is 0 to N-1; takes hours, and continues
         where it stopped
+  fuzz TARGET [--minutes N]
+        run libFuzzer on one of the targets in tests/fuzz, 5 minutes without
+        --minutes; installs a nightly compiler and cargo-fuzz
   shots
         build and serve the page, write its screenshots to target/shots/
   size [--format table|json] [--accept]
@@ -98,6 +102,10 @@ fn run(args: &[String]) -> Result<ExitCode> {
         "mutants" => {
             let options = mutants::Options::parse(rest)?;
             mutants::run(&Repo::locate()?, &Console::terminal(), &options)?;
+        }
+        "fuzz" => {
+            let options = fuzz::Options::parse(rest)?;
+            fuzz::run(&Repo::locate()?, &Console::terminal(), &options)?;
         }
         "shots" => {
             if let Some(extra) = rest.first() {

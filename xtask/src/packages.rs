@@ -11,8 +11,11 @@ pub(crate) const BENCHES: &str = "od-benches";
 /// A peer whose generated code takes as long to compile as all of odkit.
 pub(crate) const PEER: &str = "od-benches-zencan";
 
+/// What is fuzzed, for the tests from outside and for libFuzzer.
+pub(crate) const FUZZ: &str = "od-fuzz";
+
 /// Packages that are not for crates.io; the playground is for npm.
-pub(crate) const UNPUBLISHED: [&str; 5] = [BENCHES, PEER, PAGE.0, TESTS, "xtask"];
+pub(crate) const UNPUBLISHED: [&str; 6] = [BENCHES, PEER, PAGE.0, TESTS, FUZZ, "xtask"];
 
 /// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
 /// tests from outside that have to notice them, beside the package's own.

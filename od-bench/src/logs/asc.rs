@@ -42,7 +42,10 @@ pub(super) fn reader<'t>(lines: &[&'t str]) -> Reader<'t> {
         }
         let time = candump::seconds(first).filter(|_| first.contains('.'));
         let time = time.ok_or("the time stamp is missing")?;
-        last = if is_relative { last + time } else { time };
+        last = match is_relative {
+            true => time.saturating_add(last),
+            false => time,
+        };
         record(
             Instant::from_micros(last),
             &words.collect::<Vec<_>>(),

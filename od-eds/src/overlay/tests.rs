@@ -124,3 +124,19 @@ fn findings_are_told_where_they_come_from() {
         line.split('=').nth(1).unwrap_or("")
     );
 }
+
+/// What ends a line in an EDS ends one here.
+#[test]
+fn any_line_end() {
+    for end in ["\n", "\r\n", "\r"] {
+        let base = BASE.replace('\n', end);
+        let over = ["[2000]", "DefaultValue=4", "[2001]", "Remove=1", "[3]"].join(end);
+        let made = overlay(&base, &over).unwrap_or_else(|faults| panic!("{end:?}: {faults:?}"));
+        assert_eq!(number(&made, 0x2000, 0), Some(4), "{end:?}");
+        assert_eq!(number(&made, 0x2001, 1), None, "{end:?}");
+        let broken = made.text.find("[3]").unwrap_or_default();
+        let (origin, span) = made.locate(crate::scan::lines::span(&made.text, broken));
+        assert_eq!((origin, span.line), (Origin::Overlay, 5), "{end:?}");
+        assert_eq!(over.as_bytes()[span.start as usize], b'[', "{end:?}");
+    }
+}

@@ -28,7 +28,9 @@ impl<'a> Fields<'a> {
     /// The fields of a section; of duplicate keys, the first.
     pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Finding>) -> Self {
         let mut pairs = placed.pairs;
-        let mut twice = duplicates(&pairs, log).into_iter().peekable();
+        let twice = duplicates(&pairs, log);
+        let repeated: Vec<_> = twice.iter().map(|at| pairs[*at].0.value.clone()).collect();
+        let mut twice = twice.into_iter().peekable();
         let mut at = 0;
         pairs.retain(|_| {
             let keep = twice.next_if_eq(&at).is_none();
@@ -40,7 +42,8 @@ impl<'a> Fields<'a> {
             let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
             let numeric = coded.any(|known| known.is(key));
             if numeric && before_comment(value).is_empty() {
-                log.push(i0320::finding(key).about(address));
+                let is_single = !repeated.iter().any(|other| other.eq_ignore_ascii_case(key));
+                log.push(i0320::finding(key, is_single).about(address));
                 value.value = Cow::Borrowed("");
             }
         }

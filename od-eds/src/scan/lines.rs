@@ -4,6 +4,8 @@
 //! goes on: what is not plain INI is a [`Fault`], plain data that the reader makes a finding of.
 
 use alloc::borrow::Cow;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::scan::placed::{Placed, Text};
@@ -92,33 +94,43 @@ pub(crate) fn span(text: &str, at: usize) -> Span {
     }
 }
 
-/// The lines of a text; `\n`, `\r\n` and `\r` end one.
+/// The lines of a text; `\n`, `\r\n` and `\r` end one. A byte order mark before it is skipped.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
-    let mut rest = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-    let mut number = 0;
-    core::iter::from_fn(move || {
-        if rest.is_empty() {
-            return None;
-        }
-        let start = text.len() - rest.len();
-        let (line, behind) = match rest.find(['\n', '\r']) {
-            Some(at) => {
-                let end = match rest[at..].starts_with("\r\n") {
-                    true => at + 2,
-                    false => at + 1,
-                };
-                (&rest[..at], &rest[end..])
-            }
-            None => (rest, ""),
-        };
-        rest = behind;
-        number += 1;
-        Some(Line {
-            text: line,
+    let body = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    let mut next = text.len() - body.len();
+    (1..).zip(with_ends(body)).map(move |(number, line)| {
+        let start = next;
+        next += line.len();
+        Line {
+            text: line.trim_end_matches(['\n', '\r']),
             start,
             number,
-        })
+        }
     })
+}
+
+/// The lines of a text, each with its end.
+pub(crate) fn with_ends(mut rest: &str) -> impl Iterator<Item = &str> {
+    core::iter::from_fn(move || {
+        let end = match rest.find(['\n', '\r']) {
+            Some(at) if rest[at..].starts_with("\r\n") => at + 2,
+            Some(at) => at + 1,
+            None => rest.len(),
+        };
+        let (line, behind) = rest.split_at(end);
+        rest = behind;
+        (!line.is_empty()).then_some(line)
+    })
+}
+
+/// A text as a comment on a line of its own. odkit reads a few comments there; this is not one.
+pub(crate) fn comment(text: &str) -> String {
+    let starts = |word: &str| {
+        let own = text.trim_start().get(..word.len());
+        own.is_some_and(|own| own.eq_ignore_ascii_case(word))
+    };
+    let is_read = ["StorageLocation", "odkit-allow"].into_iter().any(starts);
+    format!("{}{text}", if is_read { ";;" } else { ";" })
 }
 
 /// Scans a text; a byte order mark before it is skipped.

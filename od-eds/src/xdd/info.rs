@@ -141,9 +141,14 @@ fn dummies(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
         let Some(entry) = reader.attribute(dummy, "entry") else {
             continue;
         };
-        if let Some((key, value)) = entry.split_once('=') {
+        let Some((key, value)) = entry.split_once('=') else {
+            continue;
+        };
+        // Anything else could not be a key of an EDS.
+        let key = key.trim();
+        if key.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
             let value = Spanned::new(value.trim().to_string(), entry.span);
-            made.put(key.trim(), Some(value));
+            made.put(key, Some(value));
         }
     }
     Some(made.placed)

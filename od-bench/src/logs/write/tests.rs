@@ -179,6 +179,14 @@ fn what_cannot_be_read_is_named() {
 }
 
 #[test]
+fn times_end_with_the_last_one() {
+    let text = "base hex  timestamps relative\n   0.5 1 80 Rx d 0\n \
+                18446744073709.5 1 80 Rx d 0\n 18446744073709.5 1 80 Rx d 0\n";
+    let log = read(text.as_bytes()).expect("a log");
+    assert_eq!(log.records.last().map(|one| one.at), Some(Instant::MAX));
+}
+
+#[test]
 fn clocks_of_the_wall_are_taken_off() {
     let log = read(b"(1436509052.5) can0 080#\n(1436509053.0) can0 080#\n").expect("a log");
     let times: Vec<_> = log.records.iter().map(|one| one.at.as_micros()).collect();

@@ -14,8 +14,12 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// The finding about a key without the value that it needs.
-pub(crate) fn finding(key: &Text<'_>) -> Finding {
+/// The finding about a key without the value that it needs. Where the key follows once more,
+/// odkit would read that one if the line were gone, so there is no fix.
+pub(crate) fn finding(key: &Text<'_>, is_single: bool) -> Finding {
     let finding = RULE.at(key.span).fact("name", &*key.value);
-    finding.fix(Fix::safe().remove_line(key.span))
+    match is_single {
+        true => finding.fix(Fix::safe().remove_line(key.span)),
+        false => finding,
+    }
 }

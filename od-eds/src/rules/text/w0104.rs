@@ -2,6 +2,7 @@ use alloc::format;
 
 use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
+use crate::scan::lines;
 use crate::span::Spanned;
 
 pub(crate) static RULE: Rule = Rule {
@@ -18,7 +19,8 @@ pub(crate) static RULE: Rule = Rule {
 
 /// The finding about text behind a header, which becomes a comment below it.
 pub(crate) fn finding(name: &str, text: Spanned<&str>) -> Finding {
-    let comment = format!("\n;{}", text.trim_start_matches([';', '#']));
+    let comment = lines::comment(text.trim_start_matches([';', '#']));
+    let comment = format!("\n{comment}");
     let finding = RULE.given(&text).fact("name", name);
     finding.fix(Fix::safe().replace(text.span, comment))
 }

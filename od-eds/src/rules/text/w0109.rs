@@ -3,6 +3,7 @@ use alloc::format;
 use crate::fact::Key;
 use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
+use crate::scan::lines;
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
@@ -20,7 +21,10 @@ pub(crate) static RULE: Rule = Rule {
 /// The finding about a value with a comment behind it, which gets a line of its own.
 pub(crate) fn finding(key: Key, given: &Text<'_>, value: &str) -> Finding {
     let comment = given.get(value.len()..).unwrap_or_default().trim();
-    let comment = format!("{value}\n;{}", &comment[comment.len().min(1)..]);
+    let comment = format!(
+        "{value}\n{}",
+        lines::comment(&comment[comment.len().min(1)..])
+    );
     let finding = RULE.given(given).key(key);
     finding
         .fact("right", value)

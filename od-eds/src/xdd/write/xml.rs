@@ -91,7 +91,7 @@ pub(super) fn escape(text: &str) -> String {
             '"' => out.push_str("&quot;"),
             '\t' | '\n' | '\r' => out.push_str(&format!("&#{};", character as u32)),
             '\u{FFFE}' | '\u{FFFF}' => out.push(' '),
-            c if c.is_control() => out.push(' '),
+            c if c < ' ' => out.push(' '),
             c => out.push(c),
         }
     }

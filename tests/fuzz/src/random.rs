@@ -2,10 +2,11 @@
 
 /// xorshift64*: the same numbers for the same seed, on every machine.
 #[derive(Clone, Debug)]
-pub(crate) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
+    /// Chance that begins here.
+    pub fn new(seed: u64) -> Self {
         // Small seeds differ in few bits; SplitMix64's last step spreads them.
         let mut bits = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
         bits = (bits ^ bits >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -13,7 +14,14 @@ impl Random {
         Self((bits ^ bits >> 31) | 1)
     }
 
-    pub(crate) fn next(&mut self) -> u64 {
+    /// The chance of one input of a seed.
+    pub fn of(seed: u64, input: u64) -> Self {
+        Self::new(Self::new(seed).0 ^ input.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+    }
+
+    /// 48 bits.
+    #[expect(clippy::should_implement_trait, reason = "it never ends")]
+    pub fn next(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
@@ -21,7 +29,7 @@ impl Random {
     }
 
     /// A number below `end`; 0 where that is 0.
-    pub(crate) fn below(&mut self, end: usize) -> usize {
+    pub fn below(&mut self, end: usize) -> usize {
         match end {
             0 => 0,
             _ => (self.next() % end as u64) as usize,
@@ -29,12 +37,16 @@ impl Random {
     }
 
     /// A size from 1 to 2 to the power of `bits`, small ones as likely as large ones.
-    pub(crate) fn size(&mut self, bits: usize) -> usize {
+    pub fn size(&mut self, bits: usize) -> usize {
         let bits = self.below(bits);
         1 + self.below(1 << bits)
     }
 
-    pub(crate) fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+    /// One of these.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }
 }

@@ -49,7 +49,7 @@ fn run(input: &[u8]) {
         match act {
             Act::Frame(frame) => {
                 bus.receive(&frame);
-                quiet(&mut bus, &frame, before);
+                quiet(&mut bus, Some(&frame), before);
             }
             Act::Time(micros) => pass(&mut bus, micros),
             Act::Power(micros) => {
@@ -72,6 +72,8 @@ fn run(input: &[u8]) {
                 }
             }
         }
+        // What the world outside caused is not the answer to the next frame.
+        quiet(&mut bus, None, before);
         let device = &bus.devices()[0];
         // Whatever is shown has to be there at any moment.
         let _ = (device.leds(), device.shaft(bus.now()), device.bit_rate());
@@ -82,23 +84,27 @@ fn run(input: &[u8]) {
     recovers(&mut bus, &faults);
 }
 
-/// One frame is answered with a few, and in the state Stopped with none of SDO or PDO.
-fn quiet(bus: &mut Bus, frame: &Frame, before: State) {
+/// One frame, or one change outside, is answered with a few frames; in the state Stopped with
+/// none of SDO, PDO or EMCY.
+fn quiet(bus: &mut Bus, frame: Option<&Frame>, before: State) {
     let after = bus.devices()[0].state();
+    let cause = || frame.map_or("a change outside".to_string(), Frame::to_string);
     let mut count = 0;
     while let Some(sent) = bus.poll() {
+        trace(|| format!("< {:?} {}", sent.at, sent.frame));
         count += 1;
         if before == State::Stopped && after == State::Stopped {
-            let about_lss = frame.id().as_standard() == Some(0x7E5);
+            let about_lss = frame.is_some_and(|frame| frame.id().as_standard() == Some(0x7E5));
             assert!(
-                about_lss || frame.is_remote(),
-                "stopped, it answers {frame} with {}",
+                about_lss || frame.is_some_and(Frame::is_remote),
+                "stopped, it answers {} with {}",
+                cause(),
                 sent.frame
             );
         }
     }
     // A block of 127 segments is the longest answer there is.
-    assert!(count <= 140, "{count} answers to {frame}");
+    assert!(count <= 140, "{count} answers to {}", cause());
 }
 
 fn pass(bus: &mut Bus, micros: u64) {

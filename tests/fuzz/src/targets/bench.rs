@@ -16,8 +16,8 @@ pub(super) fn kinds() -> usize {
 
 /// Devices of CiA 301 to the letter: block transfers, RPDOs, strings and domains.
 const FILES: [&str; 2] = [
-    include_str!("../../interop/strings.eds"),
-    include_str!("../../eds/small.eds"),
+    include_str!("../../../interop/strings.eds"),
+    include_str!("../../../eds/small.eds"),
 ];
 
 /// A device without power.
@@ -131,8 +131,11 @@ pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
         }
         29 => Act::Frame(Frame::standard(0x601 + own, &[0x40, a, b, c, 0, 0, 0, 0])),
         30 => {
-            let id = match a % 2 {
-                0 => CanId::standard(number as u16),
+            // Some are those of the RPDOs.
+            let rpdo = 0x200 + 0x100 * u16::from(a >> 6) + own;
+            let id = match a % 4 {
+                0 | 2 => CanId::standard(number as u16),
+                1 => CanId::standard(rpdo),
                 _ => CanId::extended(number),
             };
             let data = [b, c, rest[0], rest[1], rest[2], rest[3], rest[4], rest[5]];

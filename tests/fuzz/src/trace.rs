@@ -6,12 +6,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static TRACE: AtomicBool = AtomicBool::new(false);
 
 /// From now on the targets print their steps.
-pub(crate) fn begin() {
+pub fn begin() {
     TRACE.store(true, Ordering::Relaxed);
 }
 
 /// Prints a step of an input that is replayed.
-pub(crate) fn trace(step: impl FnOnce() -> String) {
+pub fn trace(step: impl FnOnce() -> String) {
     if TRACE.load(Ordering::Relaxed) {
         println!("{}", step());
     }

@@ -1,6 +1,7 @@
 //! The SDO server against any sequence of frames: it answers what it must and nothing else, and
 //! what it acknowledged is what is read.
 
+mod changes;
 mod input;
 mod model;
 

@@ -32,7 +32,7 @@ const NUMBERS: &[&str] = &[
 ];
 
 /// A new input: a seed with some changes, now and then nothing but words and chance.
-pub(crate) fn input(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
+pub fn input(target: &Target, seeds: &[Vec<u8>], random: &mut Random) -> Vec<u8> {
     let mut bytes = match random.below(20) {
         0 => Vec::new(),
         _ => seeds
@@ -128,7 +128,7 @@ fn number(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
 
 /// Smaller inputs that may still fail: without one piece after the other, large ones first.
 /// What an input consists of stays whole: `unit` bytes each.
-pub(crate) fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
+pub fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
     let mut best = input.to_vec();
     let mut pieces = best.len().div_ceil(2 * unit);
     while pieces > 0 {
@@ -149,7 +149,7 @@ pub(crate) fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> 
 }
 
 /// An input for people, as far as it is short.
-pub(crate) fn shown(input: &[u8]) -> String {
+pub fn shown(input: &[u8]) -> String {
     const SHOWN: usize = 400;
     let mut text: String = input[..input.len().min(SHOWN)].escape_ascii().to_string();
     if input.len() > SHOWN {

@@ -8,11 +8,12 @@ use std::collections::{BTreeMap, VecDeque};
 
 use od_bench::Bus;
 use od_model::{Access, Address, Entry};
-use od_runtime::{Event, Frame, Instant};
+use od_runtime::{Event, Frame};
 use od_wire::nmt::State;
 
 use super::super::bench;
-use super::input::{COUPLED, LIVE};
+use super::changes;
+use super::input::LIVE;
 use crate::target::Enough;
 use crate::trace::trace;
 
@@ -45,8 +46,10 @@ pub(super) struct Model {
     block: Option<Address>,
     /// Requests that an answer may still come for, oldest first.
     requests: VecDeque<[u8; 8]>,
-    /// A save takes its time; until then answers come later than their requests.
-    late_until: Option<Instant>,
+    /// A save takes its time; until its end answers come later than their requests.
+    is_saving: bool,
+    /// The first of the requests is that of the save, not one that waits for its end.
+    is_awaited: bool,
     /// Segments of a block that may still come.
     segments: u32,
     block_upload: bool,
@@ -71,7 +74,8 @@ impl Model {
             download: None,
             block: None,
             requests: VecDeque::new(),
-            late_until: None,
+            is_saving: false,
+            is_awaited: false,
             segments: 0,
             block_upload: false,
             min_dlc,
@@ -111,31 +115,31 @@ impl Model {
         let talks = matches!(self.state(), State::PreOperational | State::Operational);
         // While a block comes in, only 80h is none of its segments.
         let is_abort = match self.block {
-            Some(_) => frame.bytes()[0] == 0x80,
-            None => frame.bytes()[0] >> 5 == 4,
+            Some(_) if !self.is_saving => frame.bytes()[0] == 0x80,
+            _ => frame.bytes()[0] >> 5 == 4,
         };
         let is_heard =
             frame.id() == own && !frame.is_remote() && frame.dlc() >= self.min_dlc && talks;
         let is_request = is_heard && !is_abort;
         if is_request {
             // While a device saves, the newest request waits in place of the one before.
-            let waits = usize::from(self.requests.front().is_some_and(is_save));
-            self.requests.truncate(waits);
+            self.requests.truncate(usize::from(self.is_awaited));
             self.requests.push_back(*frame.bytes());
             self.segments = if frame.bytes()[0] >> 5 == 5 { 127 } else { 0 };
         }
+        let may_change = changes::by_frame(&self.bus.devices()[0], frame);
         self.bus.receive(frame);
         self.events();
         self.answers(is_request, &format!("{frame}"));
-        if is_request && !self.requests.is_empty() && self.late_until.is_none() {
-            if is_save(frame.bytes()) {
-                self.late_until = Some(self.bus.now().plus_millis(2000));
-            } else {
-                self.requests.clear();
-            }
+        if !self.is_saving {
+            self.settle();
+        }
+        if let Some(objects) = may_change {
+            self.compare(&format!("by {frame}"), &objects);
         }
         if is_heard && is_abort {
             self.requests.clear();
+            self.is_awaited = false;
             self.forget();
         }
         if self.state() == State::Stopped {
@@ -154,10 +158,24 @@ impl Model {
     pub(super) fn wait(&mut self, micros: u64) {
         let end = self.bus.now().plus_micros(micros);
         self.bus.advance(end);
-        self.events();
-        self.answers(self.late_until.is_some(), "time");
-        if self.late_until.is_some_and(|until| until < self.bus.now()) {
-            self.late_until = None;
+        let saves = self.events();
+        self.answers(self.is_saving, "time");
+        match saves {
+            0 => {}
+            1 => self.settle(),
+            // The one that waited has ended, too.
+            _ => {
+                self.requests.clear();
+                self.settle();
+            }
+        }
+    }
+
+    /// No save is under way, but what was not answered may have begun one.
+    fn settle(&mut self) {
+        self.is_saving = self.requests.back().is_some_and(is_save);
+        self.is_awaited = self.is_saving;
+        if !self.is_saving {
             self.requests.clear();
         }
     }
@@ -165,7 +183,7 @@ impl Model {
     /// Looks at everything that was sent.
     fn answers(&mut self, may_answer: bool, cause: &str) {
         if self.is_ambiguous() {
-            std::panic::panic_any(Enough);
+            Enough::give_up();
         }
         let mut count = 0;
         while let Some(sent) = self.bus.poll() {
@@ -230,9 +248,6 @@ impl Model {
         }
         let request = self.take_request(&data, cause);
         let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
-        if is_save(&request) {
-            self.late_until = None;
-        }
         self.block_upload = request[0] >> 5 == 5;
         match data[0] {
             0x80 => self.forget(),
@@ -336,13 +351,10 @@ impl Model {
         let held = self.requests.iter();
         let held = held.map(|data| u16::from_le_bytes([data[1], data[2]]));
         let written: Vec<u16> = held.chain([address.index]).collect();
-        let mut coupled = written.clone();
-        for group in COUPLED {
-            if written.iter().any(|index| group.contains(index)) {
-                coupled.extend_from_slice(group);
-            }
-        }
-        self.compare(&format!("by a write to {address}"), &coupled);
+        self.compare(
+            &format!("by a write to {address}"),
+            &changes::coupled(&written),
+        );
     }
 
     /// Nothing but these objects may have changed.
@@ -358,19 +370,24 @@ impl Model {
         }
     }
 
-    /// A reset and a restore take values back.
-    fn events(&mut self) {
+    /// A reset and a restore take values back. Returns how many saves have ended.
+    fn events(&mut self) -> usize {
         let events = self.bus.with(0, |device, _| {
             std::iter::from_fn(|| device.poll_event()).collect::<Vec<_>>()
         });
-        let takes_back = |event: &Event| matches!(event, Event::Reset(..) | Event::Restored(_));
-        if events.unwrap_or_default().iter().any(takes_back) {
+        let events = events.unwrap_or_default();
+        let is_reset = |event: &Event| matches!(event, Event::Reset(..));
+        let takes_back = |event: &Event| is_reset(event) || matches!(event, Event::Restored(_));
+        if events.iter().any(takes_back) {
             self.learn_all();
         }
-        if self.state() == State::Initialising {
+        if self.state() == State::Initialising || events.iter().any(is_reset) {
             self.forget();
             self.requests.clear();
-            self.late_until = None;
+            self.is_saving = false;
+            self.is_awaited = false;
         }
+        let ends = |event: &&Event| matches!(event, Event::Saved(_) | Event::StorageDamaged);
+        events.iter().filter(ends).count()
     }
 }

@@ -1,8 +1,6 @@
 //! Scripts of `odkit run`: every text is read or refused with a place in it, and what is read
 //! runs to its end or to a line that says why not.
 
-use std::panic::panic_any;
-
 use od_bench::VirtualDevice;
 use od_bench::script::{Bare, Host, Origin, Script, run as run_script};
 use od_runtime::{Frame, Instant, NodeId};
@@ -72,7 +70,7 @@ pub(super) const WORDS: &[&str] = &[
 ];
 
 /// The built-in devices, and an end to what only takes long.
-struct Bounded(u32);
+pub(super) struct Bounded(pub(super) u32);
 
 impl Host for Bounded {
     fn device(
@@ -87,7 +85,7 @@ impl Host for Bounded {
     fn frame(&mut self, _: Instant, _: Origin, _: &Frame) {
         self.0 += 1;
         if self.0 > 10_000 {
-            panic_any(Enough);
+            Enough::give_up();
         }
     }
 }
@@ -120,7 +118,7 @@ fn run(input: &[u8]) {
 }
 
 /// Hours of a simulated bus are minutes of ours.
-fn is_short(text: &str) -> bool {
+pub(super) fn is_short(text: &str) -> bool {
     let words = text.split([' ', '\n', '\t', '(', ')', '\r']);
     words.into_iter().all(|word| {
         let end = word

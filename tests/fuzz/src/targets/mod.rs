@@ -5,23 +5,40 @@ mod candump;
 mod console;
 mod eds;
 mod eeprom;
+mod fix;
+mod lesson;
+mod logs;
 mod node;
+mod overlay;
 mod script;
 mod sdo;
 mod slcan;
 mod socketcand;
+mod structure;
+mod xdd;
 
 use crate::target::Target;
 
 /// Every target.
-pub(crate) const ALL: &[Target] = &[
+pub const ALL: &[Target] = &[
     sdo::TARGET,
     node::TARGET,
     eeprom::TARGET,
+    structure::TARGET,
     eds::TARGET,
+    xdd::TARGET,
+    overlay::TARGET,
+    fix::TARGET,
     script::TARGET,
+    lesson::TARGET,
     console::TARGET,
     slcan::TARGET,
     socketcand::TARGET,
     candump::TARGET,
+    logs::TARGET,
 ];
+
+/// The target of this name.
+pub fn of(name: &str) -> Option<&'static Target> {
+    ALL.iter().find(|target| target.name == name)
+}

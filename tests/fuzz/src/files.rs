@@ -2,13 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-/// A folder of the repository.
-pub(crate) fn repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+/// A file or folder of the repository.
+pub fn repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .join(path)
+}
+
+/// A path as seen from the root of the repository, if it is in there.
+pub fn short(path: &Path) -> PathBuf {
+    let root = repository("");
+    let inside = path.strip_prefix(&root).map(PathBuf::from);
+    inside.unwrap_or_else(|_| path.into())
 }
 
 /// The text files of a folder with these endings, its own folders included, up to a length.
-pub(crate) fn files(folder: &str, endings: &[&str], longest: usize) -> Vec<Vec<u8>> {
+///
+/// # Panics
+/// If the folder or one of its files cannot be read.
+pub fn files(folder: &str, endings: &[&str], longest: usize) -> Vec<Vec<u8>> {
     let mut found = Vec::new();
     let mut folders = vec![repository(folder)];
     while let Some(folder) = folders.pop() {

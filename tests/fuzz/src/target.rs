@@ -1,0 +1,75 @@
+//! One thing that is fuzzed, as the harness sees it.
+
+use std::panic::resume_unwind;
+
+use crate::files::repository;
+use crate::found;
+use crate::random::Random;
+
+/// One thing that takes input from outside.
+#[derive(Clone, Copy)]
+pub struct Target {
+    /// Its name in commands and folders.
+    pub name: &'static str,
+    /// Panics where something does not hold.
+    pub run: fn(&[u8]),
+    /// Inputs to start from.
+    pub seeds: fn() -> Vec<Vec<u8>>,
+    /// Makes an input without a seed, where chance alone means something.
+    pub make: Option<fn(&mut Random) -> Vec<u8>>,
+    /// What the input's language knows.
+    pub words: &'static [&'static str],
+    /// Does it consist of lines?
+    pub is_text: bool,
+    /// Inputs are cut here.
+    pub longest: usize,
+    /// Inputs consist of pieces of so many bytes.
+    pub unit: usize,
+    /// Frames of an input. A target with this runs for a number of frames instead of a time.
+    pub frames: Option<fn(&[u8]) -> u64>,
+}
+
+impl Target {
+    /// Defaults for what a target does not set.
+    pub const PLAIN: Self = Self {
+        name: "",
+        run: |_| {},
+        seeds: Vec::new,
+        make: None,
+        words: &[],
+        is_text: false,
+        longest: 4096,
+        unit: 1,
+        frames: None,
+    };
+
+    /// Inputs to start from, those that coverage found among them (`tests/fuzz/corpus`).
+    pub fn all_seeds(&self) -> Vec<Vec<u8>> {
+        let mut seeds = (self.seeds)();
+        seeds.extend(found::load(&repository("tests/fuzz/corpus"), self.name));
+        seeds
+    }
+
+    /// Number of inputs, or of frames, that an input counts for.
+    pub fn weight(&self, input: &[u8]) -> u64 {
+        self.frames.map_or(1, |frames| frames(input))
+    }
+
+    /// What [`weight`](Self::weight) counts.
+    pub(crate) const fn unit_name(&self) -> &'static str {
+        match self.frames {
+            Some(_) => "frames",
+            None => "inputs",
+        }
+    }
+}
+
+/// A run that a target gives up without a verdict.
+pub struct Enough;
+
+impl Enough {
+    /// Gives up the run. No panic hook hears of it.
+    pub fn give_up() -> ! {
+        resume_unwind(Box::new(Self))
+    }
+}
