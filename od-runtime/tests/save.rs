@@ -2,8 +2,8 @@
 //! 6.3; manual 003, chapter 5.1.3.1).
 
 mod support;
-use od_model::{Access, DataType};
-use od_runtime::{CutSave, Event, NoApplication, SaveAnswer, SavedCobIds};
+use od_model::{Access, Address, DataType};
+use od_runtime::{CutSave, Event, NoApplication, Restore, SaveAnswer, SavedCobIds};
 use support::{Bench, rows, unsigned};
 
 const SAVE: &str = "601#2310100173617665";
@@ -208,4 +208,59 @@ fn a_difference_that_leaves_the_eleven_bits_is_none() {
     bench.node = od_runtime::Node::new(od_runtime::NodeId::new(127).expect("1 to 127"));
     bench.power_on();
     assert_eq!(bench.value(0x1014, 0), 0xFF, "the default");
+}
+
+/// A node with groups: 2300h has a twin among the application's objects, and so has 2004h, which
+/// nobody saves.
+fn twins(restore: Restore) -> Bench {
+    let mut all = rows();
+    let rw = |index, sub| {
+        (
+            index,
+            sub,
+            DataType::Unsigned32,
+            Access::Rw,
+            false,
+            unsigned(0),
+        )
+    };
+    all.extend([0x2300, 0x2301, 0x6200, 0x6201].map(|index| rw(index, 0)));
+    all.extend([0x1010, 0x1011].map(|index| rw(index, 3)));
+    let mut bench = Bench::with(all, NoApplication);
+    bench.profile.store.twins = const {
+        &[
+            [Address::new(0x2300, 0), Address::new(0x6200, 0)],
+            [Address::new(0x2004, 0), Address::new(0x6201, 0)],
+        ]
+    };
+    bench.profile.store.restore = restore;
+    bench.profile.pdo.event_on_change = false;
+    bench.power_on();
+    for (index, value) in [("0023", 7), ("0123", 8), ("0062", 9), ("0162", 10)] {
+        bench.ask(&format!("601#23{index}00{value:02X}000000"));
+    }
+    bench.ask("601#2F04200003000000");
+    bench
+}
+
+#[test]
+fn a_group_is_saved_with_the_twins_of_its_objects() {
+    let mut bench = twins(Restore::AfterReset);
+    assert_eq!(bench.ask("601#2310100373617665"), "581#6010100300000000");
+    bench.power_cycle();
+    let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
+    assert_eq!(values, [7, 0, 9, 10, 0], "2301h is in another group");
+    // Taken back together as well.
+    bench.ask("601#2300230005000000");
+    assert_eq!(bench.ask("601#231110036C6F6164"), "581#6011100300000000");
+    bench.power_cycle();
+    assert_eq!((bench.value(0x2300, 0), bench.value(0x6200, 0)), (0, 0));
+}
+
+#[test]
+fn a_twin_that_is_not_saved_is_not_restored() {
+    let mut bench = twins(Restore::AtOnce);
+    bench.ask("601#231110036C6F6164");
+    let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
+    assert_eq!(values, [0, 8, 0, 0, 3]);
 }

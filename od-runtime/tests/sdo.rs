@@ -250,3 +250,30 @@ fn three_bytes_go_expedited_both_ways() {
     assert_eq!(bench.ask("601#270220007172"), "581#8002200013000706");
     assert_eq!(bench.ask("601#4002200000000000"), "581#4702200041424300");
 }
+
+#[test]
+fn transfers_that_a_family_lacks_are_unknown_commands() {
+    let mut bench = bench();
+    bench.profile.sdo.block = false;
+    assert_eq!(bench.ask("601#A40320007F000000"), "581#8003200001000405");
+    assert_eq!(bench.ask("601#C603200007000000"), "581#8003200001000405");
+    // No block has begun, so this is a segment without a transfer.
+    assert_eq!(bench.ask("601#0101020304050607"), "581#8001020301000405");
+    assert_eq!(bench.ask("601#2102200003000000"), "581#6002200000000000");
+    bench.profile.sdo.segmented_download = false;
+    assert_eq!(bench.ask("601#2102200003000000"), "581#8002200001000405");
+    assert_eq!(bench.ask("601#0961626300000000"), "581#8061626301000405");
+    assert_eq!(bench.ask("601#2702200061626300"), "581#6002200000000000");
+}
+
+#[test]
+fn the_end_of_a_block_upload_comes_last() {
+    for before in [&[][..], &["A300000000000000"]] {
+        let mut bench = bench();
+        bench.ask("601#A40220007F000000");
+        for request in before {
+            assert_eq!(bench.send(&format!("601#{request}")).len(), 1);
+        }
+        assert_eq!(bench.ask("601#A100000000000000"), "581#8002200001000405");
+    }
+}
