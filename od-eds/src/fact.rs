@@ -26,10 +26,12 @@ pub enum Key {
     ObjFlags,
     /// CANopenEditor's comment `;StorageLocation=`.
     StorageLocation,
+    /// Room of a string or DOMAIN in the store: a field of a macro call, and no key of an EDS.
+    Capacity,
 }
 
 impl Key {
-    /// All of them.
+    /// Those of an EDS.
     pub const ALL: [Self; 13] = [
         Self::ParameterName,
         Self::ObjectType,
@@ -62,6 +64,7 @@ impl Key {
             Self::HighLimit => "HighLimit",
             Self::ObjFlags => "ObjFlags",
             Self::StorageLocation => "StorageLocation",
+            Self::Capacity => "Capacity",
         }
     }
 

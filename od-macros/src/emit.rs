@@ -210,7 +210,10 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
 fn node(out: &mut String, root: &str, tables: &Tables, services: &str) {
     let dictionary = tables.dictionary();
     let pdos = dictionary.tpdos().max(dictionary.rpdos());
-    let bytes = dictionary.longest();
+    let mut bytes = dictionary.longest();
+    if dictionary.has_streams() {
+        bytes = bytes.max(BLOCK);
+    }
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
@@ -226,6 +229,9 @@ pub type Node = {root}::Node<Device, {pdos}, {bytes}>;
 "
     );
 }
+
+/// Bytes of the longest block of an SDO block transfer: so much of a streamed value is in the buffer.
+const BLOCK: usize = 127 * 7;
 
 /// A literal of bytes. Most are 0, which `escape_ascii` would write with four letters.
 fn bytes(out: &mut String, bytes: impl Iterator<Item = u8>) {

@@ -14,11 +14,11 @@ pub(crate) struct Field {
     pub(crate) place: Place,
 }
 
-const NAMES: [&str; 9] = [
-    "name", "type", "access", "default", "low", "high", "mappable", "save", "code",
+const NAMES: [&str; 10] = [
+    "name", "type", "access", "default", "low", "high", "mappable", "save", "code", "capacity",
 ];
-const KEYS: &str =
-    "`name`, `type`, `access`, `default`, `low`, `high`, `mappable`, `save` or `code`";
+const KEYS: &str = "`name`, `type`, `access`, `default`, `low`, `high`, `mappable`, `save`, `code` or \
+     `capacity`";
 
 /// Reads the fields up to the closing brace; reports and leaves out invalid ones.
 pub(crate) fn read(body: ParseStream, report: &mut Report) -> Vec<Field> {
@@ -80,6 +80,7 @@ fn field(body: ParseStream) -> syn::Result<(Ident, Field)> {
         "access" => (Change::Access(words::ACCESS.read(body)?), None),
         "save" => (Change::Save(words::GROUPS.read(body)?), None),
         "code" => (Change::Code(words::CODES.read(body)?), None),
+        "capacity" => (Change::Capacity(capacity(body)?), None),
         "mappable" => (Change::Mappable(boolean(body)?), None),
         _ => {
             let (raw, last) = value(body)?;
@@ -100,6 +101,14 @@ fn text(body: ParseStream) -> syn::Result<String> {
     body.parse::<syn::LitStr>()
         .map(|literal| literal.value())
         .map_err(|e| syn::Error::new(e.span(), "expected a text\nhelp: `name = \"Gear\"`"))
+}
+
+/// Bytes; two more are the length, which a slot of 16 bits has to have room for.
+fn capacity(body: ParseStream) -> syn::Result<u16> {
+    let wrong = |span| syn::Error::new(span, "expected a number of bytes from 0 to 65533");
+    let literal: syn::LitInt = body.parse().map_err(|_| wrong(body.span()))?;
+    let bytes = literal.base10_parse().ok().filter(|bytes| *bytes <= 65533);
+    bytes.ok_or_else(|| wrong(literal.span()))
 }
 
 fn boolean(body: ParseStream) -> syn::Result<bool> {

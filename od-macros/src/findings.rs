@@ -179,6 +179,7 @@ impl Vocabulary for Row {
             Key::LowLimit => "`low`",
             Key::HighLimit => "`high`",
             Key::StorageLocation => "`save`",
+            Key::Capacity => "`capacity`",
             other => other.name(),
         }
     }

@@ -59,12 +59,14 @@
 //!           | "mappable" "=" true | false
 //!           | "save" "=" communication | application | manufacturer | none
 //!           | "code" "=" var | array | record | domain
+//!           | "capacity" "=" 1024                  bytes of a string or DOMAIN that the store holds
 //! value     = 42 | -1 | 0x1F | 1.5 | true | "text" | b"bytes" | none
 //!           | "$NODEID" [ "+" 0x180 ]              "NODEID" inside macro_rules
 //! ```
 //!
 //! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
-//! mappable unless it says so. A RECORD or an ARRAY is added first and its members
+//! mappable unless it says so. `capacity` is 64, of a DOMAIN that a master can write 1,024, and never less
+//! than the default needs; with 0 the store holds nothing, and the application streams the value. A RECORD or an ARRAY is added first and its members
 //! after it; sub-index 0 is added automatically unless an `add` gives it, and follows where a
 //! patch adds or removes members. `none` takes a
 //! default or a limit away.

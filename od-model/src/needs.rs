@@ -1,5 +1,6 @@
 //! Sizes that a node needs to serve a dictionary, known at compile time.
 
+use crate::access::Access;
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;
 use crate::value::Literal;
@@ -33,7 +34,7 @@ impl Dictionary<'_> {
     }
 
     /// Bytes of the longest value, which one SDO transfer carries: the size of a number, the
-    /// capacity of a string or domain, the length of a `const` one.
+    /// capacity of a string or domain, the length of a `const` one; of a streamed one a segment.
     pub const fn longest(&self) -> usize {
         let entries = self.entries();
         let mut longest = 0;
@@ -49,10 +50,33 @@ impl Dictionary<'_> {
     }
 }
 
+impl Dictionary<'_> {
+    /// Whether an application has to stream one of the values ([`Entry::is_streamed`]).
+    pub const fn has_streams(&self) -> bool {
+        let entries = self.entries();
+        let mut at = 0;
+        while at < entries.len() {
+            if entries[at].is_streamed() {
+                return true;
+            }
+            at += 1;
+        }
+        false
+    }
+}
+
 impl Entry {
+    /// Whether it is a string or domain without a place in the store, which an application streams.
+    pub const fn is_streamed(&self) -> bool {
+        self.is_variable() && self.slot.len == 0 && !matches!(self.access, Access::Const)
+    }
+
     /// Bytes of the longest value that the entry can have, without the two of a string's length
-    /// in the store.
+    /// in the store; the seven of a segment where the value is streamed.
     pub const fn longest(&self) -> usize {
+        if self.is_streamed() {
+            return 7;
+        }
         if let Some(size) = self.data_type.size() {
             return size;
         }

@@ -113,6 +113,110 @@ impl Signals {
     }
 }
 
+/// A part of a streamed value.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Chunk<'b> {
+    /// Bytes of the value before this part.
+    pub at: u32,
+    /// The bytes; none only where the value is empty.
+    pub bytes: &'b [u8],
+    /// The value ends with this part, and all of it came whole.
+    pub last: bool,
+}
+
+/// Reason why a stream does not do what the SDO server asks.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Halt {
+    /// Never: the transfer ends with this abort code.
+    Abort(AbortCode),
+    /// Not now: the server keeps the master waiting for its answer, and asks the same again at this
+    /// moment or at [`Node::handle_change`](crate::Node::handle_change), whichever is first.
+    Until(Instant),
+}
+
+impl From<AbortCode> for Halt {
+    fn from(code: AbortCode) -> Self {
+        Self::Abort(code)
+    }
+}
+
+/// End of a streamed transfer.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
+pub enum StreamEnd {
+    /// All bytes went to the stream, or to the master.
+    Complete,
+    /// The server aborted it: a code of the stream itself, a wrong checksum, the end of the
+    /// master's time ([`AbortCode::Timeout`]).
+    Aborted(AbortCode),
+    /// The master aborted it, with this code.
+    Cancelled(u32),
+    /// The master began another transfer instead.
+    Replaced,
+    /// NMT reset, NMT stop, or bus-off.
+    Cut,
+}
+
+/// A value that the application moves part by part, so that nobody has to hold it: a program, a
+/// record of measurements.
+///
+/// [`Application::stream`] says which objects have one. The SDO server checks access, toggle bits,
+/// sequence and CRC; the stream sets the limits of length, and nothing calls
+/// [`validate`](Application::validate) or [`written`](Application::written). A download reaches the
+/// stream before the server knows that all of it comes: that a transfer is all or nothing is the
+/// stream's own business, up to the part that is [`last`](Chunk::last).
+///
+/// [`end`](Self::end) follows once where a `begin` succeeded. Only the end of power comes without
+/// notice: what is still open at a [`Reset::PowerOn`] is gone.
+pub trait Stream {
+    /// A master begins to write a value, of `size` bytes if it says so.
+    ///
+    /// # Errors
+    /// [`Halt`]; [`AbortCode::TooLong`] where a value of this size does not fit.
+    fn begin_download(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        size: Option<u32>,
+    ) -> Result<(), Halt>;
+
+    /// Takes the next part, up to the size of the server's buffer. In a block transfer it is a block or
+    /// less.
+    ///
+    /// # Errors
+    /// [`Halt`]; with [`Halt::Until`] nothing was taken, and the part comes again.
+    fn write(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        chunk: Chunk<'_>,
+    ) -> Result<(), Halt>;
+
+    /// A master begins to read the value. Returns its length in bytes.
+    ///
+    /// # Errors
+    /// [`Halt`].
+    fn begin_upload(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<u32, Halt>;
+
+    /// Fills `to` with the bytes of the value from `at` on; they are within its length. What a
+    /// master did not confirm is asked for again.
+    ///
+    /// # Errors
+    /// [`Halt`]; with [`Halt::Until`] the content of `to` does not count.
+    fn read(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
+        at: u32,
+        to: &mut [u8],
+    ) -> Result<(), Halt>;
+
+    /// The transfer is over.
+    fn end(&mut self, cx: &mut Context<'_, '_>, address: Address, end: StreamEnd) {
+        let _ = (cx, address, end);
+    }
+}
+
 /// Behaviour of a device: checks writes, reacts to them, and provides live values.
 ///
 /// Every function has an empty default, so a device without behaviour is [`NoApplication`].
@@ -158,6 +262,14 @@ pub trait Application {
     /// Reacts to a value that a master wrote; the store holds it.
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         let _ = (cx, address);
+    }
+
+    /// Returns the stream of a string or DOMAIN whose value the store does not hold; `None`: the store
+    /// holds it. A node that knows its dictionary as a type asks only if `object_dictionary!` gave a
+    /// value `capacity = 0`, which is no place in the store; any other node asks for each value.
+    fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
+        let _ = address;
+        None
     }
 
     /// A save takes the values of the store: `begins` before it, else after it. A value that

@@ -41,6 +41,12 @@ pub trait Device {
     const BEHAVIOUR: bool = true;
     /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
     const EVENTS: bool = true;
+    /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on
+    /// where the dictionary has one, or is known at run time.
+    const STREAMS: bool = match &Self::DICTIONARY {
+        Some(dictionary) => dictionary.has_streams(),
+        None => true,
+    };
 }
 
 /// Device whose dictionary is known at run time only.

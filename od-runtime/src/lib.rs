@@ -92,7 +92,9 @@ mod store;
 pub use od_wire::emcy::Emcy;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
-pub use application::{Application, Context, NoApplication, Reset, Signals};
+pub use application::{
+    Application, Chunk, Context, Halt, NoApplication, Reset, Signals, Stream, StreamEnd,
+};
 pub use device::{AnyDevice, Device};
 pub use kind::DeviceKind;
 pub use lent::Lent;

@@ -177,3 +177,22 @@ fn a_node_that_runs_partly_serves_what_it_can() {
         format!("581#80032000{abort:08X}")
     );
 }
+
+#[test]
+fn a_streamed_value_needs_a_segment() {
+    let mut description = od_eds::Description::default();
+    let mut log = od_eds::EntryDescription::new("Log", DataType::Domain);
+    log.access = od_eds::Spanned::from(Access::Rw);
+    log.capacity = Some(0);
+    let log = od_eds::ObjectDescription::var(log);
+    description.objects.insert(0x2000, log);
+    let tables = od_eds::Tables::new(&description);
+    let dictionary = tables.dictionary();
+    assert_eq!((dictionary.store_len(), dictionary.longest()), (0, 7));
+    assert_eq!(start::<0, 7>(dictionary, 0), (Ok(()), true));
+    let (needed, room) = (7, 6);
+    assert_eq!(
+        start::<0, 6>(dictionary, 0),
+        (Err(Unfit::SdoBuffer { needed, room }), false)
+    );
+}

@@ -52,11 +52,12 @@ pub use od_model::{
     ObjectCode, Slot, typed,
 };
 pub use od_runtime::{
-    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, CobId, CommunicationReset,
-    Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile, ErrorReset, Event, Frame,
-    Instant, LengthRule, Lent, LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice,
-    PdoProfile, Profile, Reset, Restore, SaveAnswer, SavedCobIds, SdoProfile, Signals, Store,
-    StoreProfile, StoreTooSmall, TextTooLong, Unfit, encoder, storage,
+    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId,
+    CommunicationReset, Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile,
+    ErrorReset, Event, Frame, Halt, Instant, LengthRule, Lent, LssProfile, NmtProfile,
+    NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore, SaveAnswer,
+    SavedCobIds, SdoProfile, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd,
+    TextTooLong, Unfit, encoder, storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 

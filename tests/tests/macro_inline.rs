@@ -100,3 +100,28 @@ fn a_handle_points_at_the_slot_of_its_entry() {
     assert_eq!(bench::DEVICE_TYPE.slot().len, 0, "const is not stored");
     assert_eq!(bench::STORE_LEN, d.store_len());
 }
+
+object_dictionary! {
+    /// A device whose application streams a value.
+    pub mod logger {
+        add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+        add 0x1001 { name = "Error register"; type = u8; default = 0 }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+        add 0x2000 { name = "Log"; type = DOMAIN; access = rw; capacity = 0 }
+        add 0x2001 { name = "Note"; type = str; access = rw; default = "empty"; capacity = 300 }
+    }
+}
+
+#[test]
+fn a_capacity_is_room_in_the_store_and_0_is_a_stream() {
+    // 1001h, 1018h, and the note with its length.
+    assert_eq!(logger::STORE_LEN, 1 + 4 + 302);
+    let log = logger::DICTIONARY.find(logger::LOG.address()).unwrap();
+    assert!(log.is_streamed() && logger::DICTIONARY.has_streams());
+    assert!(!bench::DICTIONARY.has_streams(), "a `const` text is none");
+    // A block of 127 segments, where the longest value of the store has 300 bytes.
+    let _: logger::Node = odkit::Node::<logger::Device, 0, 889>::new(odkit::NodeId::ONE);
+    const { assert!(<logger::Device as odkit::Device>::STREAMS) }
+    const { assert!(!<bench::Device as odkit::Device>::STREAMS) }
+}

@@ -89,6 +89,9 @@ pub struct EntryDescription {
     /// Which sub-index of 1010h saves it; `None` where the text does not say,
     /// which means the group of the index for what a master can write.
     pub group: Option<Spanned<Group>>,
+    /// Bytes of a string or DOMAIN that the store holds, if its default is not longer; 0: none, as the
+    /// application streams the value. `None`: 64 bytes, or 1,024 of a DOMAIN that a master can write.
+    pub capacity: Option<u16>,
     /// ObjFlags, 0 where missing.
     pub flags: u32,
     /// Keys that this version of odkit has no field for, in file order.
@@ -110,6 +113,7 @@ impl PartialEq for EntryDescription {
             high,
             parameter,
             group,
+            capacity,
             flags,
             extra,
             span: _,
@@ -123,6 +127,7 @@ impl PartialEq for EntryDescription {
             && *high == other.high
             && *parameter == other.parameter
             && *group == other.group
+            && *capacity == other.capacity
             && *flags == other.flags
             && *extra == other.extra
     }
@@ -141,6 +146,7 @@ impl EntryDescription {
             high: None,
             parameter: None,
             group: None,
+            capacity: None,
             flags: 0,
             extra: Vec::new(),
             span: Span::default(),

@@ -145,7 +145,7 @@ impl Tables {
         }
         let value = fitting(&from.parameter, data_type).or(fitting(&from.default, data_type));
         let default = self.literal(value, data_type, names);
-        let len = slot_len(data_type, *from.access, value);
+        let len = slot_len(data_type, from, value);
         let slot = Slot {
             offset: if len == 0 { 0 } else { *offset },
             len,
@@ -214,8 +214,8 @@ fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value
 }
 
 /// Bytes that a value takes in the store; see [`Slot`].
-fn slot_len(data_type: DataType, access: Access, value: Option<&Value>) -> u16 {
-    if access == Access::Const {
+fn slot_len(data_type: DataType, from: &EntryDescription, value: Option<&Value>) -> u16 {
+    if *from.access == Access::Const {
         return 0;
     }
     if let Some(size) = data_type.size() {
@@ -226,11 +226,13 @@ fn slot_len(data_type: DataType, access: Access, value: Option<&Value>) -> u16 {
         Some(Value::Bytes(bytes)) => bytes.len(),
         _ => 0,
     };
-    let room = match (data_type, access.writable()) {
-        (DataType::Domain, true) => DOMAIN_CAPACITY,
-        (_, true) => STRING_CAPACITY,
-        (_, false) if given == 0 => STRING_CAPACITY,
-        (_, false) => 0,
+    let room = match (from.capacity, from.access.writable()) {
+        (Some(0), _) if given == 0 => return 0,
+        (Some(capacity), _) => capacity.into(),
+        (None, true) if data_type == DataType::Domain => DOMAIN_CAPACITY,
+        (None, true) => STRING_CAPACITY,
+        (None, false) if given == 0 => STRING_CAPACITY,
+        (None, false) => 0,
     };
     (2 + given.max(room)).min(u16::MAX as usize) as u16
 }
@@ -270,6 +272,28 @@ mod tests {
         check(Unsigned8, Value::NodeId(0x80), Literal::NodeId(0x80));
         check(Unsigned8, Value::NodeId(0x81), Literal::None);
         check(Unsigned64, Value::NodeId(1), Literal::None);
+    }
+
+    #[test]
+    fn a_capacity_makes_room_in_the_store() {
+        let slot = |default: &str, capacity| {
+            let entry = EntryDescription {
+                access: Spanned::from(Access::Rw),
+                capacity,
+                ..entry(DataType::VisibleString, Value::Text(default.into()))
+            };
+            let mut description = Description::default();
+            description
+                .objects
+                .insert(0x2000, ObjectDescription::var(entry));
+            Tables::new(&description).entries()[0].slot.len
+        };
+        assert_eq!((slot("", None), slot("", Some(0))), (66, 0));
+        assert_eq!((slot("abc", Some(0)), slot("abc", Some(5))), (5, 7));
+        assert_eq!(
+            (slot("", Some(65533)), slot("", Some(65535))),
+            (65535, 65535)
+        );
     }
 
     #[test]

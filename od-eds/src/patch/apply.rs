@@ -188,6 +188,7 @@ fn fill(entry: &mut EntryDescription, edit: &Edit, findings: &mut Vec<Finding>) 
             Change::Access(access) => entry.access = Spanned::new(*access, span),
             Change::Mappable(mappable) => entry.mappable = Spanned::new(*mappable, span),
             Change::Save(group) => entry.group = Some(Spanned::new(*group, span)),
+            Change::Capacity(bytes) => entry.capacity = Some(*bytes),
             Change::Type(data_type) => {
                 entry.data_type = Some(Spanned::new(*data_type, span));
                 for (key, value) in [

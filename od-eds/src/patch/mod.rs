@@ -62,6 +62,8 @@ pub enum Change {
     Access(Access),
     Mappable(bool),
     Save(Group),
+    /// In bytes.
+    Capacity(u16),
     /// `None` takes the default away.
     Default(Option<Raw>),
     /// `None` takes the limit away.
@@ -80,6 +82,7 @@ impl Change {
             Self::Access(_) => Key::AccessType,
             Self::Mappable(_) => Key::PdoMapping,
             Self::Save(_) => Key::StorageLocation,
+            Self::Capacity(_) => Key::Capacity,
             Self::Default(_) => Key::DefaultValue,
             Self::Low(_) => Key::LowLimit,
             Self::High(_) => Key::HighLimit,
@@ -147,6 +150,8 @@ impl Edit {
         mappable(bool) => Change::Mappable;
         /// Says which sub-index of 1010h saves it.
         save(Group) => Change::Save;
+        /// Says how many bytes of a string or DOMAIN the store holds.
+        capacity(u16) => Change::Capacity;
         /// Says the default.
         default(Raw) => |raw: Raw| Change::Default(Some(raw));
         /// Says the smallest value.

@@ -91,6 +91,7 @@ impl Reader<'_> {
             high,
             parameter,
             group: fields.group,
+            capacity: None,
             flags: self.flags(fields, &mut unread),
             extra: Vec::new(),
             span: fields.header,

@@ -86,7 +86,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         // NMT reset node may begin the NMT state alone again.
         let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
         let light = light.is_some_and(|switch| objects.has_bits(switch));
-        self.sdo.forget();
+        self.sdo.cut(objects);
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();

@@ -94,7 +94,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         self.mute = Some(Mute::BUS_OFF);
         self.event(Event::BusOff { restarts });
         self.discard_frames();
-        self.sdo.forget();
+        self.sdo.cut(objects);
         self.stop_pdos();
         let set = self.emcy.set_silent(&mut objects.store, profile.bus_off);
         if !(restarts && profile.off.behaviour_if_off) {

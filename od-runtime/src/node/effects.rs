@@ -47,7 +47,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
         self.save_at = None;
         let failed = (!objects.complete_save()).then_some(objects.profile().store.failed);
-        let (answer, held) = self.sdo.finish(failed);
+        let (answer, held) = self.sdo.finish(objects, failed);
         if let Some(answer) = answer {
             self.answer(answer);
         }

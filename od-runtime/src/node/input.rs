@@ -79,10 +79,10 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if node.heartbeat.handle_timeout(now) {
             node.push_error_control(node.state as u8);
         }
-        if D::BLOCK
-            && let Some(abort) = node.sdo.handle_timeout(now)
+        if (D::BLOCK || D::STREAMS)
+            && let Some(answer) = node.sdo.handle_timeout(&mut objects)
         {
-            node.answer(abort);
+            node.answer(answer);
         }
         if Machines::<D, PDO, SDO>::HAS_MONITOR {
             node.monitor.handle_timeout::<D>(now);
@@ -110,6 +110,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             return;
         }
         node.tick_at = objects.application(|application, context| application.tick(context));
+        if let Some(answer) = node.sdo.handle_change(&mut objects) {
+            node.answer(answer);
+        }
         node.finish(&mut objects);
     }
 }

@@ -19,8 +19,6 @@ mod input;
 mod output;
 mod own;
 
-use core::marker::PhantomData;
-
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
@@ -52,7 +50,6 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
 /// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Debug)]
 struct Machines<D, const PDO: usize, const SDO: usize> {
-    device: PhantomData<D>,
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: Option<NodeId>,
@@ -70,7 +67,7 @@ struct Machines<D, const PDO: usize, const SDO: usize> {
     /// frames are, and this way they do not go through memory in pieces.
     answer: Option<u64>,
     events: Fifo<Event, 16>,
-    sdo: sdo::Server<SDO>,
+    sdo: sdo::Server<D, SDO>,
     heartbeat: error_control::Producer,
     monitor: error_control::Monitor,
     lss: lss::Slave,
@@ -168,7 +165,6 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
 impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     const fn new(node_id: NodeId) -> Self {
         Self {
-            device: PhantomData,
             node_id,
             made_with: Some(node_id),
             configured: true,
@@ -245,7 +241,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             _ => self.stop_pdos(),
         }
         if state == State::Stopped {
-            self.sdo.forget();
+            self.sdo.cut(objects);
         }
     }
 

@@ -52,7 +52,8 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             }
         }
         if D::BLOCK {
-            return node.sdo.poll().map(|segment| node.response(segment));
+            let segment = node.sdo.poll(&mut objects);
+            return segment.map(|segment| node.response(segment));
         }
         None
     }
@@ -122,7 +123,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             consider(self.monitor.deadline::<D>());
         }
         consider(self.mute.map(|mute| mute.until));
-        if D::BLOCK {
+        if D::BLOCK || D::STREAMS {
             consider(self.sdo.deadline());
         }
         if D::STORAGE {

@@ -7,7 +7,7 @@ use core::marker::PhantomData;
 
 use od_model::{Address, Entry};
 
-use crate::application::{Application, Context, Reset};
+use crate::application::{Application, Context, Halt, Reset, Stream};
 use crate::device::Device;
 use crate::limits::{self, Outside};
 use crate::profile::{Profile, SaveAnswer};
@@ -19,6 +19,20 @@ use outbox::Saving;
 
 pub(crate) use communication::check_mapped;
 pub(crate) use outbox::{Effect, Outbox};
+
+/// Reason why [`Objects::read`] has no bytes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Unread {
+    Abort(AbortCode),
+    /// The application streams the value.
+    Streamed,
+}
+
+impl From<AbortCode> for Unread {
+    fn from(code: AbortCode) -> Self {
+        Self::Abort(code)
+    }
+}
 
 /// The device for the length of one call, with what the services add.
 pub(crate) struct Objects<'c, D> {
@@ -70,10 +84,10 @@ impl<'c, D: Device> Objects<'c, D> {
         &'b mut self,
         address: Address,
         number: &'b mut [u8; 8],
-    ) -> Result<&'b [u8], AbortCode> {
-        let (entry, plain) = self.store.locate(address)?;
-        if plain.len == 0 && !entry.access.readable() {
-            return Err(AbortCode::WriteOnly);
+    ) -> Result<&'b [u8], Unread> {
+        let (entry, plain) = self.store.locate(address).map_err(AbortCode::from)?;
+        if plain.len == 0 {
+            self.check_special(entry)?;
         }
         if address.index == 0x1003 {
             self.unused_error(address)?;
@@ -83,6 +97,40 @@ impl<'c, D: Device> Objects<'c, D> {
             [] => self.store.bytes(entry, number),
             bytes => bytes,
         })
+    }
+
+    /// Whether a value that is not [plain](od_model::Place) can be read from the store.
+    #[inline(never)]
+    fn check_special(&mut self, entry: &Entry) -> Result<(), Unread> {
+        if !entry.access.readable() {
+            return Err(Unread::Abort(AbortCode::WriteOnly));
+        }
+        if self.streams(entry) {
+            return Err(Unread::Streamed);
+        }
+        Ok(())
+    }
+
+    /// Whether the application streams the value.
+    pub(crate) fn streams(&mut self, entry: &Entry) -> bool {
+        D::STREAMS && entry.is_variable() && self.application.stream(entry.address).is_some()
+    }
+
+    /// Calls the stream of a value.
+    pub(crate) fn stream<R>(
+        &mut self,
+        address: Address,
+        call: impl FnOnce(&mut dyn Stream, &mut Context<'_, 'c>) -> Result<R, Halt>,
+    ) -> Result<R, Halt> {
+        self.application(|application, context| match application.stream(address) {
+            Some(stream) => call(stream, context),
+            None => Err(Halt::Abort(AbortCode::NoResource)),
+        })
+    }
+
+    /// A stream took all of a value.
+    pub(crate) fn streamed(&mut self, address: Address) {
+        self.outbox.effect(Effect::Written(address));
     }
 
     /// Has the application bring a live value up to date.

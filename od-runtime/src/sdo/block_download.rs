@@ -1,37 +1,41 @@
-//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.12). The value is in the server's buffer,
-//! which each call borrows.
+//! Block download (CiA 301, chapters 7.2.4.3.9–7.2.4.3.12). The value is in the server's buffer.
 
 use core::cmp::Ordering;
 
 use od_wire::AbortCode;
-use od_wire::sdo::{Response, crc16};
+use od_wire::sdo::{Response, crc16_after};
+
+use super::window::Window;
 
 /// A block download under way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockDownload {
     /// The client makes a CRC.
     crc: bool,
+    /// CRC of the bytes before those in the buffer.
+    pub(super) crc_before: u16,
     size: Option<u32>,
-    /// Bytes in the buffer, with the unused ones of the last segment.
-    received: usize,
     /// Segments that this block has.
     block_size: u8,
     /// The last segment of this block that came in sequence.
     ack: u8,
     /// The client said that no more segments follow.
     last: bool,
+    /// Bytes of the last segment that there was no room for; they have to be unused.
+    cut: u8,
 }
 
 impl BlockDownload {
-    /// Of `size` bytes, if the client announced a size.
-    pub(super) fn new(buffer: &[u8], crc: bool, size: Option<u32>) -> Self {
+    /// Of `size` bytes, if the client announced a size, into a buffer with this room.
+    pub(super) fn new(room: usize, crc: bool, size: Option<u32>) -> Self {
         Self {
             crc,
+            crc_before: 0,
             size,
-            received: 0,
-            block_size: room(buffer, 0),
+            block_size: segments(room),
             ack: 0,
             last: false,
+            cut: 0,
         }
     }
 
@@ -46,57 +50,75 @@ impl BlockDownload {
     }
 
     /// A segment. One that is out of sequence is ignored: the response at the end of the block
-    /// tells the client where to go on.
-    pub(super) fn segment(
+    /// tells the client where to go on. Returns whether the block is over.
+    pub(super) fn segment<const N: usize>(
         &mut self,
-        buffer: &mut [u8],
+        window: &mut Window<N>,
         data: &[u8; 8],
-    ) -> Result<Option<Response>, AbortCode> {
+    ) -> Result<bool, AbortCode> {
         let [head, bytes @ ..] = data;
         let (sequence, last) = (head & 0x7F, head & 0x80 != 0);
         if sequence == 0 || sequence > self.block_size {
             return Err(AbortCode::InvalidSequence);
         }
-        let is_block_over = last || sequence == self.block_size;
         if sequence == self.ack + 1 {
-            let tail = buffer.get_mut(self.received..).unwrap_or(&mut []);
+            let len = window.room().min(7);
             // The unused bytes of the last segment may be past the buffer's end.
-            if tail.len() < 7 && !last {
+            if len < 7 && !last {
                 return Err(AbortCode::OutOfMemory);
             }
-            let len = tail.len().min(7);
-            tail[..len].copy_from_slice(&bytes[..len]);
-            self.received += 7;
+            window.put(&bytes[..len])?;
+            window.len += len;
+            self.cut = (7 - len) as u8;
             self.ack = sequence;
             self.last = last;
         }
-        if !is_block_over {
-            return Ok(None);
-        }
-        self.block_size = room(buffer, self.received);
-        Ok(Some(Response::BlockDownloadResponse {
-            ack: core::mem::take(&mut self.ack),
-            block_size: self.block_size,
-        }))
+        Ok(last || sequence == self.block_size)
     }
 
-    /// The end of the transfer: returns the length of the value, if it came whole.
-    pub(super) fn end(&self, buffer: &[u8], unused: u8, crc: u16) -> Result<usize, AbortCode> {
-        let len = self.received.saturating_sub(unused.into());
+    /// The block is over: the answer to it. The next one goes into a buffer with this room.
+    pub(super) fn confirm(&mut self, room: usize) -> Response {
+        self.block_size = segments(room);
+        Response::BlockDownloadResponse {
+            ack: core::mem::take(&mut self.ack),
+            block_size: self.block_size,
+        }
+    }
+
+    /// Checks whether as much came as was announced, or less; the last segment comes yet.
+    pub(super) fn check_size<const N: usize>(&self, window: &Window<N>) -> Result<(), AbortCode> {
+        match self.size {
+            Some(size) if window.end() > size as usize => Err(AbortCode::TooLong),
+            _ => Ok(()),
+        }
+    }
+
+    /// The end of the transfer: returns how many bytes of the buffer end the value, if it came whole.
+    pub(super) fn end<const N: usize>(
+        &self,
+        window: &Window<N>,
+        unused: u8,
+        crc: u16,
+    ) -> Result<usize, AbortCode> {
+        let received = window.end() + usize::from(self.cut);
+        let len = received.saturating_sub(unused.into());
         match self.size.map(|size| len.cmp(&(size as usize))) {
             Some(Ordering::Less) => return Err(AbortCode::TooShort),
             Some(Ordering::Greater) => return Err(AbortCode::TooLong),
             Some(Ordering::Equal) | None => {}
         }
-        let data = buffer.get(..len).ok_or(AbortCode::OutOfMemory)?;
-        if self.crc && crc16(data) != crc {
+        let len = len.saturating_sub(window.start);
+        if len > window.len {
+            return Err(AbortCode::OutOfMemory);
+        }
+        if self.crc && crc16_after(self.crc_before, window.first(len)) != crc {
             return Err(AbortCode::Crc);
         }
         Ok(len)
     }
 }
 
-/// Segments that the buffer has room for, 1–127.
-fn room(buffer: &[u8], received: usize) -> u8 {
-    (buffer.len().saturating_sub(received) / 7).clamp(1, 127) as u8
+/// Segments that a buffer with this room takes, 1–127.
+fn segments(room: usize) -> u8 {
+    (room / 7).clamp(1, 127) as u8
 }

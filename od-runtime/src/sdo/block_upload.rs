@@ -1,14 +1,18 @@
-//! Block upload (CiA 301, chapters 7.2.4.3.13–7.2.4.3.15). The value is in the server's buffer,
-//! which each call borrows.
+//! Block upload (CiA 301, chapters 7.2.4.3.13–7.2.4.3.15). The value is in the server's
+//! buffer.
 
 use od_wire::AbortCode;
-use od_wire::sdo::{Response, block_segment, block_segments, crc16, unused};
+use od_wire::sdo::{Response, block_segment, block_segments, crc16_after, unused};
 
 /// A block upload under way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockUpload {
     len: usize,
+    /// The client wants a CRC.
     crc: bool,
+    /// CRC of the first `summed` bytes of the value.
+    sum: u16,
+    summed: usize,
     /// Segments that the client accepts before it answers.
     block_size: u8,
     /// Bytes that the client has acknowledged.
@@ -39,16 +43,23 @@ pub(super) fn check(block_size: u8) -> Result<(), AbortCode> {
 }
 
 impl BlockUpload {
-    /// Of the first `len` bytes of the buffer.
+    /// Of a value of `len` bytes.
     pub(super) const fn new(len: usize, crc: bool, block_size: u8) -> Self {
         Self {
             len,
             crc,
+            sum: 0,
+            summed: 0,
             block_size,
             done: 0,
             sent: 0,
             phase: Phase::Initiated,
         }
+    }
+
+    /// Bytes of the value.
+    pub(super) const fn len(&self) -> usize {
+        self.len
     }
 
     /// Whether only the client's end is missing.
@@ -76,23 +87,30 @@ impl BlockUpload {
         Ok(())
     }
 
-    /// Returns the next segment, if one is due.
-    pub(super) fn segment(&mut self, buffer: &[u8]) -> Option<[u8; 8]> {
-        self.expect(Phase::Sending).ok()?;
-        let start = self.done + usize::from(self.sent) * 7;
-        let rest = buffer.get(start..self.len).unwrap_or(&[]);
+    /// Returns where the next segment begins in the value, if one is due.
+    pub(super) fn due(&self) -> Option<usize> {
+        let at = self.done + usize::from(self.sent) * 7;
+        (self.phase == Phase::Sending).then_some(at)
+    }
+
+    /// Returns the segment that is due: the first bytes of `rest`.
+    pub(super) fn segment(&mut self, rest: &[u8]) -> [u8; 8] {
+        if self.due() == Some(self.summed) {
+            let bytes = rest.get(..7).unwrap_or(rest);
+            self.sum = crc16_after(self.sum, bytes);
+            self.summed += bytes.len();
+        }
         self.sent += 1;
         let last = usize::from(self.sent) >= self.segments_left();
         if last || self.sent >= self.block_size {
             self.phase = Phase::Sent;
         }
-        Some(block_segment(self.sent, rest, last))
+        block_segment(self.sent, rest, last)
     }
 
     /// The client acknowledges `ack` segments of the block: the next block follows, or the end.
     pub(super) fn acknowledged(
         &mut self,
-        buffer: &[u8],
         ack: u8,
         block_size: u8,
     ) -> Result<Option<Response>, AbortCode> {
@@ -108,12 +126,11 @@ impl BlockUpload {
             self.phase = Phase::Sending;
             return Ok(None);
         }
-        let value = buffer.get(..self.len).unwrap_or(&[]);
         self.done = self.len;
         self.phase = Phase::Complete;
         Ok(Some(Response::EndBlockUpload {
             unused: unused(self.len),
-            crc: if self.crc { crc16(value) } else { 0 },
+            crc: if self.crc { self.sum } else { 0 },
         }))
     }
 }

@@ -1,18 +1,24 @@
 //! SDO server (CiA 301, chapter 7.2.4): expedited, segmented and block transfers, both ways.
 //!
 //! The server buffers a download and writes it when it is complete, so one that breaks off
-//! leaves the object as it was.
+//! leaves the object as it was. Of a value that the application streams it has one part at a time.
 
 mod block_download;
 mod block_upload;
 mod expedited;
 mod late;
+mod request;
 mod segmented;
+mod streamed;
+mod window;
+
+use core::marker::PhantomData;
 
 use od_model::Address;
 
+use crate::application::{Halt, StreamEnd};
 use crate::device::Device;
-use crate::objects::Objects;
+use crate::objects::{Objects, Unread};
 use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
 use od_wire::{AbortCode, Instant};
@@ -21,16 +27,22 @@ use block_download::BlockDownload;
 use block_upload::BlockUpload;
 use late::{Held, Late};
 use segmented::{Download, Upload};
+use window::Window;
 
 /// Longest time that a block transfer waits for the client, in microseconds: its segments look
 /// like requests, so a client that died would block the next one.
 const BLOCK_TIMEOUT_US: u64 = 5_000_000;
+
+/// First byte of an abort, as clients send it.
+const ABORT: u8 = 0x80;
 
 /// Transfer under way.
 #[derive(Clone, Copy, Debug, Default)]
 enum Transfer {
     #[default]
     None,
+    /// An expedited download of these many bytes; the stream did not take them yet.
+    Expedited(u8),
     Upload(Upload),
     Download(Download),
     BlockUpload(BlockUpload),
@@ -39,36 +51,49 @@ enum Transfer {
 
 /// The server: one transfer at a time, `N` bytes of it.
 #[derive(Debug)]
-pub(crate) struct Server<const N: usize> {
+pub(crate) struct Server<D, const N: usize> {
+    device: PhantomData<D>,
     transfer: Transfer,
     address: Address,
-    buffer: [u8; N],
+    window: Window<N>,
+    /// The application streams the value of the transfer.
+    is_streaming: bool,
     deadline: Option<Instant>,
-    /// A frame would be the next segment of a block, whatever it says, or has to wait.
-    is_deaf: bool,
+    /// A frame needs a closer look: it is the next segment of a block, whatever it says, has to
+    /// wait, or ends a stream.
+    is_busy: bool,
     late: Late,
 }
 
-/// Response of the server, if there is one, or the reason of its abort.
-type Answer = Result<Option<Response>, AbortCode>;
+/// Response of the server, if there is one, or the reason why it does not come.
+type Answer = Result<Option<Response>, Halt>;
 
-impl<const N: usize> Server<N> {
+impl<D: Device, const N: usize> Server<D, N> {
     pub(crate) const fn new() -> Self {
         Self {
+            device: PhantomData,
             transfer: Transfer::None,
             address: Address::new(0, 0),
-            buffer: [0; N],
+            window: Window::new(),
+            is_streaming: false,
             deadline: None,
-            is_deaf: false,
+            is_busy: false,
             late: Late::NONE,
         }
     }
 
-    /// Forgets everything without a word, as a change of the NMT state does.
+    /// Forgets everything without a word, as the end of power does.
     pub(crate) fn forget(&mut self) {
         self.reset();
+        self.is_streaming = false;
         self.late = Late::NONE;
-        self.is_deaf = false;
+        self.is_busy = false;
+    }
+
+    /// Forgets everything without a word to the client, as a change of the NMT state does.
+    pub(crate) fn cut(&mut self, objects: &mut Objects<'_, D>) {
+        self.close(objects, StreamEnd::Cut);
+        self.forget();
     }
 
     /// The transfer is over.
@@ -80,7 +105,7 @@ impl<const N: usize> Server<N> {
 
     /// A client's frame; `data` beyond `dlc` is 0.
     #[inline(always)]
-    pub(crate) fn handle<D: Device>(
+    pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
@@ -92,41 +117,58 @@ impl<const N: usize> Server<N> {
         let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
         match data[0] {
             // What masters ask for all day comes first.
-            0x40..=0x5F if !self.is_deaf => {
+            0x40..=0x5F if !self.is_busy => {
                 self.begin(address);
-                Some(match self.upload(objects, address) {
-                    Ok(answer) => answer,
-                    Err(code) => self.abort(code),
-                })
+                match self.upload(objects, address) {
+                    Ok(answer) => Some(answer),
+                    Err(why) => self.handle_unread(objects, why, data, dlc),
+                }
             }
             _ => self.handle_other(objects, data, dlc),
         }
     }
 
     #[inline(never)]
-    fn handle_other<D: Device>(
+    fn handle_other(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        if D::STORAGE && self.late.is_awaited() {
+        if (D::STORAGE || D::STREAMS) && self.late.is_awaited() {
             self.late.hold(data, dlc);
+            if D::STREAMS && data[0] == ABORT && self.late.awaits_stream() {
+                let answer = self.request(objects, Request::parse(data), data, dlc);
+                self.late = Late::NONE;
+                self.settle(objects, answer, data, dlc);
+            }
             return None;
         }
-        let answer = match &mut self.transfer {
+        let answer = match self.transfer {
             Transfer::BlockDownload(block)
-                if D::BLOCK && block.wants_segments() && data[0] != 0x80 =>
+                if D::BLOCK && block.wants_segments() && data[0] != ABORT =>
             {
-                block.segment(&mut self.buffer, data)
+                self.block_segment(objects, block, data)
+            }
+            _ if D::STREAMS && data[0] >> 5 == 2 => {
+                self.close(objects, StreamEnd::Replaced);
+                self.is_busy = false;
+                return self.handle(objects, data, dlc);
             }
             _ => self.request(objects, Request::parse(data), data, dlc),
         };
-        self.deadline = matches!(
-            self.transfer,
-            Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
-        )
-        .then(|| objects.now.plus_micros(BLOCK_TIMEOUT_US));
+        self.settle(objects, answer, data, dlc)
+    }
+
+    /// The end of a request: what goes out, and when the next thing is due.
+    fn settle(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        answer: Answer,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
+        self.await_client(objects.now);
         let is_late = D::STORAGE && core::mem::take(&mut objects.outbox.answer_later);
         let answer = match answer {
             Ok(Some(response)) if is_late => {
@@ -134,155 +176,30 @@ impl<const N: usize> Server<N> {
                 None
             }
             Ok(response) => response.map(Response::emit),
-            Err(code) => Some(self.abort(code)),
+            Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
+            Err(Halt::Until(at)) => {
+                self.await_stream(at, Some((*data, dlc)));
+                None
+            }
         };
-        self.is_deaf = self.late.is_awaited()
-            || matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
+        self.look();
         answer
     }
 
-    fn request<D: Device>(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        request: Request,
-        data: &[u8; 8],
-        dlc: u8,
-    ) -> Answer {
-        let profile = objects.profile().sdo;
-        match (request, &mut self.transfer) {
-            (
-                Request::InitiateDownload {
-                    address,
-                    size,
-                    expedited,
-                },
-                _,
-            ) => {
-                self.begin(address);
-                match expedited {
-                    Some(bytes) => expedited::download(objects, address, size, &bytes, dlc)?,
-                    None if !D::SEGMENTED || !profile.segmented_download => {
-                        return Err(AbortCode::InvalidCommand);
-                    }
-                    None => {
-                        Self::check_size(objects, address, size)?;
-                        self.transfer = Transfer::Download(Download::new(size));
-                    }
-                }
-                Ok(Some(Response::InitiateDownload { address }))
-            }
-            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) if D::SEGMENTED => {
-                let segment = upload.segment(&self.buffer, toggle)?;
-                if upload.is_over() {
-                    self.reset();
-                }
-                Ok(Some(segment))
-            }
-            (Request::DownloadSegment(segment), Transfer::Download(download)) if D::SEGMENTED => {
-                if let Some(len) = download.segment(&mut self.buffer, &segment)? {
-                    self.write(objects, len)?;
-                }
-                let toggle = segment.toggle;
-                Ok(Some(Response::DownloadSegment { toggle }))
-            }
-            (Request::Abort { .. }, _) => {
-                self.reset();
-                Ok(None)
-            }
-            (
-                Request::InitiateBlockUpload {
-                    address,
-                    crc,
-                    block_size,
-                    ..
-                },
-                _,
-            ) if D::BLOCK && profile.block => {
-                self.begin(address);
-                block_upload::check(block_size)?;
-                let mut number = [0; 8];
-                let len = self.load(objects.read(address, &mut number)?)?;
-                self.transfer = Transfer::BlockUpload(BlockUpload::new(len, crc, block_size));
-                Ok(Some(Response::InitiateBlockUpload {
-                    address,
-                    crc: true,
-                    size: Some(len as u32),
-                }))
-            }
-            (Request::StartBlockUpload, Transfer::BlockUpload(block)) if D::BLOCK => {
-                block.start().map(|()| None)
-            }
-            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block))
-                if D::BLOCK =>
-            {
-                block.acknowledged(&self.buffer, ack, block_size)
-            }
-            (Request::EndBlockUpload, Transfer::BlockUpload(block))
-                if D::BLOCK && block.is_complete() =>
-            {
-                self.reset();
-                Ok(None)
-            }
-            (Request::InitiateBlockDownload { address, crc, size }, _)
-                if D::BLOCK && profile.block =>
-            {
-                self.begin(address);
-                Self::check_size(objects, address, size)?;
-                let block = BlockDownload::new(&self.buffer, crc, size);
-                self.transfer = Transfer::BlockDownload(block);
-                Ok(Some(Response::InitiateBlockDownload {
-                    address,
-                    crc: true,
-                    block_size: block.block_size(),
-                }))
-            }
-            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block))
-                if D::BLOCK =>
-            {
-                let len = block.end(&self.buffer, unused, crc)?;
-                self.write(objects, len)?;
-                Ok(Some(Response::EndBlockDownload))
-            }
-            (_, transfer) => {
-                if matches!(transfer, Transfer::None) {
-                    let [_, low, high, sub, ..] = *data;
-                    self.address = Address::new(u16::from_le_bytes([low, high]), sub);
-                }
-                Err(AbortCode::InvalidCommand)
-            }
-        }
+    /// From now on a block transfer waits for its client.
+    fn await_client(&mut self, now: Instant) {
+        let is_block = matches!(
+            self.transfer,
+            Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
+        );
+        self.deadline = is_block.then(|| now.plus_micros(BLOCK_TIMEOUT_US));
     }
 
-    /// Checks whether a value of this size may be written to the object, and fits the buffer.
-    fn check_size<D: Device>(
-        objects: &Objects<'_, D>,
-        address: Address,
-        size: Option<u32>,
-    ) -> Result<(), AbortCode> {
-        let size = size.map(|size| size as usize);
-        objects.writable(address, size)?;
-        match size {
-            Some(size) if size > N => Err(AbortCode::OutOfMemory),
-            _ => Ok(()),
-        }
-    }
-
-    /// Copies a value into the buffer. Returns its length.
-    fn load(&mut self, bytes: &[u8]) -> Result<usize, AbortCode> {
-        let room = self.buffer.get_mut(..bytes.len());
-        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    /// A download is complete: writes the first `len` bytes of the buffer, and ends the transfer.
-    fn write<D: Device>(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        len: usize,
-    ) -> Result<(), AbortCode> {
-        objects.write(self.address, self.buffer.get(..len).unwrap_or(&[]))?;
-        self.reset();
-        Ok(())
+    /// Finds out whether the next frame needs a closer look.
+    fn look(&mut self) {
+        self.is_busy = self.late.is_awaited()
+            || self.is_streaming
+            || matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
     }
 
     /// A new transfer takes the place of one that was not finished.
@@ -292,12 +209,18 @@ impl<const N: usize> Server<N> {
         self.address = address;
     }
 
+    /// As [`begin`](Self::begin), where the one that was not finished may be a stream.
+    fn replace(&mut self, objects: &mut Objects<'_, D>, address: Address) {
+        self.close(objects, StreamEnd::Replaced);
+        self.address = address;
+    }
+
     #[inline(always)]
-    fn upload<D: Device>(
+    fn upload(
         &mut self,
         objects: &mut Objects<'_, D>,
         address: Address,
-    ) -> Result<[u8; 8], AbortCode> {
+    ) -> Result<[u8; 8], Unread> {
         let segmented = D::SEGMENTED && objects.profile().sdo.segmented_upload;
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
@@ -313,15 +236,15 @@ impl<const N: usize> Server<N> {
                 bytes.len() as u8,
                 little_endian(bytes) as u32,
             )),
-            _ if !segmented => Err(AbortCode::UnsupportedAccess),
+            _ if !segmented => Err(Unread::Abort(AbortCode::UnsupportedAccess)),
             _ => self.begin_upload(address, bytes),
         }
     }
 
     /// A value of more than four bytes (or none) goes in segments.
     #[inline(never)]
-    fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], AbortCode> {
-        let len = self.load(bytes)?;
+    fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], Unread> {
+        let len = self.window.load(bytes)?;
         self.transfer = Transfer::Upload(Upload::new(len));
         Ok(Response::InitiateUpload {
             address,
@@ -332,8 +255,25 @@ impl<const N: usize> Server<N> {
     }
 
     #[cold]
-    fn abort(&mut self, code: AbortCode) -> [u8; 8] {
-        self.reset();
+    fn handle_unread(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        why: Unread,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
+        match why {
+            Unread::Abort(code) => Some(self.abort(objects, code)),
+            Unread::Streamed => {
+                let answer = self.stream_upload(objects);
+                self.settle(objects, answer, data, dlc)
+            }
+        }
+    }
+
+    #[cold]
+    fn abort(&mut self, objects: &mut Objects<'_, D>, code: AbortCode) -> [u8; 8] {
+        self.close(objects, StreamEnd::Aborted(code));
         Response::Abort {
             address: self.address,
             code: code.code(),
@@ -347,36 +287,61 @@ impl<const N: usize> Server<N> {
         matches!(self.transfer, Transfer::BlockUpload(_))
     }
 
-    /// The next segment of a block upload, if one is due.
-    pub(crate) fn poll(&mut self) -> Option<[u8; 8]> {
-        match &mut self.transfer {
-            Transfer::BlockUpload(block) => block.segment(&self.buffer),
-            _ => None,
+    /// The next segment of a block upload, if one is due, or an abort.
+    pub(crate) fn poll(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
+        let Transfer::BlockUpload(mut block) = self.transfer else {
+            return None;
+        };
+        let at = block.due()?;
+        if self.late.is_awaited() {
+            return None;
         }
+        let answer = match self.part(objects, at, block.len()) {
+            Ok(rest) => Some(block.segment(rest)),
+            Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
+            Err(Halt::Until(at)) => {
+                self.await_stream(at, None);
+                None
+            }
+        };
+        if let Transfer::BlockUpload(sending) = &mut self.transfer {
+            *sending = block;
+        }
+        self.look();
+        answer
     }
 
     /// Everything is stored, or could not be: the answer that waited, and the request behind it.
-    pub(crate) fn finish(&mut self, failed: Option<AbortCode>) -> (Option<[u8; 8]>, Option<Held>) {
+    pub(crate) fn finish(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        failed: Option<AbortCode>,
+    ) -> (Option<[u8; 8]>, Option<Held>) {
         let Late { answer, held, .. } = core::mem::replace(&mut self.late, Late::NONE);
-        self.is_deaf = false;
+        self.look();
         let answer = match (answer, failed) {
-            (Some(_), Some(code)) => Some(self.abort(code)),
+            (Some(_), Some(code)) => Some(self.abort(objects, code)),
             (answer, _) => answer,
         };
         (answer, held)
     }
 
-    /// When a block transfer gives up.
+    /// When a block transfer gives up, or a stream is asked again.
     #[inline]
     pub(crate) fn deadline(&self) -> Option<Instant> {
         self.deadline
     }
 
-    /// Gives up a block transfer whose client is gone.
-    pub(crate) fn handle_timeout(&mut self, now: Instant) -> Option<[u8; 8]> {
-        self.deadline.is_some_and(|at| at <= now).then(|| {
-            self.is_deaf = false;
-            self.abort(AbortCode::Timeout)
-        })
+    /// Gives up a block transfer whose client is gone; asks a stream again.
+    pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
+        if self.deadline.is_none_or(|at| at > objects.now) {
+            return None;
+        }
+        if D::STREAMS && self.late.awaits_stream() {
+            return self.ask_again(objects);
+        }
+        let abort = self.abort(objects, AbortCode::Timeout);
+        self.look();
+        Some(abort)
     }
 }

@@ -1,5 +1,5 @@
 //! Segmented transfers (CiA 301, chapters 7.2.4.3.4–7.2.4.3.8). The value is in the server's
-//! buffer, which each call borrows.
+//! buffer.
 
 use od_wire::AbortCode;
 use od_wire::sdo::{Response, Segment};
@@ -13,7 +13,7 @@ pub(super) struct Upload {
 }
 
 impl Upload {
-    /// Of the first `len` bytes of the buffer.
+    /// Of a value of `len` bytes.
     pub(super) const fn new(len: usize) -> Self {
         Self {
             toggle: false,
@@ -22,21 +22,33 @@ impl Upload {
         }
     }
 
+    /// Bytes that have been sent.
+    pub(super) const fn sent(&self) -> usize {
+        self.sent
+    }
+
+    /// Bytes of the value.
+    pub(super) const fn len(&self) -> usize {
+        self.len
+    }
+
     /// Whether the last segment has been sent.
     pub(super) const fn is_over(&self) -> bool {
         self.sent == self.len
     }
 
-    /// Returns the next segment.
-    pub(super) fn segment(&mut self, buffer: &[u8], toggle: bool) -> Result<Response, AbortCode> {
-        if toggle != self.toggle {
-            return Err(AbortCode::ToggleBit);
-        }
-        let rest = buffer.get(self.sent..self.len).unwrap_or(&[]);
-        let segment = Segment::first_of(rest, toggle);
+    /// Checks the request for the next segment.
+    pub(super) fn check(&self, toggle: bool) -> Result<(), AbortCode> {
+        check(self.toggle, toggle)
+    }
+
+    /// Returns the next segment, the first bytes of `rest`.
+    pub(super) fn segment(&mut self, rest: &[u8]) -> Response {
+        let mut segment = Segment::first_of(rest, self.toggle);
         self.sent += usize::from(segment.len);
-        self.toggle = !toggle;
-        Ok(Response::UploadSegment(segment))
+        self.toggle = !self.toggle;
+        segment.last = self.is_over();
+        Response::UploadSegment(segment)
     }
 }
 
@@ -44,7 +56,6 @@ impl Upload {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Download {
     toggle: bool,
-    received: usize,
     size: Option<u32>,
 }
 
@@ -53,32 +64,30 @@ impl Download {
     pub(super) const fn new(size: Option<u32>) -> Self {
         Self {
             toggle: false,
-            received: 0,
             size,
         }
     }
 
-    /// Puts a segment into the buffer. Returns the length of the value if it was the last one.
-    pub(super) fn segment(
-        &mut self,
-        buffer: &mut [u8],
-        segment: &Segment,
-    ) -> Result<Option<usize>, AbortCode> {
-        if segment.toggle != self.toggle {
-            return Err(AbortCode::ToggleBit);
+    /// Checks a segment with which `end` bytes have come.
+    pub(super) fn check(&self, segment: &Segment, end: usize) -> Result<(), AbortCode> {
+        check(self.toggle, segment.toggle)?;
+        match self.size.map(|size| size as usize) {
+            Some(size) if end > size => Err(AbortCode::TooLong),
+            Some(size) if end < size && segment.last => Err(AbortCode::TooShort),
+            _ => Ok(()),
         }
-        let (data, last) = (segment.bytes(), segment.last);
-        let end = self.received + data.len();
-        if self.size.is_some_and(|size| end > size as usize) {
-            return Err(AbortCode::TooLong);
-        }
-        let room = buffer.get_mut(self.received..end);
-        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(data);
-        self.received = end;
+    }
+
+    /// The segment was good.
+    pub(super) fn go_on(&mut self) {
         self.toggle = !self.toggle;
-        if last && self.size.is_some_and(|size| end < size as usize) {
-            return Err(AbortCode::TooShort);
-        }
-        Ok(last.then_some(end))
+    }
+}
+
+fn check(expected: bool, toggle: bool) -> Result<(), AbortCode> {
+    if toggle == expected {
+        Ok(())
+    } else {
+        Err(AbortCode::ToggleBit)
     }
 }

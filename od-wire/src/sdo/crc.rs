@@ -2,7 +2,12 @@
 
 /// CRC-16 with polynomial 1021h and start value 0, as CiA 301 (chapter 7.2.4.3.16) has it.
 pub fn crc16(data: &[u8]) -> u16 {
-    data.iter().fold(0, |crc, byte| {
+    crc16_after(0, data)
+}
+
+/// [`crc16`] of data that goes on behind data with this checksum.
+pub fn crc16_after(before: u16, data: &[u8]) -> u16 {
+    data.iter().fold(before, |crc, byte| {
         (0..8).fold(crc ^ u16::from(*byte) << 8, |crc, _| {
             if crc & 0x8000 != 0 {
                 crc << 1 ^ 0x1021
@@ -19,5 +24,6 @@ mod tests {
     fn check_value_of_the_standard() {
         assert_eq!(super::crc16(b"123456789"), 0x31C3);
         assert_eq!(super::crc16(b""), 0);
+        assert_eq!(super::crc16_after(super::crc16(b"1234"), b"56789"), 0x31C3);
     }
 }

@@ -6,7 +6,7 @@ mod request;
 mod response;
 mod segment;
 
-pub use crc::crc16;
+pub use crc::{crc16, crc16_after};
 pub use request::Request;
 pub use response::{Response, expedited_upload};
 pub use segment::{Segment, block_segment, block_segments, unused};

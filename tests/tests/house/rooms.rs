@@ -72,12 +72,13 @@ pub(crate) fn arrows_up(files: &BTreeMap<String, String>) -> BTreeSet<(&str, &st
     found
 }
 
-/// The lines of each room: those of `.rs` and `.ts` that are no tests.
+/// The lines of each room: those of `.rs` and `.ts` that are no tests and no examples.
 pub(crate) fn lines(files: &BTreeMap<String, String>) -> BTreeMap<&'static str, usize> {
     let mut found = BTreeMap::new();
     for room in ROOMS.iter().filter(|room| room.name != "tests") {
         let own = files.iter().filter(|(path, _)| {
             let is_test = path.contains("/tests/")
+                || path.contains("/examples/")
                 || path.contains("/package-test/")
                 || path.ends_with("/tests.rs")
                 || path.ends_with(".test.ts");

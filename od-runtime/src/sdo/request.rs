@@ -1,0 +1,246 @@
+//! The requests of clients, but for the expedited upload that comes first.
+
+use od_model::Address;
+use od_wire::AbortCode;
+use od_wire::sdo::{Request, Response, crc16_after};
+
+use super::block_download::BlockDownload;
+use super::block_upload::{self, BlockUpload};
+use super::segmented::Download;
+use super::{Answer, Server, Transfer, expedited};
+use crate::application::{Halt, StreamEnd};
+use crate::device::Device;
+use crate::objects::{Objects, Unread};
+
+impl<D: Device, const N: usize> Server<D, N> {
+    pub(super) fn request(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        request: Request,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Answer {
+        let profile = objects.profile().sdo;
+        match (request, self.transfer) {
+            (
+                Request::InitiateDownload {
+                    address,
+                    size,
+                    expedited: Some(bytes),
+                },
+                _,
+            ) => self.expedited(objects, address, size, bytes, dlc),
+            (Request::InitiateDownload { address, size, .. }, _) => {
+                self.replace(objects, address);
+                if !D::SEGMENTED || !profile.segmented_download {
+                    return Err(AbortCode::InvalidCommand.into());
+                }
+                self.open_download(objects, size)?;
+                self.transfer = Transfer::Download(Download::new(size));
+                Ok(Some(Response::InitiateDownload { address }))
+            }
+            (Request::UploadSegment { toggle }, Transfer::Upload(mut upload)) if D::SEGMENTED => {
+                upload.check(toggle)?;
+                let segment = upload.segment(self.part(objects, upload.sent(), upload.len())?);
+                self.transfer = Transfer::Upload(upload);
+                if upload.is_over() {
+                    self.close(objects, StreamEnd::Complete);
+                }
+                Ok(Some(segment))
+            }
+            (Request::DownloadSegment(segment), Transfer::Download(mut download))
+                if D::SEGMENTED =>
+            {
+                let bytes = segment.bytes();
+                download.check(&segment, self.window.end() + bytes.len())?;
+                if self.is_streaming && bytes.len() > self.window.room() {
+                    self.pass_on(objects)?;
+                }
+                self.window.put(bytes)?;
+                let len = self.window.len + bytes.len();
+                if segment.last {
+                    self.complete(objects, len)?;
+                } else {
+                    self.window.len = len;
+                    download.go_on();
+                    self.transfer = Transfer::Download(download);
+                }
+                let toggle = segment.toggle;
+                Ok(Some(Response::DownloadSegment { toggle }))
+            }
+            (Request::Abort { code, .. }, _) => {
+                self.close(objects, StreamEnd::Cancelled(code));
+                Ok(None)
+            }
+            (
+                Request::InitiateBlockUpload {
+                    address,
+                    crc,
+                    block_size,
+                    ..
+                },
+                _,
+            ) if D::BLOCK && profile.block => {
+                self.replace(objects, address);
+                block_upload::check(block_size)?;
+                let len = self.open_upload(objects)?;
+                self.transfer = Transfer::BlockUpload(BlockUpload::new(len, crc, block_size));
+                Ok(Some(Response::InitiateBlockUpload {
+                    address,
+                    crc: true,
+                    size: Some(len as u32),
+                }))
+            }
+            (Request::StartBlockUpload, Transfer::BlockUpload(mut block)) if D::BLOCK => {
+                block.start()?;
+                self.transfer = Transfer::BlockUpload(block);
+                Ok(None)
+            }
+            (
+                Request::BlockUploadResponse { ack, block_size },
+                Transfer::BlockUpload(mut block),
+            ) if D::BLOCK => {
+                let end = block.acknowledged(ack, block_size)?;
+                self.transfer = Transfer::BlockUpload(block);
+                Ok(end)
+            }
+            (Request::EndBlockUpload, Transfer::BlockUpload(block))
+                if D::BLOCK && block.is_complete() =>
+            {
+                self.close(objects, StreamEnd::Complete);
+                Ok(None)
+            }
+            (Request::InitiateBlockDownload { address, crc, size }, _)
+                if D::BLOCK && profile.block =>
+            {
+                self.replace(objects, address);
+                self.open_download(objects, size)?;
+                let block = BlockDownload::new(N, crc, size);
+                self.transfer = Transfer::BlockDownload(block);
+                Ok(Some(Response::InitiateBlockDownload {
+                    address,
+                    crc: true,
+                    block_size: block.block_size(),
+                }))
+            }
+            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block))
+                if D::BLOCK =>
+            {
+                let len = block.end(&self.window, unused, crc)?;
+                self.complete(objects, len)?;
+                Ok(Some(Response::EndBlockDownload))
+            }
+            (_, transfer) => {
+                if matches!(transfer, Transfer::None) {
+                    let [_, low, high, sub, ..] = *data;
+                    self.address = Address::new(u16::from_le_bytes([low, high]), sub);
+                }
+                Err(AbortCode::InvalidCommand.into())
+            }
+        }
+    }
+
+    fn expedited(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        address: Address,
+        size: Option<u32>,
+        bytes: [u8; 4],
+        dlc: u8,
+    ) -> Answer {
+        let had_begun = match self.transfer {
+            Transfer::Expedited(len) if address == self.address => Some(usize::from(len)),
+            _ => None,
+        };
+        if had_begun.is_none() {
+            self.replace(objects, address);
+        }
+        let entry = objects.writable(address, None)?;
+        let len = expedited::len(&objects.profile().sdo, entry, size, dlc)?;
+        if !objects.streams(entry) {
+            objects.write(address, &bytes[..len])?;
+            self.reset();
+        } else {
+            if had_begun != Some(len) {
+                self.close(objects, StreamEnd::Replaced);
+                self.open_download(objects, Some(len as u32))?;
+                self.transfer = Transfer::Expedited(len as u8);
+            }
+            self.window.clear();
+            self.window.put(&bytes[..len])?;
+            self.complete(objects, len)?;
+        }
+        Ok(Some(Response::InitiateDownload { address }))
+    }
+
+    /// A value is to be written, if it may be, and there is room for it.
+    fn open_download(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        size: Option<u32>,
+    ) -> Result<(), Halt> {
+        let address = self.address;
+        let entry = objects.writable(address, None)?;
+        self.window.clear();
+        if objects.streams(entry) {
+            objects.stream(address, |stream, cx| {
+                stream.begin_download(cx, address, size)
+            })?;
+            self.is_streaming = true;
+            return Ok(());
+        }
+        let size = size.map(|size| size as usize);
+        objects.writable(address, size)?;
+        match size {
+            Some(size) if size > N => Err(AbortCode::OutOfMemory.into()),
+            _ => Ok(()),
+        }
+    }
+
+    /// A value is to be read, in blocks. Returns its length.
+    fn open_upload(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Halt> {
+        let mut number = [0; 8];
+        match objects.read(self.address, &mut number) {
+            Ok(bytes) => Ok(self.window.load(bytes)?),
+            Err(Unread::Abort(code)) => Err(code.into()),
+            Err(Unread::Streamed) => self.open_stream(objects),
+        }
+    }
+
+    /// A segment of a block download.
+    pub(super) fn block_segment(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        mut block: BlockDownload,
+        data: &[u8; 8],
+    ) -> Answer {
+        let is_over = block.segment(&mut self.window, data)?;
+        self.transfer = Transfer::BlockDownload(block);
+        if !is_over {
+            return Ok(None);
+        }
+        // What is last waits for its length and the checksum.
+        if self.is_streaming && block.wants_segments() {
+            block.check_size(&self.window)?;
+            let crc = crc16_after(block.crc_before, self.window.first(self.window.len));
+            self.pass_on(objects)?;
+            block.crc_before = crc;
+        }
+        let response = block.confirm(self.window.room());
+        self.transfer = Transfer::BlockDownload(block);
+        Ok(Some(response))
+    }
+
+    /// A download is complete with the first `len` bytes of the buffer: they are written, and
+    /// the transfer ends.
+    fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Halt> {
+        if self.is_streaming {
+            self.give(objects, len, true)?;
+            objects.streamed(self.address);
+        } else {
+            objects.write(self.address, self.window.first(len))?;
+        }
+        self.close(objects, StreamEnd::Complete);
+        Ok(())
+    }
+}

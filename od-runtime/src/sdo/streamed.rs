@@ -1,0 +1,144 @@
+//! Values that the application streams: the buffer has the part that is on its way.
+
+use od_wire::sdo::Response;
+use od_wire::{AbortCode, Instant};
+
+use super::late::{Held, Late};
+use super::segmented::Upload;
+use super::{Answer, Server, Transfer};
+use crate::application::{Chunk, Halt, StreamEnd};
+use crate::device::Device;
+use crate::objects::Objects;
+use crate::store::little_endian;
+
+impl<D: Device, const N: usize> Server<D, N> {
+    /// Begins to read from the stream. Returns the length of the value.
+    pub(super) fn open_stream(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Halt> {
+        if !D::STREAMS {
+            return Err(AbortCode::NoResource.into());
+        }
+        let address = self.address;
+        let len = objects.stream(address, |stream, cx| stream.begin_upload(cx, address))?;
+        self.window.clear();
+        self.is_streaming = true;
+        Ok(len as usize)
+    }
+
+    /// The answer to an upload that is not a block transfer.
+    pub(super) fn stream_upload(&mut self, objects: &mut Objects<'_, D>) -> Answer {
+        let address = self.address;
+        let len = self.open_stream(objects)?;
+        let mut expedited = None;
+        if (1..=4).contains(&len) {
+            // One that cannot be had now goes in a segment.
+            match self.part(objects, 0, len) {
+                Ok(bytes) => expedited = Some((little_endian(bytes) as u32).to_le_bytes()),
+                Err(Halt::Until(_)) => {}
+                Err(halt) => return Err(halt),
+            }
+        }
+        let segmented = D::SEGMENTED && objects.profile().sdo.segmented_upload;
+        if expedited.is_some() {
+            self.close(objects, StreamEnd::Complete);
+        } else if segmented {
+            self.transfer = Transfer::Upload(Upload::new(len));
+        } else {
+            return Err(AbortCode::UnsupportedAccess.into());
+        }
+        Ok(Some(Response::InitiateUpload {
+            address,
+            size: Some(len as u32),
+            expedited,
+        }))
+    }
+
+    /// The value from `at` on: seven bytes or more, or all that is left of its `len` bytes.
+    pub(super) fn part(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        at: usize,
+        len: usize,
+    ) -> Result<&[u8], Halt> {
+        if D::STREAMS && self.is_streaming {
+            let left = len.saturating_sub(at);
+            let end = at + left.min(7);
+            let window = &mut self.window;
+            if at < window.start || end > window.end() {
+                let to = window.buffer.get_mut(..left.min(N)).unwrap_or_default();
+                if to.len() < left.min(7) {
+                    return Err(AbortCode::OutOfMemory.into());
+                }
+                (window.start, window.len) = (at, 0);
+                let address = self.address;
+                objects.stream(address, |stream, cx| {
+                    stream.read(cx, address, at as u32, to)
+                })?;
+                window.len = left.min(N);
+            }
+        }
+        Ok(self.window.from(at))
+    }
+
+    /// Gives the first `len` bytes of the buffer to the stream.
+    pub(super) fn give(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        len: usize,
+        last: bool,
+    ) -> Result<(), Halt> {
+        if !D::STREAMS {
+            return Ok(());
+        }
+        let (address, at) = (self.address, self.window.start as u32);
+        let bytes = self.window.first(len);
+        let chunk = Chunk { at, bytes, last };
+        objects.stream(address, |stream, cx| stream.write(cx, address, chunk))
+    }
+
+    /// Gives all that is in the buffer to the stream, and empties it.
+    pub(super) fn pass_on(&mut self, objects: &mut Objects<'_, D>) -> Result<(), Halt> {
+        let len = self.window.len;
+        if len > 0 {
+            self.give(objects, len, false)?;
+            self.window.start += len;
+            self.window.len = 0;
+        }
+        Ok(())
+    }
+
+    /// The transfer is over; its stream hears how.
+    pub(super) fn close(&mut self, objects: &mut Objects<'_, D>, end: StreamEnd) {
+        if D::STREAMS && core::mem::take(&mut self.is_streaming) {
+            let address = self.address;
+            // An application that has no such stream any more needs no notice.
+            let _ = objects.stream(address, |stream, cx| {
+                stream.end(cx, address, end);
+                Ok(())
+            });
+        }
+        self.reset();
+    }
+
+    /// The stream cannot serve this request, or the next segment, before this moment.
+    pub(super) fn await_stream(&mut self, at: Instant, held: Option<Held>) {
+        self.late = Late::stream(held);
+        self.deadline = Some(at);
+    }
+
+    /// The stream is asked again.
+    pub(super) fn ask_again(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
+        let held = core::mem::replace(&mut self.late, Late::NONE).held;
+        self.await_client(objects.now);
+        self.look();
+        let (data, dlc) = held?;
+        self.handle(objects, &data, dlc)
+    }
+
+    /// Something outside the bus changed: a stream that could not go on may be able to.
+    pub(crate) fn handle_change(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
+        if !D::STREAMS || !self.late.awaits_stream() {
+            return None;
+        }
+        self.ask_again(objects)
+    }
+}

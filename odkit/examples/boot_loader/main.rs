@@ -1,0 +1,41 @@
+//! A boot loader: a master writes a program of 64 KiB to 1F50h:01 and starts it with 1F51h:01
+//! (CiA 302-3). Nobody holds the program: the SDO server has one block of it at a time, the loader
+//! one page, and while the flash is busy the master waits for its answer.
+//!
+//! `cargo run -p odkit --example boot_loader` plays the master, too.
+
+#![allow(unreachable_pub)] // `loader.rs` is to be copied
+
+mod loader;
+mod rig;
+
+use od_client::Event;
+use odkit::NodeId;
+use rig::Rig;
+
+fn main() {
+    let program: Vec<u8> = (0..loader::SIZE).map(|at| (at * 31 % 251) as u8).collect();
+    let mut rig = Rig::new();
+
+    let written = rig.client.write(NodeId::ONE, loader::PROGRAM, &program);
+    let read = rig.client.read(NodeId::ONE, loader::PROGRAM);
+    let started = rig.client.write(NodeId::ONE, loader::CONTROL, &[1]);
+    let expected = [
+        Event::Written(written, Ok(())),
+        Event::Read(read, Ok(program)),
+        Event::Written(started, Ok(())),
+    ];
+    assert!(rig.run() == expected, "the program did not arrive");
+    assert!(rig.loader.is_running);
+    println!(
+        "{} bytes written, read back and started: {} frames in {} ms",
+        loader::SIZE,
+        rig.frames,
+        rig.now.as_micros() / 1000
+    );
+}
+
+#[test]
+fn the_program_arrives_and_starts() {
+    main();
+}

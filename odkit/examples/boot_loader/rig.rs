@@ -1,0 +1,109 @@
+//! A device with the loader and a master on one bus, in virtual time.
+
+use od_client::Client;
+use odkit::storage::NoStorage;
+use odkit::{Frame, Instant, Lent, NodeId, Profile};
+
+use crate::loader::{BootLoader, device};
+
+/// Time of a frame on the bus, in microseconds.
+const FRAME_US: u64 = 130;
+
+/// The bus and its ends.
+pub struct Rig {
+    node: device::Node,
+    values: [u8; device::STORE_LEN],
+    pub loader: BootLoader,
+    pub client: Client,
+    pub now: Instant,
+    /// Frames so far.
+    pub frames: usize,
+    /// Does the bus lose this frame, the one of this number?
+    pub loses: fn(usize, &Frame) -> bool,
+}
+
+impl Rig {
+    /// A device that has sent its boot-up message.
+    pub fn new() -> Self {
+        let mut rig = Self {
+            node: device::Node::new(NodeId::ONE),
+            values: [0; device::STORE_LEN],
+            loader: BootLoader::new(),
+            client: Client::new(),
+            now: Instant::ZERO,
+            frames: 0,
+            loses: |_, _| false,
+        };
+        let started = rig.lend(|node, device, now| node.power_on(device, now));
+        assert_eq!(started, Ok(()));
+        assert_eq!(
+            rig.poll().map(|frame| frame.to_string()),
+            Some("701#00".into())
+        );
+        rig
+    }
+
+    fn lend<R>(&mut self, call: impl FnOnce(&mut device::Node, &mut Lent<'_>, Instant) -> R) -> R {
+        let mut device = Lent {
+            dictionary: device::DICTIONARY,
+            values: &mut self.values,
+            application: &mut self.loader,
+            storage: &mut NoStorage,
+            profile: &Profile::CIA301,
+        };
+        call(&mut self.node, &mut device, self.now)
+    }
+
+    /// The next frame of the device.
+    pub fn poll(&mut self) -> Option<Frame> {
+        self.lend(|node, device, now| node.poll_transmit(device, now))
+    }
+
+    /// The device receives a frame.
+    pub fn receive(&mut self, frame: &Frame) {
+        self.lend(|node, device, now| node.handle_frame(device, now, frame));
+    }
+
+    /// When the device has something to do.
+    pub fn due(&self) -> Option<Instant> {
+        self.node.poll_timeout()
+    }
+
+    /// Time goes on until then; the device does what is due.
+    pub fn wait_until(&mut self, now: Instant) {
+        self.now = self.now.max(now);
+        self.lend(|node, device, now| node.handle_timeout(device, now));
+    }
+
+    /// Runs until nothing is sent and nothing is due; what the master learnt.
+    pub fn run(&mut self) -> Vec<od_client::Event> {
+        loop {
+            while self.step() {}
+            let next = [self.due(), self.client.poll_timeout()];
+            let Some(next) = next.into_iter().flatten().min() else {
+                break;
+            };
+            self.wait_until(next);
+            self.client.handle_timeout(self.now);
+        }
+        std::iter::from_fn(|| self.client.poll_event()).collect()
+    }
+
+    /// One frame goes over the bus.
+    fn step(&mut self) -> bool {
+        let answer = self.poll();
+        let Some(frame) = answer.or_else(|| self.client.poll_transmit(self.now)) else {
+            return false;
+        };
+        self.frames += 1;
+        self.now = self.now.plus_micros(FRAME_US);
+        if (self.loses)(self.frames, &frame) {
+            return true;
+        }
+        match answer {
+            Some(frame) => self.client.handle_frame(self.now, &frame),
+            None => self.receive(&frame),
+        }
+        true
+    }
+}
