@@ -1,6 +1,6 @@
 //! The client against the node of `od-runtime`: every kind of transfer, both ways.
 
-use crate::support::bus::{Bus, Peer};
+use crate::support::bus::{Bus, Peer, ROOM};
 use crate::support::{OBJECT, pattern};
 use od_client::sdo::{Options, SdoError};
 use od_client::{AbortCode, Client, Event, NodeId, lss};
@@ -64,6 +64,30 @@ fn all_sizes_in_segments() {
     let wanted = SIZES.iter().filter(|size| !(1..=4).contains(*size));
     let wanted: usize = wanted.map(|size| size.div_ceil(7).max(1)).sum();
     assert_eq!(segments, wanted);
+}
+
+/// Nobody but the client has the whole value: the device streams it.
+#[test]
+fn one_mebibyte_in_blocks_both_ways() {
+    const LONG: Address = Address::new(0x2004, 0);
+    let value = pattern(1 << 20);
+    let mut bus = Bus::one(client(Options::DEFAULT));
+    let written = bus.client.write(NodeId::ONE, LONG, &value);
+    let read = bus.client.read(NodeId::ONE, LONG);
+    let events = bus.run();
+    let [Event::Written(w, Ok(())), Event::Read(r, Ok(back))] = &events[..] else {
+        panic!("{} events", events.len());
+    };
+    assert_eq!((*w, *r, back.len()), (written, read, value.len()));
+    assert!(*back == value && back.capacity() <= 2 * value.len());
+    // A block of 127 segments, or the buffer.
+    assert!(bus.peers[0].application.largest <= ROOM);
+    // One byte more is not even asked for.
+    bus.peers[0].application.len = (1 << 20) + 1;
+    bus.frames.clear();
+    let read = bus.client.read(NodeId::ONE, LONG);
+    assert_eq!(bus.run(), [Event::Read(read, Err(SdoError::TooLong))]);
+    assert_eq!(bus.frames.len(), 3);
 }
 
 #[test]

@@ -2,9 +2,15 @@
 
 use od_client::{Client, Event, Frame, Instant, NodeId};
 use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, Value};
+use od_model::Address;
 use od_model::{Access, DataType, ObjectCode};
 use od_runtime::storage::Memory;
-use od_runtime::{AnyDevice, Application, Lent, LssProfile, Node, Profile, Store};
+use od_runtime::{
+    AbortCode, AnyDevice, Application, Chunk, Context, Halt, Lent, LssProfile, Node, Profile,
+    Store, Stream,
+};
+
+use super::pattern_at;
 
 /// Most bytes of the object 2003h.
 pub(crate) const ROOM: usize = 8192;
@@ -16,15 +22,70 @@ pub(crate) struct Peer {
     storage: Memory<Vec<u8>>,
     pub(crate) profile: Profile,
     pub(crate) node: Node<AnyDevice, 4, ROOM>,
-    application: Stored,
+    pub(crate) application: Stored,
 }
 
-/// The node starts with the node ID in 2101h.
-struct Stored;
+/// The node starts with the node ID in 2101h. What goes through 2004h is [`pattern`], of which
+/// nobody here has more than a part.
+#[derive(Default)]
+pub(crate) struct Stored {
+    /// Bytes of 2004h.
+    pub(crate) len: usize,
+    /// Bytes of the largest part.
+    pub(crate) largest: usize,
+}
 
 impl Application for Stored {
     fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
         NodeId::new(store.unsigned(0x2101, 0) as u8)
+    }
+
+    fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
+        if address.index == 0x2004 {
+            Some(self)
+        } else {
+            None
+        }
+    }
+}
+
+impl Stream for Stored {
+    fn begin_download(
+        &mut self,
+        _: &mut Context<'_, '_>,
+        _: Address,
+        _: Option<u32>,
+    ) -> Result<(), Halt> {
+        self.len = 0;
+        Ok(())
+    }
+
+    fn write(&mut self, _: &mut Context<'_, '_>, _: Address, chunk: Chunk<'_>) -> Result<(), Halt> {
+        let is_right = |(at, byte): (usize, &u8)| *byte == pattern_at(self.len + at);
+        if chunk.at as usize != self.len || !chunk.bytes.iter().enumerate().all(is_right) {
+            return Err(AbortCode::ValueRange.into());
+        }
+        self.len += chunk.bytes.len();
+        self.largest = self.largest.max(chunk.bytes.len());
+        Ok(())
+    }
+
+    fn begin_upload(&mut self, _: &mut Context<'_, '_>, _: Address) -> Result<u32, Halt> {
+        Ok(self.len as u32)
+    }
+
+    fn read(
+        &mut self,
+        _: &mut Context<'_, '_>,
+        _: Address,
+        at: u32,
+        to: &mut [u8],
+    ) -> Result<(), Halt> {
+        self.largest = self.largest.max(to.len());
+        for (at, byte) in (at as usize..).zip(to) {
+            *byte = pattern_at(at);
+        }
+        Ok(())
     }
 }
 
@@ -81,6 +142,7 @@ fn tables(node: u8, identity: [u32; 4]) -> Tables {
             Access::Rw,
             Some(Value::Bytes(vec![0; ROOM])),
         ),
+        (0x2004, 0, Domain, Access::Rw, None),
         (0x2100, 0, Unsigned8, Access::Rw, unsigned(2)),
         (0x2101, 0, Unsigned8, Access::Rw, unsigned(node.into())),
     ];
@@ -117,7 +179,7 @@ impl Peer {
                 ..Profile::CIA301
             },
             node: Node::new(NodeId::ONE),
-            application: Stored,
+            application: Stored::default(),
         };
         peer.node
             .power_on(device!(peer), Instant::ZERO)
@@ -196,7 +258,7 @@ impl Bus {
     pub(crate) fn run_until(&mut self, end: Instant) {
         for turn in 0.. {
             while self.step() {
-                assert!(self.frames.len() < 200_000, "frames without end");
+                assert!(self.frames.len() < 400_000, "frames without end");
             }
             assert!(turn < 10_000, "deadlines without end");
             let peers = self

@@ -33,7 +33,11 @@ pub(crate) fn at(millis: u64) -> Instant {
 
 /// `len` bytes, no two neighbours alike.
 pub(crate) fn pattern(len: usize) -> Vec<u8> {
-    (0..len).map(|at| (at * 31 + at / 251 + 1) as u8).collect()
+    (0..len).map(pattern_at).collect()
+}
+
+pub(crate) const fn pattern_at(at: usize) -> u8 {
+    (at * 31 + at / 251 + 1) as u8
 }
 
 /// What both directions have.
