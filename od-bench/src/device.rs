@@ -4,20 +4,22 @@ use std::collections::VecDeque;
 use std::prelude::v1::*;
 use std::vec;
 
-use od_model::{Dictionary, Entry};
-use od_runtime::encoder::{Encoder, Fault, Role};
+use od_model::Dictionary;
+use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
     AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, Profile,
-    Reset, Store,
+    Reset,
 };
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
+use crate::behaviour::Behaviour;
 use crate::eeprom::Eeprom;
-use crate::plain::Plain;
+#[cfg(feature = "eds")]
+use crate::long::{Beside, Long};
 use crate::services::Services;
-use crate::shaft::{self, Shaft};
+use crate::shaft;
 use crate::slave::{Input, Slave};
 use crate::source::Source;
 use od_runtime::DeviceKind;
@@ -26,31 +28,6 @@ use od_runtime::DeviceKind;
 /// value that a store can hold.
 pub(super) fn roomy(node_id: NodeId) -> Box<dyn Slave> {
     Box::new(Node::<AnyDevice, 512, 0x1_0000>::new(node_id))
-}
-
-/// Behaviour behind the dictionary.
-pub(super) enum Behaviour {
-    Encoder(Box<Encoder<Shaft>>),
-    Plain(Plain),
-    Other(Box<dyn Application>),
-}
-
-impl Behaviour {
-    /// An encoder where there is a position (6004h), else nothing.
-    pub(super) fn of(dictionary: Dictionary<'_>) -> Self {
-        match shaft::encoder_of(dictionary) {
-            Some(encoder) => Self::Encoder(Box::new(encoder)),
-            None => Self::Plain(Plain::default()),
-        }
-    }
-
-    pub(super) fn as_application(&mut self) -> &mut dyn Application {
-        match self {
-            Self::Encoder(encoder) => &mut **encoder,
-            Self::Plain(plain) => plain,
-            Self::Other(other) => &mut **other,
-        }
-    }
 }
 
 /// A CANopen device that lives in virtual time.
@@ -66,8 +43,11 @@ pub struct VirtualDevice {
     pub(super) storage: Eeprom,
     pub(super) profile: Profile,
     pub(super) services: Services,
+    /// Of a device of a file.
+    #[cfg(feature = "eds")]
+    pub(super) long: Option<Long>,
     pub(super) wanted_id: NodeId,
-    wanted_rate: Option<u16>,
+    pub(super) wanted_rate: Option<u16>,
     /// When the turning shaft is looked at again.
     look_at: Option<Instant>,
     /// The bit rate that LSS activated since the last start, in kbit/s.
@@ -154,6 +134,8 @@ impl VirtualDevice {
             storage: Eeprom::own(erased),
             profile,
             services,
+            #[cfg(feature = "eds")]
+            long: None,
             wanted_rate: None,
             look_at: None,
             activated: None,
@@ -177,6 +159,20 @@ impl VirtualDevice {
         self.wanted_rate = rate;
     }
 
+    /// With this many bytes for each string and DOMAIN that a master writes, or those of its default
+    /// if that is longer. Without it a DOMAIN has 1 MiB, and a string what the file says: the length of
+    /// its default, 64 bytes at least. Only a device of a file has such values; returns whether it is
+    /// one. Do it before power comes.
+    pub fn set_domain_size(&mut self, bytes: u32) -> bool {
+        #[cfg(feature = "eds")]
+        if let Some(long) = &mut self.long {
+            long.size = Some(bytes as usize);
+            return true;
+        }
+        let _ = bytes;
+        false
+    }
+
     /// Bytes that an EEPROM of this device needs.
     pub fn storage_needed(&self) -> usize {
         needed(self.dictionary(), &self.profile)
@@ -197,9 +193,8 @@ impl VirtualDevice {
             memory.restore_power();
         }
         self.configure_node_id();
-        let (node, mut device) = self.parts();
         // `build` made room for the values.
-        let powered = node.power_on(&mut device, now);
+        let powered = self.lend(|node, device| node.power_on(device, now));
         debug_assert!(powered.is_ok());
         self.take_events();
     }
@@ -262,8 +257,7 @@ impl VirtualDevice {
 
     /// The next frame to send.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
-        let (node, mut device) = self.parts();
-        node.poll_transmit(&mut device, now)
+        self.lend(|node, device| node.poll_transmit(device, now))
     }
 
     /// When [`handle_timeout`](Self::handle_timeout) is due.
@@ -283,8 +277,7 @@ impl VirtualDevice {
 
     /// Hands an input on to the node.
     fn handle(&mut self, now: Instant, input: Input<'_>) {
-        let (node, mut device) = self.parts();
-        node.handle(&mut device, now, input);
+        self.lend(|node, device| node.handle(device, now, input));
         self.take_events();
     }
 
@@ -322,49 +315,8 @@ impl VirtualDevice {
         self.source.dictionary()
     }
 
-    /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.
-    fn configure_node_id(&mut self) {
-        let Behaviour::Encoder(encoder) = &self.behaviour else {
-            return;
-        };
-        let family = encoder.profile();
-        let Self {
-            source,
-            values,
-            storage,
-            wanted_id,
-            wanted_rate,
-            profile,
-            ..
-        } = self;
-        let code = wanted_rate.and_then(|rate| {
-            let code = family.bit_rates.iter().position(|known| *known == rate)?;
-            Some((family.object(Role::BitRate)?, code as u64))
-        });
-        let id = family
-            .object(Role::NodeId)
-            .map(|at| (at, u64::from(wanted_id.raw())));
-        let wanted = [id, code];
-        let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
-            return;
-        };
-        store.reset(|_| true);
-        let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
-        if loaded != Ok(image::Loaded::Blank) {
-            return;
-        }
-        let mut differs = false;
-        for (at, value) in wanted.into_iter().flatten() {
-            differs |= store.unsigned(at.index, at.sub) != value;
-            store.set_unsigned(at, value);
-        }
-        if differs {
-            // Only the group of the object; a storage that fails keeps the default.
-            let _ = image::save(storage, &store, &profile.store, 4);
-        }
-    }
-
-    pub(super) fn parts(&mut self) -> (&mut dyn Slave, Lent<'_>) {
+    /// Lends the device to the node for a call.
+    pub(super) fn lend<R>(&mut self, call: impl FnOnce(&mut dyn Slave, &mut Lent<'_>) -> R) -> R {
         let Self {
             source,
             values,
@@ -372,19 +324,32 @@ impl VirtualDevice {
             behaviour,
             storage,
             profile,
+            #[cfg(feature = "eds")]
+            long,
             ..
         } = self;
         if let Behaviour::Encoder(encoder) = behaviour {
             storage.broken = encoder.is_broken(Fault::Memory);
         }
-        let device = Lent {
+        let application = behaviour.as_application();
+        #[cfg(feature = "eds")]
+        let mut beside;
+        #[cfg(feature = "eds")]
+        let application: &mut dyn Application = match long {
+            Some(long) => {
+                beside = Beside { application, long };
+                &mut beside
+            }
+            None => application,
+        };
+        let mut device = Lent {
             dictionary: source.dictionary(),
             values,
-            application: behaviour.as_application(),
+            application,
             storage,
             profile,
         };
-        (&mut **node, device)
+        call(&mut **node, &mut device)
     }
 }
 

@@ -2,9 +2,13 @@
 
 use std::prelude::v1::*;
 
+use od_model::Entry;
+use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
+use od_runtime::storage::image;
 
-use crate::device::{Behaviour, VirtualDevice};
+use crate::behaviour::Behaviour;
+use crate::device::VirtualDevice;
 use crate::services::Services;
 
 impl VirtualDevice {
@@ -97,5 +101,47 @@ impl VirtualDevice {
     /// built-in device.
     pub fn services(&self) -> &Services {
         &self.services
+    }
+
+    /// Writes the wanted node ID and bit rate into an empty EEPROM, as somebody did who set the device up.
+    pub(super) fn configure_node_id(&mut self) {
+        let Behaviour::Encoder(encoder) = &self.behaviour else {
+            return;
+        };
+        let family = encoder.profile();
+        let Self {
+            source,
+            values,
+            storage,
+            wanted_id,
+            wanted_rate,
+            profile,
+            ..
+        } = self;
+        let code = wanted_rate.and_then(|rate| {
+            let code = family.bit_rates.iter().position(|known| *known == rate)?;
+            Some((family.object(Role::BitRate)?, code as u64))
+        });
+        let id = family
+            .object(Role::NodeId)
+            .map(|at| (at, u64::from(wanted_id.raw())));
+        let wanted = [id, code];
+        let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
+            return;
+        };
+        store.reset(|_| true);
+        let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
+        if loaded != Ok(image::Loaded::Blank) {
+            return;
+        }
+        let mut differs = false;
+        for (at, value) in wanted.into_iter().flatten() {
+            differs |= store.unsigned(at.index, at.sub) != value;
+            store.set_unsigned(at, value);
+        }
+        if differs {
+            // Only the group of the object; a storage that fails keeps the default.
+            let _ = image::save(storage, &store, &profile.store, 4);
+        }
     }
 }

@@ -8,6 +8,7 @@
 
 #![forbid(unsafe_code)]
 
+mod behaviour;
 mod bench;
 pub mod bus;
 #[cfg(feature = "eds")]
@@ -25,6 +26,8 @@ pub mod links;
 #[cfg(feature = "eds")]
 mod loaded;
 pub mod logs;
+#[cfg(feature = "eds")]
+mod long;
 mod own;
 pub mod pdos;
 mod plain;
@@ -35,6 +38,7 @@ pub mod script;
 pub mod serve;
 mod services;
 pub mod shaft;
+mod size;
 mod slave;
 mod source;
 #[cfg(all(test, feature = "eds"))]

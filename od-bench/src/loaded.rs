@@ -6,7 +6,9 @@ use std::prelude::v1::*;
 use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
 
-use crate::device::{Behaviour, VirtualDevice, roomy};
+use crate::behaviour::Behaviour;
+use crate::device::{VirtualDevice, roomy};
+use crate::long::Long;
 use crate::services::Services;
 use crate::source::Source;
 
@@ -58,6 +60,7 @@ impl VirtualDevice {
         device.services = Services::of(device.dictionary(), has_lss(description), |key| {
             is_set(description, key)
         });
+        device.long = Some(Long::default());
         let commissioning = description.commissioning().unwrap_or_default();
         if let Some(number) = commissioning.serial_number {
             device = device.with_serial_number(number);

@@ -11,7 +11,8 @@ use od_wire::AbortCode;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
-use crate::device::{Behaviour, VirtualDevice};
+use crate::behaviour::Behaviour;
+use crate::device::VirtualDevice;
 
 /// Most errors of one device that can be active.
 const ERRORS: usize = 32;
@@ -42,8 +43,7 @@ impl VirtualDevice {
             let (size, len) = (size * 8, len * 8);
             return Err(format!("{label}: {data_type} has {size} bits, not {len}"));
         }
-        let (node, mut lent) = self.parts();
-        let result = node.set_value(&mut lent, now, address, bytes);
+        let result = self.lend(|node, lent| node.set_value(lent, now, address, bytes));
         self.take_events();
         result.map_err(|code| {
             let node = self.node_id().raw();
@@ -151,8 +151,7 @@ impl VirtualDevice {
     }
 
     fn change_error(&mut self, error: Emcy, on: bool, now: Instant) -> bool {
-        let (node, mut lent) = self.parts();
-        let changed = node.change_error(&mut lent, now, error, on);
+        let changed = self.lend(|node, lent| node.change_error(lent, now, error, on));
         self.take_events();
         changed
     }

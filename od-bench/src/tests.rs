@@ -1,6 +1,7 @@
 //! The bench as its users see it: devices, bus, words.
 
 mod commissioning;
+mod long;
 mod own;
 
 use std::prelude::v1::*;

@@ -5,7 +5,8 @@ use std::prelude::v1::*;
 use od_model::Address;
 use od_runtime::{Context, Instant, Signals, Store};
 
-use crate::device::{Behaviour, VirtualDevice};
+use crate::behaviour::Behaviour;
+use crate::device::VirtualDevice;
 use crate::leds;
 use crate::leds::Led;
 
@@ -16,6 +17,10 @@ impl VirtualDevice {
     /// The value at an address as an SDO would carry it now, without a frame on the bus;
     /// empty where there is no such object. Also what a master may not read.
     pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
+        #[cfg(feature = "eds")]
+        if let Some(value) = self.long.as_ref().and_then(|long| long.get(address)) {
+            return value.to_vec();
+        }
         let Self {
             source,
             values,

@@ -5,7 +5,8 @@ use std::prelude::v1::*;
 use od_runtime::Instant;
 use od_runtime::encoder::{Angle, Encoder, Fault};
 
-use crate::device::{Behaviour, VirtualDevice};
+use crate::behaviour::Behaviour;
+use crate::device::VirtualDevice;
 use crate::faults;
 use crate::shaft::Shaft;
 

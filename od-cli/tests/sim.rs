@@ -42,6 +42,50 @@ fn every_eds_file_is_a_device() {
     );
 }
 
+/// 1,025 bytes for 2002h, a DOMAIN, by block download: two blocks and the end.
+fn long_download() -> String {
+    let value = [7; 1025];
+    let mut frames = String::from("607#C602200001040000\n");
+    for (at, bytes) in value.chunks(7).enumerate() {
+        let last = if at == 146 { 0x80 } else { 0 };
+        let mut data = bytes.to_vec();
+        data.resize(7, 0);
+        let hex: String = data.iter().map(|byte| format!("{byte:02X}")).collect();
+        frames += &format!("607#{:02X}{hex}\n", last | (at % 127 + 1));
+    }
+    let crc = od_wire::sdo::crc16(&value).to_le_bytes();
+    let head = 0xC1 | od_wire::sdo::unused(value.len()) << 2;
+    frames + &format!("607#{head:02X}{:02X}{:02X}0000000000\n", crc[0], crc[1])
+}
+
+#[test]
+fn a_domain_takes_what_the_option_says() {
+    let eds = repository("tests/interop/strings.eds");
+    let read = "607#4002200000000000\n";
+    let input = format!("{}{read}", long_download());
+    for args in [&[&eds[..]][..], &[&eds, "--domain-size", "1025"]] {
+        let sim = console(args, &input);
+        for frame in [
+            "587#A40220007F000000",
+            "587#A27F7F0000000000",
+            "587#A1000000",
+            "587#4102200001040000",
+        ] {
+            assert!(sim.out.contains(frame), "{frame}\n{}", sim.out);
+        }
+    }
+    // Strings, too; and a size that is announced too large is refused at once.
+    let text = "607#2101200001040000\n";
+    assert!(console(&[&eds], text).out.contains("587#6001200000000000"));
+    let sim = console(&[&eds, "--domain-size", "1KiB"], &format!("{input}{text}"));
+    for frame in ["587#8002200012000706", "587#8001200012000706"] {
+        assert!(sim.out.contains(frame), "{frame}\n{}", sim.out);
+    }
+    let wrong = odkit(&["sim", "gxmm", "--domain-size", "1GB"], "");
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.err.contains("64KiB or 1MiB"), "{}", wrong.err);
+}
+
 #[test]
 fn several_devices_share_the_bus() {
     let sim = Sim::start(&["gxmm", "gcam", "--device", "gxam", "--node-id", "5"]);

@@ -58,6 +58,8 @@ pub(crate) struct Added {
     pub(crate) beside: Option<String>,
     /// Another serial number than the first.
     pub(crate) serial: Option<u32>,
+    /// Bytes for each string and DOMAIN of a file's device.
+    pub(crate) domain_size: Option<u32>,
     /// Without power.
     pub(crate) off: bool,
 }

@@ -10,9 +10,10 @@ use super::deed::{Deed, Shaft, Wire};
 use super::names::fault_name;
 use super::problem::Problem;
 use super::tokens::Tokens;
+use crate::size;
 
 pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
-    let head = tokens.split_at_word(&["node", "serial", "as", "on", "off"]);
+    let head = tokens.split_at_word(&["node", "serial", "domain-size", "as", "on", "off"]);
     let shown = head.rest();
     let name = shown.trim_matches('"');
     if name.is_empty() {
@@ -38,6 +39,14 @@ pub(super) fn device(tokens: &mut Tokens<'_>) -> Result<Action, Problem> {
             }
         } else if tokens.take("serial") {
             added.serial = Some(tokens.number(0, u64::from(u32::MAX))? as u32);
+        } else if tokens.take("domain-size") {
+            let start = *tokens;
+            added.domain_size = Some(size::parse(tokens.next()).ok_or_else(|| {
+                start.problem(
+                    "the size is missing or wrong",
+                    "write a number of bytes, such as 1025, 64KiB or 1MiB",
+                )
+            })?);
         } else if tokens.take("as") {
             added.label = Some(label(tokens)?);
         } else if tokens.take("on") {

@@ -170,6 +170,14 @@ impl Runner<'_> {
                 let serial = wanted.serial.unwrap_or(1);
                 device = device.with_serial_number(serial.wrapping_add(u32::from(channel)));
             }
+            if let Some(bytes) = wanted.domain_size
+                && !device.set_domain_size(bytes)
+            {
+                return impossible(format!(
+                    "`domain-size` is for devices of EDS files; {} is built in",
+                    device.title()
+                ));
+            }
             let number = match first.or(beside) {
                 Some(other) => self.bench.bus.add_beside(device, other),
                 None => self.bench.bus.add(device),

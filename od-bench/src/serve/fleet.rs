@@ -56,6 +56,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
         {
             device = device.with_serial_number(number);
         }
+        device.set_domain_size(args.domain_size);
         if let Some(path) = args.eeproms.get(at) {
             regular(path)?;
             let file = File::open(path, device.storage_needed());

@@ -8,6 +8,7 @@ use od_runtime::NodeId;
 use super::control::place::Place;
 use super::links::Link;
 use super::log;
+use crate::size;
 
 /// Options for running devices.
 #[derive(Clone, PartialEq, Debug)]
@@ -18,6 +19,8 @@ pub struct Options {
     pub serials: Vec<u32>,
     /// Links for masters; none: slcan on port 29536 of this computer.
     pub links: Vec<Link>,
+    /// Bytes for each string and DOMAIN that masters write, of devices of files.
+    pub domain_size: u32,
     /// File with the EEPROM of each device, in their order; in memory if there is none.
     pub eeproms: Vec<PathBuf>,
     /// Raw position of the shaft at the start, in steps.
@@ -46,6 +49,7 @@ impl Default for Options {
             node_ids: Vec::new(),
             serials: Vec::new(),
             links: Vec::new(),
+            domain_size: 1 << 20,
             eeproms: Vec::new(),
             position: None,
             rpm: None,
@@ -99,7 +103,7 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 14] = [
+pub const CHOICES: [Choice; 15] = [
     Choice {
         name: "node-id",
         value: "N",
@@ -157,6 +161,20 @@ pub const CHOICES: [Choice; 14] = [
         repeats: true,
         set: |options, text| {
             options.eeproms.push(PathBuf::from(text));
+            Ok(())
+        },
+        ..PLAIN
+    },
+    Choice {
+        name: "domain-size",
+        value: "SIZE",
+        help: "Bytes for each string and DOMAIN that masters write (1025, 64KiB, 1MiB), or those of its \
+               default value if that is longer; for devices of files",
+        default: Some("1MiB"),
+        set: |options, text| {
+            let bytes = size::parse(text);
+            let bytes = bytes.ok_or("write a number of bytes, such as 1025, 64KiB or 1MiB")?;
+            options.domain_size = bytes;
             Ok(())
         },
         ..PLAIN
@@ -336,7 +354,8 @@ mod tests {
     fn arguments_are_read_with_a_blank_or_an_equals_sign() {
         let options = parsed(
             "--node-id 5 --node-id=0x06 --node-id none --serial 0x1268 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
-             --position=79592h --bitrate 125000 --eeprom a.bin --quiet --control unix:a --log b.log",
+             --position=79592h --domain-size 64KiB --bitrate 125000 --eeprom a.bin --quiet --control unix:a \
+             --log b.log",
         )
         .expect("options");
         assert_eq!(options.node_ids, [NodeId::new(5), NodeId::new(6), None]);
@@ -345,6 +364,7 @@ mod tests {
         assert_eq!(options.rpm, Some(-60.0));
         assert_eq!(options.position, Some(0x79592));
         assert_eq!(options.bitrate, 125_000);
+        assert_eq!(options.domain_size, 65_536);
         assert_eq!(options.eeproms, [PathBuf::from("a.bin")]);
         assert_eq!(options.control, Place::parse("unix:a").ok());
         assert!(options.quiet && !Options::default().quiet);
@@ -363,6 +383,7 @@ mod tests {
             ("--node-id 128", "1 to 127"),
             ("--serial 4294967296", "32 bits"),
             ("--rpm 1 --rpm 2", "twice"),
+            ("--domain-size 1GB", "1MiB"),
             ("--seed 1 --position 2", "`--seed`"),
             ("--position 2 --seed 1", "`--position`"),
         ] {
