@@ -75,7 +75,7 @@ fn deadlines_are_met_at_their_own_moment() {
 
 #[test]
 fn a_compiled_device_runs_on_its_own_node() {
-    use od_devices::bus_cover::gxmm;
+    use od_devices::en580c::en580c;
     let room = |device| {
         let mut bus = bench(vec![device]);
         heard(&mut bus);
@@ -84,8 +84,8 @@ fn a_compiled_device_runs_on_its_own_node() {
         assert_eq!(frame.data()[..4], [0xA4, 0x17, 0x10, 0x00]);
         frame.data()[4]
     };
-    let own = VirtualDevice::of("own", gxmm::Node::new(NodeId::ONE));
-    let segments = gxmm::DICTIONARY.longest() / 7;
+    let own = VirtualDevice::of("own", en580c::Node::new(NodeId::ONE));
+    let segments = en580c::DICTIONARY.longest() / 7;
     assert_eq!(usize::from(room(own)), segments.max(1));
     let options = EdsOptions {
         node_id: Some(NodeId::ONE),
