@@ -66,8 +66,8 @@
 //!
 //! `add` wants `name` and `type`; `access` is `ro`, `code` is `var`, nothing is
 //! mappable unless it says so. `capacity` is 64, of a DOMAIN that a master can write 1,024, and never less
-//! than the default needs; with 0 the store holds nothing, and the application streams the value. A RECORD or an ARRAY is added first and its members
-//! after it; sub-index 0 is added automatically unless an `add` gives it, and follows where a
+//! than the default needs; with 0 the store holds nothing, and the application streams the value. A
+//! RECORD or an ARRAY is added first and its members after it; sub-index 0 is added automatically unless an `add` gives it, and follows where a
 //! patch adds or removes members. `none` takes a
 //! default or a limit away.
 //!

@@ -35,7 +35,8 @@ pub use fits::Unfit;
 /// A CANopen slave.
 ///
 /// `PDO` is the number of TPDOs and of RPDOs that it can have, `SDO` the bytes of the transfer
-/// buffer: the longest value that a segmented or block transfer can carry. `D` says what the
+/// buffer: the longest value that a segmented or block transfer can carry, or the longest part of a
+/// streamed one ([`Application::stream`](crate::Application::stream)). `D` says what the
 /// compiler knows of the device: with `object_dictionary!` the type `Node` of its module has the
 /// sizes of the dictionary, and other sizes do not compile unless they fit.
 ///
