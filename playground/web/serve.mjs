@@ -1,18 +1,68 @@
 // Serves the bundled page on 127.0.0.1: `node serve.mjs [port]`, else on 8080 or the next free port.
 // Prints the address. Ends with its standard input, so that nothing outlives its starter.
-import { context } from 'esbuild';
+import { createHash } from 'node:crypto';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+
+const TYPES = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript; charset=utf-8',
+  '.css': 'text/css; charset=utf-8',
+  '.json': 'application/json',
+  '.webmanifest': 'application/manifest+json',
+  '.md': 'text/markdown; charset=utf-8',
+  '.svg': 'image/svg+xml',
+  '.wasm': 'application/wasm',
+};
+
+/** What the page needs and no more: its own files, WebAssembly, and styles in attributes (meters, fading bytes). */
+const policy = (scripts) =>
+  `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'${scripts}; style-src 'self'; style-src-attr 'unsafe-inline'; ` +
+  "img-src 'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'";
+
+/** The hashes of the scripts inside an HTML file, as a policy names them. */
+const inline = (html) =>
+  [...html.toString().matchAll(/<script>(.*?)<\/script>/gs)]
+    .map(([, text]) => ` 'sha256-${createHash('sha256').update(text).digest('base64')}'`)
+    .join('');
 
 /** Serves a folder; port 0 is any free one. */
 export async function serve(folder, port) {
-  const server = await context({ logLevel: 'silent' });
-  try {
-    const { port: bound } = await server.serve({ servedir: fileURLToPath(folder), host: '127.0.0.1', port });
-    return { url: `http://127.0.0.1:${bound}/`, stop: () => server.dispose() };
-  } catch {
-    await server.dispose();
-    return null;
-  }
+  const root = fileURLToPath(folder);
+  const server = createServer(async (request, response) => {
+    const { port: own } = server.address();
+    const end = (status, text) => response.writeHead(status, { 'content-type': 'text/plain' }).end(text);
+    // A name that somebody else made lead to this computer is not ours.
+    if (![`127.0.0.1:${own}`, `localhost:${own}`].includes(request.headers.host)) return end(421, 'unknown host\n');
+    if (!['GET', 'HEAD'].includes(request.method)) return end(405, 'read only\n');
+    try {
+      // A URL has no `..` left in it; what is encoded stays below the root all the same.
+      const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).replace(/\/$/, '/index.html');
+      const file = join(root, path);
+      if (!file.startsWith(root)) return end(404, 'not found\n');
+      const body = await readFile(file);
+      const type = TYPES[extname(file)] ?? 'application/octet-stream';
+      response.writeHead(200, {
+        'content-type': type,
+        'content-length': body.length,
+        'cache-control': 'no-cache',
+        'content-security-policy': policy(type.startsWith('text/html') ? inline(body) : ''),
+        'x-content-type-options': 'nosniff',
+      });
+      response.end(request.method === 'HEAD' ? undefined : body);
+    } catch {
+      end(404, 'not found\n');
+    }
+  });
+  const listening = new Promise((resolve) => server.once('error', () => resolve(false)).listen(port, '127.0.0.1', () => resolve(true)));
+  if (!(await listening)) return null;
+  const stop = () => {
+    server.close();
+    server.closeAllConnections();
+  };
+  return { url: `http://127.0.0.1:${server.address().port}/`, stop };
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -1,8 +1,11 @@
 // The page as a person uses it.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
+import { get } from 'node:http';
+import { test } from 'node:test';
 import { becomes, booted, captured, clock, nmt, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 import { checks } from './check.mjs';
+import { URL_OF_PAGE } from './harness.mjs';
 
 const check = checks(booted);
 
@@ -226,4 +229,31 @@ check('dark where the system is dark', { colorScheme: 'dark' }, async (page) => 
     const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
     return red < 40;
   });
+});
+
+/** The status of the page, and its headers, under this name of the computer. */
+const head = (host, path = '') =>
+  new Promise((resolve, reject) => {
+    const request = get(new URL(path, URL_OF_PAGE), { headers: { host } }, (response) => {
+      response.resume();
+      resolve([response.statusCode, response.headers]);
+    });
+    request.on('error', reject);
+  });
+
+test('the server answers to its own names only, and says what the page may do', async () => {
+  const { port } = new URL(URL_OF_PAGE);
+  for (const name of ['127.0.0.1', 'localhost']) {
+    const [status, headers] = await head(`${name}:${port}`);
+    assert.equal(status, 200, name);
+    const policy = headers['content-security-policy'];
+    assert.match(policy, /default-src 'none'; script-src 'self' 'wasm-unsafe-eval' 'sha256-[^']+';/);
+    assert.doesNotMatch(policy, /\*|http|script-src[^;]*'unsafe-(inline|eval)'/);
+  }
+  const [, worker] = await head(`127.0.0.1:${port}`, 'worker.js');
+  assert.match(worker['content-security-policy'], /script-src 'self' 'wasm-unsafe-eval';/);
+  for (const name of ['odkit.example', `odkit.example:${port}`, '127.0.0.1', `127.0.0.1:${port}.example`]) {
+    assert.equal((await head(name))[0], 421, name);
+  }
+  for (const path of ['..%2f..%2fpackage.json', 'missing.js']) assert.equal((await head(`127.0.0.1:${port}`, path))[0], 404, path);
 });

@@ -1,4 +1,4 @@
-//! The page's server: `playground/web/serve.mjs`, which is esbuild's.
+//! The page's server: `playground/web/serve.mjs`.
 
 use std::io::{BufRead, BufReader, Read};
 use std::net::{Ipv4Addr, TcpListener};
