@@ -11,14 +11,8 @@ use support::sim::{Sim, say};
 #[test]
 fn socketcand_speaks_to_clients_that_compare_what_they_read() {
     let mut sim = Sim::start(&["gxmm", "--link", "socketcand:127.0.0.1:0"]);
-    let after = sim
-        .greeting
-        .split("socketcand on 127.0.0.1:")
-        .nth(1)
-        .expect("an address");
-    let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
     let slcan = sim.port;
-    sim.port = digits.parse().expect("a port");
+    sim.port = sim.port_of("socketcand on 127.0.0.1:");
     let mut client = sim.client();
     say(&mut client, "", "< hi >");
     say(&mut client, "< open can0 >", "< ok >");
@@ -88,11 +82,7 @@ fn a_port_in_use_is_said_with_what_to_do() {
 #[test]
 fn ctrl_c_ends_it_cleanly() {
     let mut sim = Sim::start(&["gxmm"]);
-    let pid = sim.child.id().to_string();
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &pid])
-        .status();
-    assert!(kill.expect("kill").success());
+    sim.signal("-INT");
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
 }
 
@@ -154,11 +144,7 @@ fn ctrl_c_ends_it_under_a_flood() {
         let answered = is_flooding.recv_timeout(Duration::from_secs(10));
         answered.expect("a client that is answered");
     }
-    let pid = sim.child.id().to_string();
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &pid])
-        .status();
-    assert!(kill.expect("kill").success());
+    sim.signal("-INT");
     let asked = std::time::Instant::now();
     assert_eq!(sim.child.wait().expect("it ends").code(), Some(0));
     assert!(asked.elapsed() < Duration::from_secs(5));

@@ -19,6 +19,10 @@ const FAREWELL: Duration = Duration::from_secs(10);
 
 /// Most clients of the control socket.
 const CONTROLS: usize = 16;
+/// Bytes that one client may send in a turn to all others together.
+const WORK: usize = 256 * 1024;
+/// Fewest bytes of a turn.
+const LEAST: usize = 512;
 
 /// The clients, and the places where further ones come to.
 pub(super) struct Clients {
@@ -193,6 +197,11 @@ impl Clients {
         let had_turn = ready.partition_point(|number| *number <= self.last);
         ready.rotate_left(had_turn);
         ready
+    }
+
+    /// Bytes of a turn: the more clients hear every frame, the fewer, so that a turn takes the same time.
+    pub(super) fn turn(&self) -> usize {
+        (WORK / self.list.len().max(1)).max(LEAST)
     }
 
     /// Reads what a client has sent, as much as its turn allows. `Ok(None)`: nothing.

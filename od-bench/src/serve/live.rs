@@ -26,12 +26,10 @@ use crate::links::Step;
 use crate::script::Console;
 use crate::words::plural;
 
-/// Bytes of one client that the bus takes in its turn.
+/// Most bytes of one client that the bus takes in its turn.
 const TURN: usize = 4 * 1024;
-/// Bytes of all clients that the bus takes before the frames for them go out.
-const ROUND: usize = 16 * 1024;
-/// A turn counts as this number of bytes at least.
-const LEAST: usize = 64;
+/// Turns before the frames of all go out.
+const ROUND: usize = 4;
 
 /// The bus in real time.
 pub(super) struct Live {
@@ -244,29 +242,30 @@ impl Live {
             }
             self.clients.answer(number, hello);
         }
-        let mut room = ROUND;
+        let mut turns = 0;
         for number in self.clients.ready() {
-            if room == 0 || self.is_stopped() {
+            if turns == ROUND || self.is_stopped() {
                 break;
             }
-            room = room.saturating_sub(self.turn(number).max(LEAST));
+            turns += usize::from(self.turn(number));
         }
     }
 
-    /// The turn of one client. Returns the number of bytes that it sent.
-    fn turn(&mut self, number: usize) -> usize {
+    /// The turn of one client, if it has sent something.
+    fn turn(&mut self, number: usize) -> bool {
         let mut buffer = [0; TURN];
-        let len = match self.clients.read(number, &mut buffer) {
+        let room = self.clients.turn().min(TURN);
+        let len = match self.clients.read(number, &mut buffer[..room]) {
             Ok(Some(len)) if len > 0 => len,
-            Ok(None) => return 0,
+            Ok(None) => return false,
             end => {
                 self.end(number, end.err());
-                return 0;
+                return true;
             }
         };
         let (bytes, now) = (&buffer[..len], self.bench.bus.now());
         let Some(client) = self.clients.get(number) else {
-            return len;
+            return true;
         };
         if client.is_http(bytes) {
             note(&format!(
@@ -274,7 +273,7 @@ impl Live {
                 client.name
             ));
             self.clients.remove(number);
-            return len;
+            return true;
         }
         let mut steps = Vec::new();
         client.codec.receive(bytes, now, &mut steps);
@@ -284,7 +283,7 @@ impl Live {
         if let Some(Err(error)) = flushed {
             self.end(number, Some(error));
         }
-        len
+        true
     }
 
     /// A client has sent everything; with an `error`, it also hears no more.

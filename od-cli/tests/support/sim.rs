@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::process::{Child, Stdio};
+use std::process::{Child, ChildStderr, Command, Stdio};
 use std::time::Duration;
 
 use super::command;
@@ -13,16 +13,38 @@ pub(crate) struct Sim {
     /// Its greeting.
     pub(crate) greeting: String,
     pub(crate) port: u16,
+    /// Its standard error, unless nobody listens.
+    errors: Option<BufReader<ChildStderr>>,
 }
 
 impl Sim {
     pub(crate) fn start(args: &[&str]) -> Self {
-        let mut child = command()
+        Self::spawn(command(), args, Stdio::null())
+    }
+
+    /// One whose messages a test [waits for](Self::told).
+    pub(crate) fn start_heard(args: &[&str]) -> Self {
+        Self::spawn(command(), args, Stdio::piped())
+    }
+
+    /// One that `sh` starts with this script, as `"$@"`.
+    #[cfg(unix)]
+    pub(crate) fn start_under(script: &str, args: &[&str]) -> Self {
+        let mut shell = Command::new("sh");
+        shell
+            .args(["-c", script, "sh"])
+            .arg(command().get_program());
+        Self::spawn(shell, args, Stdio::piped())
+    }
+
+    fn spawn(mut command: Command, args: &[&str], errors: Stdio) -> Self {
+        let mut child = command
             .arg("sim")
             .args(args)
             .args(["--slcan", "127.0.0.1:0"])
+            .stdin(Stdio::null())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
+            .stderr(errors)
             .spawn()
             .expect("odkit starts");
         let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
@@ -34,14 +56,47 @@ impl Sim {
                 "{greeting}"
             );
         }
-        let after = greeting.split("127.0.0.1:").nth(1).expect("an address");
-        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
-        let port = digits.parse().expect("a port");
-        Self {
+        let errors = child.stderr.take().map(BufReader::new);
+        let mut sim = Self {
             child,
             greeting,
-            port,
+            port: 0,
+            errors,
+        };
+        sim.port = sim.port_of("slcan on 127.0.0.1:");
+        sim
+    }
+
+    /// The port that follows this text in the greeting.
+    #[track_caller]
+    pub(crate) fn port_of(&self, text: &str) -> u16 {
+        let after = self.greeting.split(text).nth(1).expect("an address");
+        let digits: String = after.chars().take_while(char::is_ascii_digit).collect();
+        digits.parse().expect("a port")
+    }
+
+    /// Waits for a message with this text, and returns its line.
+    #[track_caller]
+    pub(crate) fn told(&mut self, text: &str) -> String {
+        let errors = self.errors.as_mut().expect("one that is heard");
+        let mut seen = String::new();
+        loop {
+            let mut line = String::new();
+            let len = errors.read_line(&mut line).expect("standard error");
+            assert_ne!(len, 0, "`{text}` is not in {seen}");
+            if line.contains(text) {
+                return line;
+            }
+            seen.push_str(&line);
         }
+    }
+
+    /// Sends it a signal.
+    #[cfg(unix)]
+    pub(crate) fn signal(&self, name: &str) {
+        let process = self.child.id().to_string();
+        let kill = Command::new("kill").args([name, &process]).status();
+        assert!(kill.expect("kill").success());
     }
 
     pub(crate) fn client(&self) -> TcpStream {

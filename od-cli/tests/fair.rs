@@ -1,0 +1,56 @@
+//! A flood of one client is no trouble for another, and costs no memory.
+//!
+//! `ODKIT_LONG=600 cargo test -p od-cli --test fair -- --nocapture` runs ten minutes with the limits
+//! of the real thing and prints a table; `ODKIT` names another binary to measure.
+
+mod support;
+
+use std::time::{Duration, Instant};
+
+use support::crowd::{Measured, measure};
+use support::sim::Sim;
+
+/// Runs a crowd for as long as `enough` lets it.
+fn crowd(silent: usize, enough: impl FnMut(usize) -> bool) -> Measured {
+    let measured = measure(&Sim::start(&["gxmm"]), silent, enough);
+    println!("{}", measured.row(silent));
+    measured
+}
+
+#[test]
+fn a_polite_client_is_answered_beside_a_flood() {
+    // Every request gets its answer, before the time limit of the client at that.
+    let measured = crowd(60, |answers| answers == 100);
+    assert_eq!(measured.answers.len(), 100);
+    if let Some(memory) = measured.memory {
+        assert!(memory.peak < 50_000, "{} kB", memory.peak);
+        assert!(memory.threads <= 3, "{} threads", memory.threads);
+    }
+}
+
+/// `--long` makes it a soak of ten minutes; a number says how many seconds.
+#[test]
+fn a_soak_stays_within_its_limits() {
+    let Some(long) = std::env::var_os("ODKIT_LONG") else {
+        println!("skipped: a soak of ten minutes; set ODKIT_LONG=1");
+        return;
+    };
+    let seconds = long.to_str().and_then(|text| text.parse().ok());
+    let seconds = seconds.filter(|seconds| *seconds > 1).unwrap_or(600);
+    let half = Duration::from_secs(seconds) / 2;
+    // A build with all its checks is ten times slower than a release.
+    let slow = if cfg!(debug_assertions) { 10 } else { 1 };
+    for (silent, median, max) in [(0, 5, 100), (500, 20, 200)] {
+        let start = Instant::now();
+        let measured = crowd(silent, |_| start.elapsed() > half);
+        let millis = |limit: u64| Duration::from_millis(limit * slow);
+        assert!(
+            measured.median() < millis(median),
+            "{}",
+            measured.row(silent)
+        );
+        assert!(measured.max() < millis(max), "{}", measured.row(silent));
+        let peak = measured.memory.map_or(0, |memory| memory.peak);
+        assert!(peak < 50_000, "{}", measured.row(silent));
+    }
+}
