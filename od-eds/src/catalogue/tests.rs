@@ -65,7 +65,7 @@ fn every_sentence_is_said_and_filled() {
     let mut paths = Vec::new();
     files(&crate_folder.join("cases"), &mut paths);
     files(&crate_folder.join("../tests/cases"), &mut paths);
-    files(&crate_folder.join("../tests/ui"), &mut paths);
+    files(&crate_folder.join("../tests/compile/ui"), &mut paths);
     let mut faults = BTreeSet::new();
     let mut said: BTreeMap<&str, BTreeSet<(&str, &str)>> = BTreeMap::new();
     let documents = paths

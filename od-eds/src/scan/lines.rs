@@ -8,6 +8,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::scan::find::either;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
@@ -110,16 +111,20 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
 }
 
 /// The lines of a text, each with its end.
-pub(crate) fn with_ends(mut rest: &str) -> impl Iterator<Item = &str> {
+pub(crate) fn with_ends(text: &str) -> impl Iterator<Item = &str> {
+    let newline = move |from: usize| text[from..].find('\n').map(|at| from + at + 1);
+    let (mut next, mut end) = (0, 0);
     core::iter::from_fn(move || {
-        let end = match rest.find(['\n', '\r']) {
-            Some(at) if rest[at..].starts_with("\r\n") => at + 2,
-            Some(at) => at + 1,
-            None => rest.len(),
+        let start = next;
+        // Searched once: in a text with `\r` alone it is far away.
+        if end == start {
+            end = newline(start).unwrap_or(text.len());
+        }
+        next = match text[start..end].find('\r').map(|at| start + at) {
+            Some(at) if !text[at..].starts_with("\r\n") => at + 1,
+            _ => end,
         };
-        let (line, behind) = rest.split_at(end);
-        rest = behind;
-        (!line.is_empty()).then_some(line)
+        (start < next).then(|| &text[start..next])
     })
 }
 
@@ -202,7 +207,7 @@ impl<'a> Scan<'a> {
     }
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
-        let Some(at) = trimmed.find(['=', ':']) else {
+        let Some(at) = either(trimmed, ['=', ':']) else {
             self.faults.push(Fault::NoPair(line.spanned(trimmed)));
             return;
         };

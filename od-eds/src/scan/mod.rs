@@ -2,6 +2,7 @@
 //! places.
 
 pub(crate) mod encoding;
+pub(crate) mod find;
 pub(crate) mod known;
 pub(crate) mod lines;
 pub(crate) mod names;

@@ -3,6 +3,8 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::scan::find::either;
+
 /// Peculiarity of a value that is understood all the same.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Note {
@@ -38,7 +40,7 @@ pub(crate) struct Number {
 
 /// The text in front of a `;` or a `#`.
 pub(crate) fn before_comment(text: &str) -> &str {
-    let found = text.find([';', '#']).or_else(|| text.find("//"));
+    let found = either(text, [';', '#']).or_else(|| text.find("//"));
     match found {
         Some(at) => text[..at].trim_end(),
         None => text,

@@ -6,6 +6,7 @@ use core::fmt::Write;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Value};
 use crate::read::{fields, values};
+use crate::scan::find::either;
 use crate::scan::names::List;
 use crate::span::Spanned;
 
@@ -80,11 +81,9 @@ impl Text {
 
     /// A text that a patch brought may hold line ends; the format has no way to write them.
     fn one_line(&mut self, text: &str) {
-        for (at, piece) in text.split(['\n', '\r']).enumerate() {
-            if at > 0 {
-                self.0.push(' ');
-            }
-            self.0.push_str(piece);
+        match either(text, ['\n', '\r']) {
+            Some(_) => self.0.push_str(&text.replace(['\n', '\r'], " ")),
+            None => self.0.push_str(text),
         }
     }
 
