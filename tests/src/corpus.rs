@@ -3,6 +3,8 @@
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 /// Endings of EDS and DCF files.
 pub const TEXTS: &[&str] = &["eds", "dcf"];
@@ -44,4 +46,19 @@ pub fn files(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     }
     files.sort();
     files
+}
+
+/// Looks at each of the files, on all processors.
+pub fn each(files: &[PathBuf], look: impl Fn(&Path) + Sync) {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
+            look(file);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
 }

@@ -41,6 +41,8 @@ fn a_change_of_the_file_rebuilds() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = package.parent().unwrap();
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rebuild");
+    // What trybuild has built for its cases is not built again.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../tests/trybuild");
     std::fs::create_dir_all(scratch.join("src")).unwrap();
     std::fs::create_dir_all(scratch.join("eds")).unwrap();
     let manifest = format!(
@@ -62,7 +64,7 @@ fn a_change_of_the_file_rebuilds() {
         let output = Command::new(std::env::var_os("CARGO").unwrap())
             .args(["run", "--quiet", "--offline"])
             .current_dir(&scratch)
-            .env("CARGO_TARGET_DIR", scratch.join("target"))
+            .env("CARGO_TARGET_DIR", &target)
             .output()
             .unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);

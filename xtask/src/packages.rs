@@ -6,6 +6,9 @@ pub(crate) const CLI: (&str, &str) = ("od-cli", "odkit");
 pub(crate) const PAGE: (&str, &str) = ("od-playground", "od_playground");
 /// The tests from outside.
 pub(crate) const TESTS: &str = "od-tests";
+/// Those of what compiles and what does not; a package of its own, since trybuild builds all that
+/// such a package needs once more.
+pub(crate) const COMPILE: &str = "od-tests-compile";
 /// The benchmarks with their heavy peers.
 pub(crate) const BENCHES: &str = "od-benches";
 /// A peer whose generated code takes as long to compile as all of odkit.
@@ -15,7 +18,8 @@ pub(crate) const PEER: &str = "od-benches-zencan";
 pub(crate) const FUZZ: &str = "od-fuzz";
 
 /// Packages that are not for crates.io; the playground is for npm.
-pub(crate) const UNPUBLISHED: [&str; 6] = [BENCHES, PEER, PAGE.0, TESTS, FUZZ, "xtask"];
+pub(crate) const UNPUBLISHED: [&str; 7] =
+    [BENCHES, PEER, PAGE.0, TESTS, COMPILE, FUZZ, "xtask"];
 
 /// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
 /// tests from outside that have to notice them, beside the package's own.

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{BENCHES, CLI, NO_STD, PEER, TESTS};
+use crate::packages::{BENCHES, CLI, COMPILE, NO_STD, PEER, TESTS};
 use crate::setup::target;
 use crate::size;
 use crate::test::context::Context;
@@ -41,11 +41,13 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     run(context, "clippy", &args)
 }
 
-/// The tests of all packages but the one with the tests from outside.
+/// The tests of all packages but those with the tests from outside.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     let what = [
         "--exclude",
         TESTS,
+        "--exclude",
+        COMPILE,
         "--lib",
         "--bins",
         "--tests",
@@ -54,20 +56,25 @@ pub(super) fn unit(context: &Context<'_>) -> Result<()> {
     test(context, "unit tests", &[&ALL[..], &what].concat(), &[])
 }
 
-/// One test target of the tests from outside.
-pub(super) fn outside(context: &Context<'_>, name: &str) -> Result<()> {
-    test(context, name, &ALL, &[String::from(name)])
+/// Some of the test targets from outside.
+pub(super) fn outside(context: &Context<'_>, names: &[&str]) -> Result<()> {
+    let names: Vec<String> = names.iter().copied().map(String::from).collect();
+    test(context, &names.join(", "), &ALL, &names)
 }
 
-/// The test targets from outside that have no stage of their own.
+/// The test targets from outside that have no stage of their own: files, and folders with a
+/// `main.rs`.
 pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
     let dir = context.repo.root.join("tests/tests");
     let files = fs::read_dir(&dir).map_err(|e| Error::io("read", &dir, &e))?;
     let names = files.filter_map(|file| {
-        let name = file.ok()?.file_name().into_string().ok()?;
-        name.strip_suffix(".rs").map(String::from)
+        let path = file.ok()?.path();
+        let is_test =
+            path.extension().is_some_and(|it| it == "rs") || path.join("main.rs").is_file();
+        let name = path.file_stem().filter(|_| is_test)?;
+        Some(name.to_string_lossy().into_owned())
     });
-    let others = |name: &String| !["ui", "conformance", "mutations"].contains(&name.as_str());
+    let others = |name: &String| !["conformance", "mutations"].contains(&name.as_str());
     let mut names: Vec<String> = names.filter(others).collect();
     names.sort();
     let args = [&ALL[..], &["--no-fail-fast"]].concat();

@@ -1,0 +1,11 @@
+//! 1000h of another data type.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../../od-eds/cases/E0604/bad.eds";
+    }
+}
+
+fn main() {}

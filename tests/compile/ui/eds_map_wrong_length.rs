@@ -1,0 +1,11 @@
+//! An object that is mapped with another length.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../../od-eds/cases/E0504/bad.eds";
+    }
+}
+
+fn main() {}

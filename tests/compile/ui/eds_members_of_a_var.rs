@@ -1,0 +1,11 @@
+//! A VAR with sub-indices.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../../od-eds/cases/E0305/bad.eds";
+    }
+}
+
+fn main() {}

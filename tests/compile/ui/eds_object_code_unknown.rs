@@ -1,0 +1,11 @@
+//! An ObjectType that is no object code.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../../od-eds/cases/E0301/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A transmission type of another data type.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../../od-eds/cases/E0509/bad.eds";
+    }
+}
+
+fn main() {}

@@ -1,0 +1,11 @@
+//! A mistake in an overlay is told in the overlay.
+
+use odkit::object_dictionary;
+
+object_dictionary! {
+    mod device {
+        eds = "../../eds/small.eds" + "eds/wrong.overlay";
+    }
+}
+
+fn main() {}
