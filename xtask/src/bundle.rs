@@ -17,8 +17,12 @@ use crate::repo::{self, Repo};
 use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The size of the download counts more than the last bit of speed.
-pub(crate) const OPT_LEVEL: (&str, &str) = ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s");
+/// The size of the download counts more than the last bit of speed. One crate for all is worth
+/// its time for what the page begins with (profile `page`), not for what it fetches later.
+pub(crate) const RELEASE: [(&str, &str); 2] = [
+    ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s"),
+    ("CARGO_PROFILE_RELEASE_LTO", "off"),
+];
 
 /// A WebAssembly module of the page.
 struct Module {
@@ -77,7 +81,7 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     let mut build = cargo(&repo.root, &["build", "--lib", "--profile", module.profile]);
     build.args(["--package", PAGE.0, "--target", target::WASM]);
     build.args(module.features);
-    build.env(OPT_LEVEL.0, OPT_LEVEL.1);
+    build.envs(RELEASE);
     console.run(module.what, &mut build)?;
     let wasm = repo
         .target

@@ -7,7 +7,7 @@ use std::env;
 use std::fs;
 use std::process::Command;
 
-use crate::bundle::OPT_LEVEL;
+use crate::bundle::RELEASE;
 use crate::console::{Console, which};
 use crate::error::{Error, Result};
 use crate::lock::SetupLock;
@@ -28,7 +28,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     });
     command
         .current_dir(&repo.root)
-        .env(OPT_LEVEL.0, OPT_LEVEL.1)
+        .envs(RELEASE)
         .env("ODKIT_TOOLS", repo.tools());
     if args.is_empty() {
         command.args(DEFAULT);
