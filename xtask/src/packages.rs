@@ -18,8 +18,7 @@ pub(crate) const PEER: &str = "od-benches-zencan";
 pub(crate) const FUZZ: &str = "od-fuzz";
 
 /// Packages that are not for crates.io; the playground is for npm.
-pub(crate) const UNPUBLISHED: [&str; 7] =
-    [BENCHES, PEER, PAGE.0, TESTS, COMPILE, FUZZ, "xtask"];
+pub(crate) const UNPUBLISHED: [&str; 7] = [BENCHES, PEER, PAGE.0, TESTS, COMPILE, FUZZ, "xtask"];
 
 /// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
 /// tests from outside that have to notice them, beside the package's own.
