@@ -24,9 +24,6 @@ odkit::object_dictionary! {
     pub mod gxmm {
         eds = "../eds/GXMM.eds";
         profile = cia406;
-        // What the profile switches off anyway.
-        without segmented, block, rpdos, changes;
-        behaves = PROFILE;
 
         /// `GXAM`, multivo singleturn: 13 bits a revolution. It has no battery.
         variant gxam {

@@ -126,16 +126,16 @@ impl Bench {
     fn check_limits(&mut self) {
         let node_id = self.node.node_id();
         let dictionary = self.kind.dictionary;
-        let store = Store::new(dictionary, &mut self.values, node_id).unwrap();
-        for entry in dictionary.entries().iter().filter(|e| e.access.writable()) {
+        let store = Store::new(&dictionary, &mut self.values, node_id).unwrap();
+        for entry in dictionary.entries().filter(|e| e.access.writable()) {
             let Some(bits) = entry.data_type.bits().filter(|bits| *bits <= 64) else {
                 continue;
             };
             let value = match entry.data_type.kind() {
-                Kind::Unsigned => i128::from(store.number(entry)),
+                Kind::Unsigned => i128::from(store.number(&entry)),
                 Kind::Signed => {
                     let unused = 64 - u32::from(bits);
-                    i128::from((store.number(entry) << unused) as i64 >> unused)
+                    i128::from((store.number(&entry) << unused) as i64 >> unused)
                 }
                 _ => continue,
             };
@@ -179,7 +179,8 @@ impl Bench {
                 0xC6, bytes[0],
             ]);
             let entries = self.kind.dictionary.entries();
-            let address = entries[random.below(entries.len())].address;
+            let entry = entries.get(random.below(entries.len()));
+            let address = entry.expect("a value").address;
             bytes[1..3].copy_from_slice(&address.index.to_le_bytes());
             bytes[3] = address.sub;
             if matches!(address.index, 0x1010 | 0x1011) {

@@ -35,15 +35,15 @@ impl VirtualDevice {
         let node_id = self.node_id();
         let Self { source, values, .. } = self;
         let dictionary = source.dictionary();
-        let Ok(store) = Store::new(dictionary, values, node_id) else {
+        let Ok(store) = Store::new(&dictionary, values, node_id) else {
             return vec![];
         };
-        let entries = dictionary.entries().iter();
+        let entries = dictionary.entries();
         let set = entries.filter(|entry| {
             entry.group != Group::None && entry.access.writable() && !store.is_default(entry)
         });
         set.map(|entry| {
-            let bytes = store.bytes(entry, &mut [0; 8]).to_vec();
+            let bytes = store.bytes(&entry, &mut [0; 8]).to_vec();
             (entry.address, Value::from_wire(entry.data_type, bytes))
         })
         .collect()

@@ -126,7 +126,8 @@ impl VirtualDevice {
             .object(Role::NodeId)
             .map(|at| (at, u64::from(wanted_id.raw())));
         let wanted = [id, code];
-        let Ok(mut store) = Store::new(source.dictionary(), values, *wanted_id) else {
+        let dictionary = source.dictionary();
+        let Ok(mut store) = Store::new(&dictionary, values, *wanted_id) else {
             return;
         };
         store.reset(|_| true);

@@ -49,7 +49,7 @@ impl Long {
         self.values.retain(|(address, _)| !is_reset(*address));
         for entry in store.dictionary().entries() {
             let default = store.dictionary().literal_bytes(entry.default);
-            if default.len() > room(entry) && entry.slot.len > 0 && is_reset(entry.address) {
+            if default.len() > room(&entry) && entry.slot.len > 0 && is_reset(entry.address) {
                 self.values.push((entry.address, default.to_vec()));
             }
         }
@@ -90,7 +90,7 @@ impl Beside<'_> {
             return Ok(look(value));
         }
         let entry = store.dictionary().find(address).map_err(AbortCode::from)?;
-        Ok(look(store.bytes(entry, &mut [0; 8])))
+        Ok(look(store.bytes(&entry, &mut [0; 8])))
     }
 
     /// A value came whole.
@@ -104,11 +104,11 @@ impl Beside<'_> {
             .find(address)
             .map_err(AbortCode::from)?;
         self.long.remove(address);
-        if value.len() <= room(entry) {
-            cx.store.put(entry, &value)?;
+        if value.len() <= room(&entry) {
+            cx.store.put(&entry, &value)?;
         } else {
             // What 1010h saves is the default.
-            cx.store.reset_entry(entry);
+            cx.store.reset_entry(&entry);
             self.long.values.push((address, value));
         }
         self.application.written(cx, address);
@@ -128,7 +128,7 @@ impl Stream for Beside<'_> {
             .dictionary()
             .find(address)
             .map_err(AbortCode::from)?;
-        let limit = self.long.limit(cx.store, entry);
+        let limit = self.long.limit(cx.store, &entry);
         if size.is_some_and(|size| size as usize > limit) {
             return Err(AbortCode::TooLong.into());
         }
@@ -146,7 +146,7 @@ impl Stream for Beside<'_> {
             .dictionary()
             .find(address)
             .map_err(AbortCode::from)?;
-        let limit = self.long.limit(cx.store, entry);
+        let limit = self.long.limit(cx.store, &entry);
         if self.long.coming.len() + chunk.bytes.len() > limit {
             return Err(AbortCode::TooLong.into());
         }

@@ -32,7 +32,7 @@ impl VirtualDevice {
     ) -> Result<(), String> {
         self.runs()?;
         let dictionary = self.dictionary();
-        let entry = *values::find(dictionary, &address.to_string())?;
+        let entry = values::find(dictionary, &address.to_string())?;
         let label = values::label(dictionary, address);
         if let Some(why) = self.refusal(&entry) {
             return Err(format!("{label} {why}"));
@@ -107,7 +107,8 @@ impl VirtualDevice {
             behaviour,
             ..
         } = self;
-        let store = Store::new(source.dictionary(), values, node_id);
+        let dictionary = source.dictionary();
+        let store = Store::new(&dictionary, values, node_id);
         let own = store.map(|store| behaviour.as_application().error_info(&store));
         let error = Emcy {
             code,

@@ -22,8 +22,8 @@ impl Saved {
         device.saved_slot(address)?;
         let dictionary = device.dictionary();
         let entry = dictionary.find(address).ok()?;
-        let store = Store::new(dictionary, &mut self.values, device.node_id()).ok()?;
-        Some(store.bytes(entry, &mut [0; 8]).to_vec())
+        let store = Store::new(&dictionary, &mut self.values, device.node_id()).ok()?;
+        Some(store.bytes(&entry, &mut [0; 8]).to_vec())
     }
 }
 
@@ -70,7 +70,7 @@ impl VirtualDevice {
         } = self;
         let dictionary = source.dictionary();
         let mut values = vec![0; dictionary.store_len()];
-        if let Ok(mut store) = Store::new(dictionary, &mut values, node.node_id()) {
+        if let Ok(mut store) = Store::new(&dictionary, &mut values, node.node_id()) {
             profile.store.reset(&mut store, &|_| true);
             // Nothing that can be read: the defaults come back.
             let _ = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
@@ -83,7 +83,7 @@ impl VirtualDevice {
         let mut memory = Memory::new(vec![0xFF; self.storage.capacity()]);
         let node_id = self.node.node_id();
         let dictionary = self.source.dictionary();
-        if let Ok(store) = Store::new(dictionary, &mut self.values, node_id) {
+        if let Ok(store) = Store::new(&dictionary, &mut self.values, node_id) {
             // What does not fit is lost, as it would be in the device.
             let _ = image::save(&mut memory, &store, &self.profile.store, 1);
         }

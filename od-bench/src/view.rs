@@ -31,7 +31,7 @@ impl VirtualDevice {
         let dictionary = source.dictionary();
         let (Ok(entry), Ok(mut store)) = (
             dictionary.find(address),
-            Store::new(dictionary, values, node.node_id()),
+            Store::new(&dictionary, values, node.node_id()),
         ) else {
             return Vec::new();
         };
@@ -45,7 +45,7 @@ impl VirtualDevice {
             // What cannot be had now shows as it was.
             let _ = behaviour.as_application().refresh(&mut context, address);
         }
-        store.bytes(entry, &mut [0; 8]).to_vec()
+        store.bytes(&entry, &mut [0; 8]).to_vec()
     }
 
     /// The number that stands at an address, live values as they were last asked for.

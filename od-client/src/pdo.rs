@@ -25,11 +25,11 @@ impl core::error::Error for TooShort {}
 
 /// One mapped value in a PDO.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Field<'d> {
+pub struct Field {
     /// The mapped object. One below 0020h is a dummy entry: a data type that fills a gap.
     pub address: Address,
     /// The object's entry; `None` if the dictionary has none.
-    pub entry: Option<&'d Entry>,
+    pub entry: Option<Entry>,
     /// Position of the lowest bit in the PDO, 0 to 63.
     pub first: u8,
     /// Length in bits, 0 to 64.
@@ -37,7 +37,7 @@ pub struct Field<'d> {
     value: u64,
 }
 
-impl Field<'_> {
+impl Field {
     /// The bits as an unsigned number.
     pub const fn unsigned(&self) -> u64 {
         self.value
@@ -93,8 +93,7 @@ impl Field<'_> {
 /// ```
 /// # use od_model::Dictionary;
 /// use od_client::pdo;
-/// # let buckets: [u16; 1] = od_model::buckets(&[]);
-/// # let dictionary = Dictionary::new(&buckets, &[], &[], &[], "", &[]);
+/// # let dictionary = Dictionary::EMPTY;
 ///
 /// let mapping = [0x6000_0001, 0x6001_0003, 0x6002_000C];
 /// let fields = pdo::decode(&dictionary, &mapping, &[0b1010_1011, 0xCD]).expect("16 bits");
@@ -133,10 +132,10 @@ pub struct Fields<'d, 'm> {
     first: u8,
 }
 
-impl<'d> Iterator for Fields<'d, '_> {
-    type Item = Field<'d>;
+impl Iterator for Fields<'_, '_> {
+    type Item = Field;
 
-    fn next(&mut self) -> Option<Field<'d>> {
+    fn next(&mut self) -> Option<Field> {
         let MapEntry { address, bits } = MapEntry::parse(*self.mapping.next()?);
         let first = self.first;
         let rest = self.data.checked_shr(first.into()).unwrap_or(0);

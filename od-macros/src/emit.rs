@@ -6,7 +6,6 @@
 use std::fmt::Write;
 
 use od_eds::Tables;
-use od_model::typed::emit::table;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -61,11 +60,11 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private1")
+    format!("{odkit}::__private2")
 }
 
 fn about(source: &Source, family: &Family) -> String {
-    let objects = family.base.tables.objects().len();
+    let objects = family.base.tables.dictionary().objects().len();
     let mut text = format!("\n\n{objects} objects");
     if let Some(files) = &source.files {
         let _ = write!(text, ", from `{}`", files.shown());
@@ -172,37 +171,45 @@ fn constant(out: &mut String, index: u16, handle: &Handle) {
 
 /// `DICTIONARY` with its tables inside, so that they need no names outside.
 fn dictionary(out: &mut String, root: &str, tables: &Tables) {
-    let objects = tables.objects().len();
-    let entries = tables.entries().len();
-    let object_rows = tables.objects().iter().flat_map(table::object_row);
-    let entry_rows = tables.entries().iter().flat_map(table::entry_row);
+    let objects = tables.dictionary().objects().len();
+    let (rows, pool) = tables.parts();
+    let (entries, words) = (rows.len(), pool.len());
+    let names = tables.names();
+    let row_bytes = rows.iter().flat_map(|row| row.0).flat_map(u32::to_le_bytes);
+    let name_words = names
+        .rows
+        .iter()
+        .flatten()
+        .flat_map(|name| [name.start, name.len]);
     let store_len = tables.dictionary().store_len();
     let _ = write!(
         out,
         "#[doc = \"The object dictionary: {objects} objects, {entries} values.\"]
 pub const DICTIONARY: {root}::Dictionary<'static> = {{
 use {root}::table::*;
-static OBJECTS: [Object; {objects}] = objects("
+static ROWS: [Row; {entries}] = rows("
     );
-    bytes(out, object_rows);
-    let _ = write!(out, ");\nstatic ENTRIES: [Entry; {entries}] = entries(");
-    bytes(out, entry_rows);
+    bytes(out, row_bytes);
+    let _ = write!(out, ");\nstatic POOL: [u32; {words}] = words(");
+    bytes(out, pool.iter().flat_map(|word| word.to_le_bytes()));
+    let _ = write!(out, ");\nstatic NAMES: [[Range; 2]; {entries}] = names(");
+    bytes(out, name_words.flat_map(u32::to_le_bytes));
     let _ = write!(
         out,
         ");
-static PLACES: [Place; {entries}] = places(&ENTRIES);
-static BUCKETS: [u16; bucket_count({entries})] = buckets(&PLACES);
-dictionary(&BUCKETS, &PLACES, &OBJECTS, &ENTRIES, {:?}, ",
+static BUCKETS: [u16; bucket_count({entries})] = buckets(&ROWS);
+dictionary(&BUCKETS, &ROWS, &POOL, {:?}, ",
         tables.text()
     );
     bytes(out, tables.blob().iter().copied());
     let _ = write!(
         out,
-        ", {store_len})
+        ", {store_len}, Names {{ rows: &NAMES, text: {:?} }})
 }};
 #[doc = \"Bytes that a store of the values needs.\"]
 pub const STORE_LEN: usize = DICTIONARY.store_len();
-"
+",
+        names.text
     );
 }
 

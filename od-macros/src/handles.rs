@@ -69,17 +69,13 @@ pub(crate) fn items(
     report: &mut Report,
 ) -> Vec<Item> {
     let mut items = Vec::new();
-    for object in tables.objects() {
+    let dictionary = tables.dictionary();
+    for object in dictionary.objects() {
         let Some(about) = description.objects.get(&object.index) else {
             continue;
         };
         let single = !about.code.has_members() && object.count == 1;
-        let first = object.first as usize;
-        let entries = tables
-            .entries()
-            .iter()
-            .skip(first)
-            .take(object.count as usize);
+        let entries = dictionary.members(&object);
         let handles: Vec<Handle> = entries
             .filter_map(|entry| {
                 let described = about.entries.get(&entry.address.sub)?;

@@ -13,7 +13,10 @@ use od_model::{Address, Slot};
 pub(crate) fn lay_out(family: &mut [&mut Tables]) {
     let mut places: BTreeMap<(Address, u16), Slot> = BTreeMap::new();
     let stored = |tables: &Tables| {
-        let stored = tables.entries().iter().filter(|entry| entry.slot.len > 0);
+        let stored = tables
+            .dictionary()
+            .entries()
+            .filter(|entry| entry.slot.len > 0);
         stored
             .map(|entry| ((entry.address, entry.data_type.code()), entry.slot.len))
             .collect::<Vec<_>>()

@@ -1,109 +1,98 @@
 //! The dictionary: one type for compiled tables and for files loaded at run time.
 
+use core::ops::Range as Span;
+
 use crate::address::Address;
-use crate::entry::{Entry, Missing, Object, Slot, store_len};
-use crate::index::{self, Place};
+use crate::entry::{Entry, Missing, Object, Slot};
+use crate::index;
+use crate::row::Row;
 use crate::value::{Literal, Range};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
-/// Copied freely: it is six slices. The tables are sorted by address, and each object's
+/// Copied freely: it is a few slices. The tables are sorted by address, and each object's
 /// entries are adjacent.
+///
+/// Names are there with the feature `names`; without it they are empty, and a firmware does not
+/// hold their text.
 #[derive(Clone, Copy, Debug)]
 pub struct Dictionary<'a> {
     buckets: &'a [u16],
-    places: &'a [Place],
-    objects: &'a [Object],
-    entries: &'a [Entry],
+    rows: &'a [Row],
+    pool: &'a [u32],
     text: &'a str,
     blob: &'a [u8],
     store_len: usize,
+    #[cfg(feature = "names")]
+    names: Names<'a>,
 }
 
-impl<'a> Dictionary<'a> {
-    /// A view over tables that the macro made; owned tables lend theirs by
-    /// `od_eds::Tables::dictionary`. `buckets` and `places`
-    /// come from the functions of these names.
-    ///
-    /// # Panics
-    /// If the tables are not sorted, an object names entries of another object, or buckets and places are not those of the entries. In a `const` that is a compile error.
-    pub const fn new(
-        buckets: &'a [u16],
-        places: &'a [Place],
-        objects: &'a [Object],
-        entries: &'a [Entry],
-        text: &'a str,
-        blob: &'a [u8],
-    ) -> Self {
-        assert!(places.len() == entries.len(), "one place an entry");
-        assert!(index::are_filled(buckets, places), "the places' buckets");
-        let mut next = 0;
-        let mut i = 0;
-        while i < objects.len() {
-            let object = &objects[i];
-            assert!(
-                i == 0 || objects[i - 1].index < object.index,
-                "objects are sorted"
-            );
-            assert!(
-                object.first as usize == next,
-                "entries are in the objects' order"
-            );
-            let mut sub = 0;
-            while sub < object.count as usize {
-                let address = entries[next + sub].address;
-                assert!(
-                    address.index == object.index,
-                    "an object's entries are its own"
-                );
-                assert!(
-                    sub == 0 || entries[next + sub - 1].address.sub < address.sub,
-                    "entries are sorted"
-                );
-                assert!(
-                    places[next + sub].is(&entries[next + sub]),
-                    "a place is its entry's"
-                );
-                sub += 1;
-            }
-            next += sub;
-            i += 1;
-        }
-        assert!(next == entries.len(), "every entry belongs to an object");
-        let store_len = store_len(entries);
-        Self::trusted(buckets, places, objects, entries, text, blob, store_len)
-    }
+/// Names of the objects and entries of a dictionary.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// For each entry its own name and its object's.
+    pub rows: &'a [[Range; 2]],
+    /// The text of the names, each once.
+    pub text: &'a str,
+}
 
-    /// The same over tables that are sound by the way they were made.
+/// Bit of [`Range::start`] by which a name is told from a text of the dictionary.
+const NAME: u32 = 1 << 31;
+
+impl<'a> Dictionary<'a> {
+    /// The dictionary without objects.
+    pub const EMPTY: Self = Self::trusted(
+        &[],
+        &[],
+        &[],
+        "",
+        &[],
+        0,
+        Names {
+            rows: &[],
+            text: "",
+        },
+    );
+
+    /// A view over tables that are sound by the way they were made: by `od_eds::Tables`.
     #[doc(hidden)]
     pub const fn trusted(
         buckets: &'a [u16],
-        places: &'a [Place],
-        objects: &'a [Object],
-        entries: &'a [Entry],
+        rows: &'a [Row],
+        pool: &'a [u32],
         text: &'a str,
         blob: &'a [u8],
         store_len: usize,
+        names: Names<'a>,
     ) -> Self {
+        #[cfg(not(feature = "names"))]
+        let _ = names;
         Self {
             buckets,
-            places,
-            objects,
-            entries,
+            rows,
+            pool,
             text,
             blob,
             store_len,
+            #[cfg(feature = "names")]
+            names,
         }
     }
 
     /// The objects, by ascending index.
-    pub const fn objects(&self) -> &'a [Object] {
-        self.objects
+    pub const fn objects(&self) -> Objects<'a> {
+        Objects {
+            dictionary: *self,
+            next: 0,
+        }
     }
 
     /// All values, by ascending address.
-    pub const fn entries(&self) -> &'a [Entry] {
-        self.entries
+    pub const fn entries(&self) -> Entries<'a> {
+        Entries {
+            dictionary: *self,
+            range: 0..self.rows.len(),
+        }
     }
 
     /// Bytes that a store of this dictionary's values needs.
@@ -111,45 +100,127 @@ impl<'a> Dictionary<'a> {
         self.store_len
     }
 
+    /// Number of values.
+    pub const fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there are no values.
+    pub const fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Whether both are views over the same tables.
+    pub fn is_same(&self, other: &Self) -> bool {
+        core::ptr::eq(self.rows, other.rows)
+    }
+
+    /// The value at a position, below [`len`](Self::len).
+    ///
+    /// # Panics
+    /// If there are not so many values.
+    pub const fn at(&self, position: usize) -> Entry {
+        self.unpack(position, self.rows[position])
+    }
+
+    #[inline(never)]
+    const fn unpack(&self, position: usize, row: Row) -> Entry {
+        let mut entry = row.entry(self.pool);
+        entry.name = self.names_at(position)[0];
+        entry
+    }
+
+    /// The names of an entry and of its object.
+    #[cfg(feature = "names")]
+    const fn names_at(&self, position: usize) -> [Range; 2] {
+        let [entry, object] = self.names.rows[position];
+        [
+            Range::new(entry.start | NAME, entry.len),
+            Range::new(object.start | NAME, object.len),
+        ]
+    }
+
+    #[cfg(not(feature = "names"))]
+    const fn names_at(&self, _: usize) -> [Range; 2] {
+        [Range::new(NAME, 0); 2]
+    }
+
+    /// The row of the value at a position.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn row(&self, position: usize) -> Option<Row> {
+        self.rows.get(position).copied()
+    }
+
     /// The object at `index`.
-    #[inline]
-    pub fn object(&self, index: u16) -> Option<&'a Object> {
-        let at = self
-            .objects
-            .binary_search_by_key(&index, |object| object.index)
-            .ok()?;
-        self.objects.get(at)
+    pub fn object(&self, index: u16) -> Option<Object> {
+        let first = self.first(index);
+        self.object_at(first).filter(|object| object.index == index)
+    }
+
+    /// Position of the first entry of an object, or of what comes after where it would be.
+    pub(crate) const fn first(&self, index: u16) -> usize {
+        let (mut from, mut to) = (0, self.rows.len());
+        while from < to {
+            let middle = from + (to - from) / 2;
+            if self.rows[middle].index() < index {
+                from = middle + 1;
+            } else {
+                to = middle;
+            }
+        }
+        from
+    }
+
+    /// Index of the object of the value at a position.
+    pub(crate) const fn index_at(&self, position: usize) -> u16 {
+        self.rows[position].index()
+    }
+
+    /// The object whose entries begin at a position.
+    fn object_at(&self, first: usize) -> Option<Object> {
+        let row = self.rows.get(first)?;
+        let rest = self.rows.get(first..).unwrap_or_default();
+        let count = rest.iter().take_while(|other| other.index() == row.index());
+        Some(Object {
+            index: row.index(),
+            code: row.code(),
+            name: self.names_at(first)[1],
+            first: first as u32,
+            // An object has 256 sub-indices at most.
+            count: count.count() as u16,
+        })
     }
 
     /// The entries of an object, by ascending sub-index.
-    #[inline]
-    pub fn members(&self, object: &Object) -> &'a [Entry] {
-        let first = object.first as usize;
-        self.entries
-            .get(first..first + object.count as usize)
-            .unwrap_or(&[])
+    pub fn members(&self, object: &Object) -> Entries<'a> {
+        let first = (object.first as usize).min(self.rows.len());
+        let end = (first + usize::from(object.count)).min(self.rows.len());
+        Entries {
+            dictionary: *self,
+            range: first..end,
+        }
     }
 
     /// The entry at an address.
     ///
     /// # Errors
     /// [`Missing`] says whether the object or only the sub-index is absent.
-    pub fn find(&self, address: Address) -> Result<&'a Entry, Missing> {
-        let (entry, _) = self.locate(address)?;
-        Ok(entry)
+    pub fn find(&self, address: Address) -> Result<Entry, Missing> {
+        let (position, row) = self.locate(address)?;
+        Ok(self.unpack(position, row))
     }
 
-    /// The entry at an address, and the slot of its value if a master may read it and its
-    /// type gives the length; a slot of length 0 otherwise. Reading such a value needs
-    /// nothing else of the entry.
+    /// The position of an address and its row, of which most reads need only
+    /// [`plain`](Row::plain).
     ///
     /// # Errors
     /// As for [`find`](Self::find).
+    #[doc(hidden)]
     #[inline(always)] // into the one read that masters ask for all day
-    pub fn locate(&self, address: Address) -> Result<(&'a Entry, Slot), Missing> {
-        let found = index::position(self.buckets, self.places, address);
-        let both = found.and_then(|at| Some((self.entries.get(at)?, self.places.get(at)?.plain)));
-        match both {
+    pub fn locate(&self, address: Address) -> Result<(usize, Row), Missing> {
+        let found = index::position(self.buckets, self.rows, address);
+        match found.and_then(|at| Some((at, *self.rows.get(at)?))) {
             Some(both) => Ok(both),
             None => Err(self.missing(address)),
         }
@@ -157,22 +228,37 @@ impl<'a> Dictionary<'a> {
 
     #[cold]
     fn missing(&self, address: Address) -> Missing {
-        match self.object(address.index) {
-            Some(_) => Missing::SubIndex,
-            None => Missing::Object,
+        match self.rows.get(self.first(address.index)) {
+            Some(row) if row.index() == address.index => Missing::SubIndex,
+            _ => Missing::Object,
         }
     }
 
     /// The entry at index and sub-index, if there is one.
     #[inline]
-    pub fn entry(&self, index: u16, sub: u8) -> Option<&'a Entry> {
+    pub fn entry(&self, index: u16, sub: u8) -> Option<Entry> {
         self.find(Address::new(index, sub)).ok()
+    }
+
+    /// The slot of the value at an address, if a master may read it and its type gives the length.
+    #[inline]
+    pub fn plain(&self, address: Address) -> Option<Slot> {
+        let (_, row) = self.locate(address).ok()?;
+        Some(row.plain()).filter(|slot| slot.len > 0)
     }
 
     /// The text of a range: a name or a VISIBLE_STRING.
     pub fn text(&self, range: Range) -> &'a str {
-        let start = range.start as usize;
-        self.text
+        #[cfg(feature = "names")]
+        let arena = if range.start & NAME != 0 {
+            self.names.text
+        } else {
+            self.text
+        };
+        #[cfg(not(feature = "names"))]
+        let arena = self.text;
+        let start = (range.start & !NAME) as usize;
+        arena
             .get(start..start.saturating_add(range.len as usize))
             .unwrap_or("")
     }
@@ -192,6 +278,86 @@ impl<'a> Dictionary<'a> {
     }
 }
 
+/// Values of a dictionary, by ascending address.
+#[derive(Clone, Debug)]
+pub struct Entries<'a> {
+    dictionary: Dictionary<'a>,
+    range: Span<usize>,
+}
+
+impl<'a> Entries<'a> {
+    /// All that are left.
+    #[must_use]
+    pub fn iter(&self) -> Self {
+        self.clone()
+    }
+
+    /// The value `at` places after the first.
+    pub fn get(&self, at: usize) -> Option<Entry> {
+        self.range.clone().nth(at).map(|at| self.dictionary.at(at))
+    }
+
+    /// Whether none is left.
+    pub fn is_empty(&self) -> bool {
+        self.range.is_empty()
+    }
+}
+
+impl Iterator for Entries<'_> {
+    type Item = Entry;
+
+    fn next(&mut self) -> Option<Entry> {
+        self.range.next().map(|at| self.dictionary.at(at))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.range.size_hint()
+    }
+}
+
+impl DoubleEndedIterator for Entries<'_> {
+    fn next_back(&mut self) -> Option<Entry> {
+        self.range.next_back().map(|at| self.dictionary.at(at))
+    }
+}
+
+impl ExactSizeIterator for Entries<'_> {}
+
+/// Objects of a dictionary, by ascending index.
+#[derive(Clone, Debug)]
+pub struct Objects<'a> {
+    dictionary: Dictionary<'a>,
+    next: usize,
+}
+
+impl Objects<'_> {
+    /// All that are left.
+    #[must_use]
+    pub fn iter(&self) -> Self {
+        self.clone()
+    }
+
+    /// Number of those that are left.
+    pub fn len(&self) -> usize {
+        self.clone().count()
+    }
+
+    /// Whether none is left.
+    pub fn is_empty(&self) -> bool {
+        self.next >= self.dictionary.len()
+    }
+}
+
+impl Iterator for Objects<'_> {
+    type Item = Object;
+
+    fn next(&mut self) -> Option<Object> {
+        let object = self.dictionary.object_at(self.next)?;
+        self.next += usize::from(object.count);
+        Some(object)
+    }
+}
+
 impl PartialEq for Dictionary<'_> {
     /// Object by object: names, types, access, limits, defaults, groups. The
     /// places of texts in the arena and of values in the store do not matter.
@@ -201,14 +367,14 @@ impl PartialEq for Dictionary<'_> {
             (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
             (a, b) => a == b,
         };
-        self.objects.len() == other.objects.len()
-            && self.objects.iter().zip(other.objects).all(|(a, b)| {
+        self.len() == other.len()
+            && self.objects().len() == other.objects().len()
+            && self.objects().zip(other.objects()).all(|(a, b)| {
                 (a.index, a.code) == (b.index, b.code)
                     && a.count == b.count
                     && self.text(a.name) == other.text(b.name)
             })
-            && self.entries.len() == other.entries.len()
-            && self.entries.iter().zip(other.entries).all(|(a, b)| {
+            && self.entries().zip(other.entries()).all(|(a, b)| {
                 (a.address, a.data_type, a.access, a.mappable, a.group)
                     == (b.address, b.data_type, b.access, b.mappable, b.group)
                     && self.text(a.name) == other.text(b.name)
@@ -216,89 +382,5 @@ impl PartialEq for Dictionary<'_> {
                     && literal(a.low, b.low)
                     && literal(a.high, b.high)
             })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::access::{Access, Group};
-    use crate::index::{bucket_count, buckets, places};
-    use crate::types::{DataType, ObjectCode};
-
-    const fn entry(index: u16, sub: u8) -> Entry {
-        Entry {
-            address: Address::new(index, sub),
-            data_type: DataType::Unsigned8,
-            access: Access::Ro,
-            mappable: false,
-            group: Group::None,
-            name: Range::new(0, 1),
-            default: Literal::Unsigned(2),
-            low: Literal::None,
-            high: Literal::None,
-            slot: Slot { offset: 0, len: 1 },
-        }
-    }
-
-    const fn object(index: u16, first: u32, count: u16) -> Object {
-        Object {
-            index,
-            code: ObjectCode::Record,
-            name: Range::new(0, 1),
-            first,
-            count,
-        }
-    }
-
-    static ENTRIES: [Entry; 5] = [
-        entry(0x1001, 0),
-        entry(0x1800, 0),
-        entry(0x1800, 1),
-        entry(0x1800, 2),
-        entry(0x1800, 5),
-    ];
-    static PLACES: [Place; 5] = places(&ENTRIES);
-    static BUCKETS: [u16; bucket_count(5)] = buckets(&PLACES);
-
-    const TABLE: Dictionary<'static> = Dictionary::new(
-        &BUCKETS,
-        &PLACES,
-        &[object(0x1001, 0, 1), object(0x1800, 1, 4)],
-        &ENTRIES,
-        "x",
-        &[],
-    );
-
-    #[test]
-    fn finds_entries_and_says_what_is_missing() {
-        assert_eq!(
-            TABLE.find(Address::new(0x1001, 0)).map(|e| e.address.index),
-            Ok(0x1001)
-        );
-        assert_eq!(
-            TABLE.find(Address::new(0x1800, 5)).map(|e| e.address.sub),
-            Ok(5)
-        );
-        assert_eq!(TABLE.find(Address::new(0x1800, 3)), Err(Missing::SubIndex));
-        assert_eq!(TABLE.find(Address::new(0x1800, 6)), Err(Missing::SubIndex));
-        assert_eq!(TABLE.find(Address::new(0x1002, 0)), Err(Missing::Object));
-        assert_eq!(TABLE.find(Address::new(0xFFFF, 0)), Err(Missing::Object));
-    }
-
-    #[test]
-    fn equality_reads_through_the_arena() {
-        let entries: [Entry; 5] = core::array::from_fn(|i| Entry {
-            name: Range::new(1, 1),
-            ..TABLE.entries()[i]
-        });
-        let objects: [Object; 2] = core::array::from_fn(|i| Object {
-            name: Range::new(1, 1),
-            ..TABLE.objects()[i]
-        });
-        let shifted = Dictionary::new(&BUCKETS, &PLACES, &objects, &entries, "yx", &[]);
-        assert_eq!(TABLE, shifted);
-        let other = Dictionary::new(&BUCKETS, &PLACES, &objects, &entries, "xy", &[]);
-        assert_ne!(TABLE, other);
     }
 }

@@ -102,18 +102,3 @@ impl Entry {
         matches!(self.data_type.kind(), Kind::Text | Kind::Bytes)
     }
 }
-
-/// Bytes that a store of these values needs.
-pub const fn store_len(entries: &[Entry]) -> usize {
-    let mut len = 0;
-    let mut i = 0;
-    while i < entries.len() {
-        let slot = entries[i].slot;
-        let end = slot.offset as usize + slot.len as usize;
-        if end > len {
-            len = end;
-        }
-        i += 1;
-    }
-    len
-}

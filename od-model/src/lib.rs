@@ -22,6 +22,8 @@ mod entry;
 mod index;
 mod needs;
 mod restricted;
+#[doc(hidden)]
+pub mod row;
 pub mod typed;
 mod types;
 mod value;
@@ -30,9 +32,8 @@ pub mod values;
 
 pub use access::{Access, Group};
 pub use address::Address;
-pub use dictionary::Dictionary;
+pub use dictionary::{Dictionary, Entries, Names, Objects};
 pub use entry::{Entry, Missing, Object, Slot};
-pub use index::{Place, bucket_count, buckets, places};
 pub use restricted::is_restricted;
 pub use types::{DataType, Kind, ObjectCode};
 pub use value::{Literal, Range};
@@ -40,6 +41,5 @@ pub use value::{Literal, Range};
 /// Parts that owned tables are built with by `od-eds`; not an API.
 #[doc(hidden)]
 pub mod owned {
-    pub use crate::entry::store_len;
-    pub use crate::index::{EMPTY, fill};
+    pub use crate::index::{EMPTY, bucket_count, fill};
 }

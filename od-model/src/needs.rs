@@ -18,29 +18,22 @@ impl Dictionary<'_> {
 
     /// Number of objects from the communication parameter `first` to the last of its kind.
     const fn pdos(&self, first: u16) -> usize {
-        let objects = self.objects();
-        let mut at = objects.len();
-        while at > 0 {
-            at -= 1;
-            let index = objects[at].index;
-            if index < first {
-                return 0;
+        let end = self.first(first + 512);
+        match end.checked_sub(1) {
+            Some(last) if self.index_at(last) >= first => {
+                (self.index_at(last) - first) as usize + 1
             }
-            if index - first < 512 {
-                return (index - first) as usize + 1;
-            }
+            _ => 0,
         }
-        0
     }
 
     /// Bytes of the longest value, which one SDO transfer carries: the size of a number, the
     /// capacity of a string or domain, the length of a `const` one; of a streamed one a segment.
     pub const fn longest(&self) -> usize {
-        let entries = self.entries();
         let mut longest = 0;
         let mut at = 0;
-        while at < entries.len() {
-            let len = entries[at].longest();
+        while at < self.len() {
+            let len = self.at(at).longest();
             if len > longest {
                 longest = len;
             }
@@ -53,10 +46,9 @@ impl Dictionary<'_> {
 impl Dictionary<'_> {
     /// Whether an application has to stream one of the values ([`Entry::is_streamed`]).
     pub const fn has_streams(&self) -> bool {
-        let entries = self.entries();
         let mut at = 0;
-        while at < entries.len() {
-            if entries[at].is_streamed() {
+        while at < self.len() {
+            if self.at(at).is_streamed() {
                 return true;
             }
             at += 1;

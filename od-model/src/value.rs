@@ -49,6 +49,16 @@ pub enum Literal {
 }
 
 impl Literal {
+    /// The low 64 bits of [`integer`](Self::integer): the bytes of the value.
+    pub const fn bits(self, node_id: u8) -> Option<u64> {
+        match self {
+            Self::Unsigned(v) => Some(v),
+            Self::Signed(v) => Some(v as u64),
+            Self::NodeId(offset) => Some(offset as u64 + node_id as u64),
+            Self::None | Self::Real(_) | Self::Text(_) | Self::Bytes(_) => None,
+        }
+    }
+
     /// The number that this literal is for a node with this ID; `None` for texts, bytes and reals.
     pub const fn integer(self, node_id: u8) -> Option<i128> {
         match self {

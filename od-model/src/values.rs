@@ -147,7 +147,7 @@ pub fn address(text: &str) -> Option<Address> {
 ///
 /// # Errors
 /// A sentence that says why no entry matches.
-pub fn find<'a>(dictionary: Dictionary<'a>, text: &str) -> Result<&'a Entry, String> {
+pub fn find(dictionary: Dictionary<'_>, text: &str) -> Result<Entry, String> {
     let text = text.trim();
     if let Some(address) = address(text) {
         return dictionary.find(address).map_err(|missing| match missing {
@@ -156,7 +156,7 @@ pub fn find<'a>(dictionary: Dictionary<'a>, text: &str) -> Result<&'a Entry, Str
         });
     }
     let wanted = text.trim_matches('"');
-    let mut found = dictionary.entries().iter().filter(|entry| {
+    let mut found = dictionary.entries().filter(|entry| {
         name(dictionary, entry).eq_ignore_ascii_case(wanted)
             || dictionary.text(entry.name).eq_ignore_ascii_case(wanted)
     });
@@ -188,7 +188,7 @@ pub fn label(dictionary: Dictionary<'_>, address: Address) -> String {
         _ => address.to_string(),
     };
     match dictionary.find(address) {
-        Ok(entry) => format!("{number} {}", name(dictionary, entry)),
+        Ok(entry) => format!("{number} {}", name(dictionary, &entry)),
         Err(_) => number,
     }
 }

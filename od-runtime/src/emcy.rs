@@ -206,8 +206,8 @@ fn log(store: &mut Store<'_>, code: u16) {
         return;
     };
     let capacity = dictionary
-        .members(object)
-        .last()
+        .members(&object)
+        .next_back()
         .map_or(0, |entry| entry.address.sub);
     let count = (store.unsigned(0x1003, 0) as u8).min(capacity);
     for sub in (1..=count.min(capacity.saturating_sub(1))).rev() {
@@ -227,7 +227,7 @@ fn log(store: &mut Store<'_>, code: u16) {
 pub(crate) fn clear_log(store: &mut Store<'_>) {
     let dictionary = store.dictionary();
     if let Some(object) = dictionary.object(0x1003) {
-        for entry in dictionary.members(object) {
+        for entry in dictionary.members(&object) {
             store.set_unsigned(entry.address, 0);
         }
     }

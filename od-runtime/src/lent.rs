@@ -40,7 +40,7 @@ impl Lent<'_> {
         outbox: &'c mut Outbox,
     ) -> Option<Objects<'c, D>> {
         Some(Objects {
-            store: Store::new(self.dictionary, self.values, node_id).ok()?,
+            store: Store::new(&self.dictionary, self.values, node_id).ok()?,
             application: self.application,
             storage: self.storage,
             lent_profile: self.profile,

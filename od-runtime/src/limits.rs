@@ -22,18 +22,30 @@ pub(crate) enum Outside {
 pub(crate) fn check(store: &Store<'_>, entry: &Entry, bytes: &[u8]) -> Result<(), Outside> {
     match entry.data_type.kind() {
         Kind::Boolean if bytes.first().is_some_and(|byte| *byte > 1) => Err(Outside::NotAllowed),
-        Kind::Signed => integer(store, entry, i64::from_wire(bytes).into()),
-        Kind::Boolean | Kind::Unsigned => integer(store, entry, u64::from_wire(bytes).into()),
+        Kind::Signed => integer(store, entry, i64::from_wire(bytes) as u64 ^ SIGN, SIGN),
+        Kind::Boolean | Kind::Unsigned => integer(store, entry, u64::from_wire(bytes), 0),
         Kind::Real => real(entry, bytes),
         Kind::Text | Kind::Bytes | Kind::Record => Ok(()),
     }
 }
 
-fn integer(store: &Store<'_>, entry: &Entry, value: i128) -> Result<(), Outside> {
+/// Bit that differs between the order of signed and of unsigned numbers.
+const SIGN: u64 = 1 << 63;
+
+/// The limits of an entry are of its type, so both sides of a comparison have the same order.
+fn integer(store: &Store<'_>, entry: &Entry, value: u64, sign: u64) -> Result<(), Outside> {
     let node_id = store.node_id().raw();
-    if entry.high.integer(node_id).is_some_and(|high| value > high) {
+    if entry
+        .high
+        .bits(node_id)
+        .is_some_and(|high| value > high ^ sign)
+    {
         Err(Outside::Above)
-    } else if entry.low.integer(node_id).is_some_and(|low| value < low) {
+    } else if entry
+        .low
+        .bits(node_id)
+        .is_some_and(|low| value < low ^ sign)
+    {
         Err(Outside::Below)
     } else {
         Ok(())

@@ -130,10 +130,10 @@ impl StoreProfile {
         store.reset(which);
         if let Some((address, node_id)) = self.node_id
             && let Ok(entry) = store.dictionary().find(address)
-            && which(entry)
+            && which(&entry)
         {
             // An UNSIGNED8, or the dictionary's own default stays.
-            let _ = store.put(entry, &[node_id.raw()]);
+            let _ = store.put(&entry, &[node_id.raw()]);
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use core::fmt;
 
+use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
-use od_model::{Address, Dictionary, Entry, Literal, Missing, Slot};
+use od_model::{Address, Dictionary, Entry, Literal, Slot};
 
 use od_wire::{AbortCode, NodeId};
 
@@ -51,7 +52,7 @@ impl core::error::Error for TextTooLong {}
 /// by entry or address. A handle of another dictionary reads 0 and writes nothing
 /// where it reaches outside; it never panics.
 pub struct Store<'a> {
-    dictionary: Dictionary<'a>,
+    dictionary: &'a Dictionary<'a>,
     values: &'a mut [u8],
     node_id: NodeId,
 }
@@ -63,7 +64,7 @@ impl<'a> Store<'a> {
     /// # Errors
     /// [`StoreTooSmall`] where `values` is shorter than [`Dictionary::store_len`].
     pub fn new(
-        dictionary: Dictionary<'a>,
+        dictionary: &'a Dictionary<'a>,
         values: &'a mut [u8],
         node_id: NodeId,
     ) -> Result<Self, StoreTooSmall> {
@@ -80,7 +81,7 @@ impl<'a> Store<'a> {
 
     /// The dictionary.
     #[inline]
-    pub fn dictionary(&self) -> Dictionary<'a> {
+    pub fn dictionary(&self) -> &'a Dictionary<'a> {
         self.dictionary
     }
 
@@ -97,13 +98,11 @@ impl<'a> Store<'a> {
 
     /// Every value for which `which` is true becomes its default.
     pub fn reset(&mut self, mut which: impl FnMut(&Entry) -> bool) {
-        for entry in self
-            .dictionary
-            .entries()
-            .iter()
-            .filter(|entry| which(entry))
-        {
-            self.reset_entry(entry);
+        for position in 0..self.dictionary.len() {
+            let entry = self.dictionary.at(position);
+            if which(&entry) {
+                self.reset_entry(&entry);
+            }
         }
     }
 
@@ -129,7 +128,7 @@ impl<'a> Store<'a> {
             _ => {
                 let mut number = [0; 8];
                 T::from_wire(match self.dictionary.find(var.address()) {
-                    Ok(entry) => self.bytes(entry, &mut number),
+                    Ok(entry) => self.bytes(&entry, &mut number),
                     Err(_) => &[],
                 })
             }
@@ -152,7 +151,7 @@ impl<'a> Store<'a> {
     /// The bytes of a string or domain.
     pub fn text<A>(&self, text: Text<A>) -> &[u8] {
         match self.dictionary.find(text.address()) {
-            Ok(entry) => variable(self.dictionary, self.values, entry),
+            Ok(entry) => variable(self.dictionary, self.values, &entry),
             Err(_) => &[],
         }
     }
@@ -168,15 +167,9 @@ impl<'a> Store<'a> {
     ) -> Result<(), TextTooLong> {
         let capacity = usize::from(text.slot().len.saturating_sub(2));
         match self.dictionary.find(text.address()) {
-            Ok(entry) => put(self.values, entry, bytes).map_err(|_| TextTooLong { capacity }),
+            Ok(entry) => put(self.values, &entry, bytes).map_err(|_| TextTooLong { capacity }),
             Err(_) => Err(TextTooLong { capacity: 0 }),
         }
-    }
-
-    /// See [`Dictionary::locate`].
-    #[inline(always)]
-    pub(crate) fn locate(&self, address: Address) -> Result<(&'a Entry, Slot), Missing> {
-        self.dictionary.locate(address)
     }
 
     /// The bytes of a slot; none where it reaches outside.
@@ -214,9 +207,17 @@ impl<'a> Store<'a> {
 
     /// The number at an address, if there is such an object; signed ones are extended.
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
-        self.dictionary
-            .entry(index, sub)
-            .map(|entry| self.number(entry))
+        let (position, row) = self.dictionary.locate(Address::new(index, sub)).ok()?;
+        Some(self.number_at(position, row))
+    }
+
+    /// The number of the value at a position, with its row.
+    #[inline]
+    pub(crate) fn number_at(&self, position: usize, row: Row) -> u64 {
+        match self.slot(row.plain()) {
+            [] => self.number(&self.dictionary.at(position)),
+            bytes => little_endian(bytes),
+        }
     }
 
     /// The number that an entry holds, little-endian, eight bytes at most.
@@ -232,7 +233,7 @@ impl<'a> Store<'a> {
             return false;
         };
         match entry.data_type.size() {
-            Some(size) => put(self.values, entry, &value.to_le_bytes()[..size.min(8)]).is_ok(),
+            Some(size) => put(self.values, &entry, &value.to_le_bytes()[..size.min(8)]).is_ok(),
             None => false,
         }
     }
@@ -268,7 +269,7 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
 
 /// A string: two bytes of length, then the bytes; the default where nothing is stored.
 #[inline(never)]
-fn variable<'b>(dictionary: Dictionary<'b>, values: &'b [u8], entry: &Entry) -> &'b [u8] {
+fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], entry: &Entry) -> &'b [u8] {
     match slot(values, entry.slot) {
         Some([low, high, rest @ ..]) => {
             let len = usize::from(u16::from_le_bytes([*low, *high]));
@@ -280,7 +281,7 @@ fn variable<'b>(dictionary: Dictionary<'b>, values: &'b [u8], entry: &Entry) -> 
 
 #[inline(never)]
 fn default_bytes<'b>(
-    dictionary: Dictionary<'b>,
+    dictionary: &Dictionary<'b>,
     entry: &Entry,
     node_id: NodeId,
     number: &'b mut [u8; 8],
@@ -291,7 +292,7 @@ fn default_bytes<'b>(
     *number = match entry.default {
         Literal::Real(value) if size == 4 => (value as f32).to_wire(),
         Literal::Real(value) => value.to_wire(),
-        literal => (literal.integer(node_id.raw()).unwrap_or(0) as u64).to_le_bytes(),
+        literal => literal.bits(node_id.raw()).unwrap_or(0).to_le_bytes(),
     };
     &number[..size.min(8)]
 }

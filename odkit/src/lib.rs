@@ -64,7 +64,7 @@ pub use od_wire::{emcy, lss, nmt, sdo};
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// what is emitted, so that a macro and a crate that do not belong together fail at this name.
 #[doc(hidden)]
-pub mod __private1 {
+pub mod __private2 {
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
     pub use od_runtime::{Device, Node, Profile};

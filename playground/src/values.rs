@@ -49,9 +49,9 @@ pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue
             JsValue::NULL
         };
         let mapping = pdos::of_mapping(object.index).is_some();
-        for entry in dictionary.members(object) {
-            let (tpdo, rpdo) = pdos::fits(entry);
-            let number = |value| literal(dictionary, entry, value, node_id);
+        for entry in dictionary.members(&object) {
+            let (tpdo, rpdo) = pdos::fits(&entry);
+            let number = |value| literal(dictionary, &entry, value, node_id);
             let row = Record::new()
                 .with("index", entry.address.index)
                 .with("sub", entry.address.sub)
@@ -64,7 +64,7 @@ pub(crate) fn dictionary(dictionary: Dictionary<'_>, node_id: u8) -> Vec<JsValue
                 .with("fitsTpdo", tpdo)
                 .with("fitsRpdo", rpdo)
                 .with("isMapping", mapping)
-                .with("isSaved", od_bench::is_saved(entry))
+                .with("isSaved", od_bench::is_saved(&entry))
                 .with("default", number(entry.default))
                 .with("low", number(entry.low))
                 .with("high", number(entry.high));

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use od_eds::Tables;
-use od_model::Dictionary;
+use od_model::{Dictionary, Object};
 use odkit::object_dictionary;
 
 /// `module: "path from this folder"`, one line a file.
@@ -39,8 +39,10 @@ fn equal(compiled: Dictionary<'_>, file: &[u8]) {
     let count = parsed.description.objects.len();
     assert!(count > 3, "{count} objects: the file was not understood");
     assert_eq!(compiled.objects().len(), count);
-    for (a, b) in compiled.objects().iter().zip(loaded.objects()) {
-        let shown = |d: &Dictionary<'_>, o| format!("{:#?}", (o, d.members(o)));
+    for (a, b) in compiled.objects().zip(loaded.objects()) {
+        let shown = |d: &Dictionary<'_>, o: Object| {
+            format!("{:#?}", (o, d.members(&o).collect::<Vec<_>>()))
+        };
         assert_eq!((a.index, a.code, a.count), (b.index, b.code, b.count));
         assert_eq!(shown(&compiled, a), shown(&loaded, b));
     }

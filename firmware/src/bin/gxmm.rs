@@ -5,13 +5,28 @@
 use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
 use odkit::encoder::{Angle, Encoder, Sampled};
 use odkit::storage::Memory;
-use odkit::{Duration, Lent, NodeId};
+use odkit::{Device, Dictionary, Duration, Lent, Node, NodeId, Profile};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, sdo};
 
 type Shaft = Encoder<Sampled<Angle>>;
 
-static NODE: Once<gxmm::Node> = Once::new(gxmm::Node::new(NodeId::ONE));
+/// GXMM without what its profile switches off anyway.
+struct Gxmm;
+
+impl Device for Gxmm {
+    const DICTIONARY: Option<Dictionary<'static>> = Some(gxmm::DICTIONARY);
+    const PROFILE: Option<&'static Profile> = Some(&PROFILE);
+    const SEGMENTED: bool = false;
+    const BLOCK: bool = false;
+    const RPDOS: bool = false;
+    const CHANGES: bool = false;
+}
+
+const PDOS: usize = gxmm::DICTIONARY.tpdos();
+const LONGEST: usize = gxmm::DICTIONARY.longest();
+
+static NODE: Once<Node<Gxmm, PDOS, LONGEST>> = Once::new(Node::new(NodeId::ONE));
 static VALUES: Once<[u8; gxmm::STORE_LEN]> = Once::new([0; gxmm::STORE_LEN]);
 static SHAFT: Once<Shaft> = Once::new(Encoder::new(
     &ENCODER,

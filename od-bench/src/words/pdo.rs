@@ -92,7 +92,7 @@ fn words(
         let bytes = &field.bytes()[..field.len()];
         let (name, shown) = match field.entry {
             Some(entry) => (
-                values::name(dictionary, entry),
+                values::name(dictionary, &entry),
                 values::show(entry.data_type, bytes),
             ),
             None => (field.address.to_string(), values::hex(bytes)),

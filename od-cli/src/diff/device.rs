@@ -18,12 +18,12 @@ pub(super) fn compare(
     let node = client.node();
     let mut found = Vec::new();
     for object in dictionary.objects() {
-        for entry in dictionary.members(object) {
+        for entry in dictionary.members(&object) {
             if !entry.access.readable() {
                 continue;
             }
             let (field, before, after, impact) = match client.upload(entry.address)? {
-                Ok(bytes) => match value(dictionary, entry, &bytes, (node, values)) {
+                Ok(bytes) => match value(dictionary, &entry, &bytes, (node, values)) {
                     Some(difference) => difference,
                     None => continue,
                 },
@@ -31,7 +31,7 @@ pub(super) fn compare(
                     let has = format!("{} {}", object.code.name(), entry.data_type.name());
                     found.push(at(
                         dictionary,
-                        object,
+                        &object,
                         entry.address,
                         (Field::ObjectRemoved, has, String::new(), Impact::Breaking),
                     ));
@@ -63,7 +63,7 @@ pub(super) fn compare(
             };
             found.push(at(
                 dictionary,
-                object,
+                &object,
                 entry.address,
                 (field, before, after, impact),
             ));

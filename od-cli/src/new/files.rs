@@ -112,10 +112,7 @@ impl Project<'_> {
         let tables = Tables::new(description);
         let dictionary = tables.dictionary();
         let is_encoder = EncoderProfile::for_dictionary(dictionary).is_some();
-        let first = dictionary
-            .objects()
-            .first()
-            .map_or(0, |object| object.index);
+        let first = dictionary.objects().next().map_or(0, |object| object.index);
         let absent = (0x2000..=0xFFFF).find(|index| dictionary.object(*index).is_none());
         let device = if is_encoder {
             include_str!("template/encoder.rs.in")

@@ -47,7 +47,7 @@ fn fields(mapping: &[u32], data: &[u8]) -> Vec<(Address, u8, u8, u64)> {
     let tables = device();
     let fields = decode(&tables.dictionary(), mapping, data).expect("enough bits");
     assert_eq!(fields.len(), mapping.len());
-    let row = |field: Field<'_>| (field.address, field.first, field.bits, field.unsigned());
+    let row = |field: Field| (field.address, field.first, field.bits, field.unsigned());
     fields.map(row).collect()
 }
 

@@ -33,7 +33,7 @@ pub fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
             object.code.name(),
             object.index
         );
-        for entry in dictionary.members(object) {
+        for entry in dictionary.members(&object) {
             let stem = if has_members {
                 let member = macro_name(dictionary.text(entry.name));
                 let sub = Some(entry.address.sub);
@@ -41,7 +41,7 @@ pub fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
             } else {
                 stem.clone()
             };
-            one(&mut out, dictionary, entry, &prefix, &stem);
+            one(&mut out, dictionary, &entry, &prefix, &stem);
         }
     }
     let _ = writeln!(out, "\n#endif /* {prefix}_OD_H */");

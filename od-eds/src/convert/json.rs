@@ -11,14 +11,13 @@ use serde_json::{Value, json};
 pub fn write(dictionary: Dictionary<'_>, source: &str) -> Value {
     let objects: Vec<Value> = dictionary
         .objects()
-        .iter()
         .map(|object| {
-            let members = dictionary.members(object).iter();
+            let members = dictionary.members(&object);
             json!({
                 "index": format!("0x{:04X}", object.index),
                 "name": dictionary.text(object.name),
                 "type": object.code.name(),
-                "entries": members.map(|entry| one(dictionary, entry)).collect::<Vec<_>>(),
+                "entries": members.map(|entry| one(dictionary, &entry)).collect::<Vec<_>>(),
             })
         })
         .collect();

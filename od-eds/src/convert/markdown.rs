@@ -36,8 +36,8 @@ pub fn rows(dictionary: Dictionary<'_>) -> Vec<Cells> {
                 cells,
             });
         }
-        for entry in dictionary.members(object) {
-            rows.push(row(dictionary, entry, has_members));
+        for entry in dictionary.members(&object) {
+            rows.push(row(dictionary, &entry, has_members));
         }
     }
     rows

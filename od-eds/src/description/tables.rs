@@ -7,11 +7,10 @@ use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, Value};
 use crate::span::Spanned;
-use od_model::owned::store_len;
-use od_model::owned::{EMPTY, fill};
+use od_model::owned::{EMPTY, bucket_count, fill};
+use od_model::row::{Row, literal, words};
 use od_model::{
-    Access, Address, DataType, Dictionary, Entry, Kind, Literal, Object, Place, Range, Slot,
-    bucket_count,
+    Access, Address, DataType, Dictionary, Entry, Kind, Literal, Names, ObjectCode, Range, Slot,
 };
 
 /// Capacity in bytes of a string that a master may write, where its default is shorter.
@@ -20,31 +19,21 @@ const STRING_CAPACITY: usize = 64;
 const DOMAIN_CAPACITY: usize = 1024;
 
 /// The owned twin of a compiled dictionary: what [`Dictionary`] is a view of.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Tables {
     buckets: Vec<u16>,
-    places: Vec<Place>,
-    objects: Vec<Object>,
-    entries: Vec<Entry>,
+    rows: Vec<Row>,
+    pool: Vec<u32>,
     text: String,
     blob: Vec<u8>,
     store_len: usize,
+    /// For each entry its own name and its object's.
+    names: Vec<[Range; 2]>,
+    names_text: String,
 }
 
-impl Default for Tables {
-    /// The tables of an empty dictionary.
-    fn default() -> Self {
-        Self {
-            buckets: Vec::new(),
-            places: Vec::new(),
-            objects: Vec::new(),
-            entries: Vec::new(),
-            text: String::new(),
-            blob: Vec::new(),
-            store_len: 0,
-        }
-    }
-}
+/// Texts of which each is kept once.
+type Interned = BTreeMap<String, Range>;
 
 impl Tables {
     /// The tables of everything in `description` that can run.
@@ -54,31 +43,21 @@ impl Tables {
     /// DCF gives a ParameterValue, that is the default.
     pub fn new(description: &Description) -> Self {
         let mut tables = Self::default();
-        let mut names = BTreeMap::new();
+        let (mut texts, mut names) = (Interned::new(), Interned::new());
+        let mut entries = Vec::new();
         let mut offset = 0u32;
         for (&index, object) in &description.objects {
-            let first = tables.entries.len() as u32;
             for (&sub, entry) in &object.entries {
                 let address = Address::new(index, sub);
-                if let Some(made) = tables.entry(address, entry, &mut names, &mut offset) {
-                    tables.entries.push(made);
+                if let Some(made) = tables.entry(address, entry, &mut texts, &mut offset) {
+                    entries.push((made, object.code.value));
+                    let own = intern(&mut tables.names_text, &entry.name, &mut names);
+                    let objects = intern(&mut tables.names_text, &object.name, &mut names);
+                    tables.names.push([own, objects]);
                 }
             }
-            let count = tables.entries.len() as u32 - first;
-            if count > 0 {
-                let name = tables.intern(&object.name, &mut names);
-                let code = object.code.value;
-                // At most 256 sub-indices: the count fits.
-                tables.objects.push(Object {
-                    index,
-                    code,
-                    name,
-                    first,
-                    count: count as u16,
-                });
-            }
         }
-        tables.settle();
+        tables.pack(&entries);
         tables
     }
 
@@ -86,43 +65,96 @@ impl Tables {
     pub fn dictionary(&self) -> Dictionary<'_> {
         Dictionary::trusted(
             &self.buckets,
-            &self.places,
-            &self.objects,
-            &self.entries,
+            &self.rows,
+            &self.pool,
             &self.text,
             &self.blob,
             self.store_len,
+            self.names(),
         )
     }
 
     /// Gives stored values another place: for variants that share one store layout.
     /// Values that are not stored keep none.
     pub fn place(&mut self, mut place: impl FnMut(&Entry) -> Slot) {
-        for entry in self.entries.iter_mut().filter(|entry| entry.slot.len > 0) {
-            entry.slot = place(entry);
+        let codes: Vec<ObjectCode> = self.rows.iter().map(|row| row.code()).collect();
+        let entries = self.dictionary().entries().zip(codes);
+        let entries = entries.map(|(mut entry, code)| {
+            if entry.slot.len > 0 {
+                entry.slot = place(&entry);
+            }
+            (entry, code)
+        });
+        let entries: Vec<_> = entries.collect();
+        self.pack(&entries);
+    }
+
+    /// Makes the rows of the entries, and what follows from them.
+    fn pack(&mut self, entries: &[(Entry, ObjectCode)]) {
+        self.rows.clear();
+        self.pool.clear();
+        let mut known = BTreeMap::new();
+        for (entry, code) in entries {
+            let default = self.default_word(entry);
+            let limits = self.limits(entry, &mut known);
+            self.rows.push(Row::new(entry, *code, default, limits));
         }
-        self.settle();
+        self.buckets = vec![EMPTY; bucket_count(self.rows.len())];
+        fill(&mut self.buckets, &self.rows);
+        let end = |slot: Slot| slot.offset as usize + usize::from(slot.len);
+        let ends = entries.iter().map(|(entry, _)| end(entry.slot));
+        self.store_len = ends.max().unwrap_or(0);
     }
 
-    /// Makes what follows from the entries.
-    fn settle(&mut self) {
-        self.places = self.entries.iter().map(Place::of).collect();
-        self.buckets = vec![EMPTY; bucket_count(self.entries.len())];
-        fill(&mut self.buckets, &self.places);
-        self.store_len = store_len(&self.entries);
+    /// The word of the default: its bits, or where they are in the pool.
+    fn default_word(&mut self, entry: &Entry) -> u32 {
+        let (kind, bits) = literal(entry.default);
+        let at = self.pool.len() as u32;
+        if entry.is_variable() {
+            let range = [bits as u32, (bits >> 32) as u32];
+            self.pool.extend(range);
+            self.pool.push(entry.slot.len.into());
+        } else if words(kind) < 2 {
+            return bits as u32;
+        } else {
+            self.pool.extend([bits as u32, (bits >> 32) as u32]);
+        }
+        at
     }
 
-    /// The objects, by index.
-    pub fn objects(&self) -> &[Object] {
-        &self.objects
+    /// The limits as a row has them; each pair of limits is in the pool once.
+    fn limits(&mut self, entry: &Entry, known: &mut BTreeMap<Vec<u32>, u32>) -> u32 {
+        let mut all = vec![0];
+        for (limit, shift) in [(entry.low, 0), (entry.high, 3)] {
+            let (kind, bits) = literal(limit);
+            all[0] |= kind << shift;
+            all.extend([bits as u32, (bits >> 32) as u32].iter().take(words(kind)));
+        }
+        let next = self.pool.len() as u32 + 1;
+        // No device has 80,000 pairs of limits; a file that claims them causes no panic.
+        if all == [0] || next >= 1 << 18 {
+            return 0;
+        }
+        *known.entry(all).or_insert_with_key(|all| {
+            self.pool.extend(all);
+            next
+        })
     }
 
-    /// The values, by address.
-    pub fn entries(&self) -> &[Entry] {
-        &self.entries
+    /// The rows, and the pool of what has no room in them.
+    pub fn parts(&self) -> (&[Row], &[u32]) {
+        (&self.rows, &self.pool)
     }
 
-    /// Names and VISIBLE_STRING defaults, each once.
+    /// Names of objects and entries.
+    pub fn names(&self) -> Names<'_> {
+        Names {
+            rows: &self.names,
+            text: &self.names_text,
+        }
+    }
+
+    /// VISIBLE_STRING defaults, each once.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -136,7 +168,7 @@ impl Tables {
         &mut self,
         address: Address,
         from: &EntryDescription,
-        names: &mut BTreeMap<String, Range>,
+        texts: &mut Interned,
         offset: &mut u32,
     ) -> Option<Entry> {
         let data_type = from.data_type?.value;
@@ -144,7 +176,7 @@ impl Tables {
             return None;
         }
         let value = fitting(&from.parameter, data_type).or(fitting(&from.default, data_type));
-        let default = self.literal(value, data_type, names);
+        let default = self.literal(value, data_type, texts);
         let len = slot_len(data_type, from, value);
         let slot = Slot {
             offset: if len == 0 { 0 } else { *offset },
@@ -158,10 +190,10 @@ impl Tables {
             access: *from.access,
             mappable: *from.mappable,
             group: from.group_at(address),
-            name: self.intern(&from.name, names),
+            name: Range::new(0, 0),
             default,
-            low: self.literal(fitting(&from.low, data_type), data_type, names),
-            high: self.literal(fitting(&from.high, data_type), data_type, names),
+            low: self.literal(fitting(&from.low, data_type), data_type, texts),
+            high: self.literal(fitting(&from.high, data_type), data_type, texts),
             slot,
         })
     }
@@ -170,7 +202,7 @@ impl Tables {
         &mut self,
         value: Option<&Value>,
         data_type: DataType,
-        names: &mut BTreeMap<String, Range>,
+        texts: &mut Interned,
     ) -> Literal {
         match value {
             None => Literal::None,
@@ -185,7 +217,7 @@ impl Tables {
             Some(Value::Signed(v)) => Literal::Signed(*v),
             Some(Value::Real(v)) => Literal::Real(*v),
             Some(Value::NodeId(v)) => Literal::NodeId(*v),
-            Some(Value::Text(v)) => Literal::Text(self.intern(v, names)),
+            Some(Value::Text(v)) => Literal::Text(intern(&mut self.text, v, texts)),
             Some(Value::Bytes(v)) => {
                 let start = self.blob.len() as u32;
                 self.blob.extend_from_slice(v);
@@ -193,16 +225,17 @@ impl Tables {
             }
         }
     }
+}
 
-    fn intern(&mut self, text: &str, names: &mut BTreeMap<String, Range>) -> Range {
-        if let Some(range) = names.get(text) {
-            return *range;
-        }
-        let range = Range::new(self.text.len() as u32, text.len() as u32);
-        self.text.push_str(text);
-        names.insert(text.into(), range);
-        range
+/// The place of a text in the arena, into which it is put unless it is there.
+fn intern(arena: &mut String, text: &str, known: &mut Interned) -> Range {
+    if let Some(range) = known.get(text) {
+        return *range;
     }
+    let range = Range::new(arena.len() as u32, text.len() as u32);
+    arena.push_str(text);
+    known.insert(text.into(), range);
+    range
 }
 
 /// The value, if it is one of the type.
@@ -286,7 +319,7 @@ mod tests {
             description
                 .objects
                 .insert(0x2000, ObjectDescription::var(entry));
-            Tables::new(&description).entries()[0].slot.len
+            Tables::new(&description).dictionary().at(0).slot.len
         };
         assert_eq!((slot("", None), slot("", Some(0))), (66, 0));
         assert_eq!((slot("abc", Some(0)), slot("abc", Some(5))), (5, 7));

@@ -17,7 +17,8 @@ use od_model::{Address, Dictionary, Entry, Object};
 /// Everything that is different, by address.
 pub fn compare(before: Dictionary<'_>, after: Dictionary<'_>) -> Vec<Difference> {
     let mut found = Vec::new();
-    let pairs = merge(before.objects(), after.objects(), |object| object.index);
+    let (old, new): (Vec<_>, Vec<_>) = (before.objects().collect(), after.objects().collect());
+    let pairs = merge(&old, &new, |object| object.index);
     for pair in pairs {
         match pair {
             (Some(old), None) => found.push(whole(before, old, Field::ObjectRemoved)),
@@ -57,7 +58,9 @@ fn object(
     if old_name != new_name && (old.code.has_members() || new.code.has_members()) {
         found.push(about(Field::Name, old_name, new_name, Impact::Compatible));
     }
-    let members = merge(before.members(old), after.members(new), |e| e.address);
+    let (olds, news): (Vec<_>, Vec<_>) =
+        (before.members(old).collect(), after.members(new).collect());
+    let members = merge(&olds, &news, |entry| entry.address);
     for pair in members {
         match pair {
             (Some(entry), None) => found.push(part(before, entry, Field::EntryRemoved)),

@@ -58,17 +58,14 @@ pub fn describe(dictionary: Dictionary<'_>, about: &About<'_>) -> Description {
         sections: sections(dictionary, about),
         objects: dictionary
             .objects()
-            .iter()
-            .map(|made| (made.index, object(dictionary, made)))
+            .map(|made| (made.index, object(dictionary, &made)))
             .collect(),
     }
 }
 
 fn object(dictionary: Dictionary<'_>, object: &Object) -> ObjectDescription {
     let members = dictionary.members(object);
-    let entries = members
-        .iter()
-        .map(|member| (member.address.sub, entry(dictionary, member)));
+    let entries = members.map(|member| (member.address.sub, entry(dictionary, &member)));
     ObjectDescription {
         code: Spanned::from(object.code),
         name: Spanned::from(dictionary.text(object.name).to_string()),
@@ -126,7 +123,7 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
         _ => String::new(),
     };
     let pdos = |first: u16| {
-        let objects = dictionary.objects().iter();
+        let objects = dictionary.objects();
         let count = objects.filter(|object| (first..first + 0x200).contains(&object.index));
         count.count()
     };

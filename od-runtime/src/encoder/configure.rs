@@ -287,7 +287,7 @@ impl<M: Motion> Encoder<M> {
             Err(_) => false,
         };
         let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
-            Ok(entry) => is_saved(store, at) && !store.is_default(entry),
+            Ok(entry) => is_saved(store, at) && !store.is_default(&entry),
             Err(_) => false,
         };
         for (first, second) in self.profile.links {

@@ -2,7 +2,7 @@
 
 use core::mem::discriminant;
 
-use od_model::{Address, DataType, Dictionary};
+use od_model::{Address, DataType, Dictionary, Literal};
 
 use super::fault::{Fault, Report};
 use super::object::{Movement, Role};
@@ -273,6 +273,9 @@ const CIA406: u64 = 406;
 fn default_of(dictionary: Dictionary<'_>) -> impl Fn(u16) -> Option<u64> {
     move |index| {
         let entry = dictionary.entry(index, 0)?;
-        u64::try_from(entry.default.integer(1)?).ok()
+        match entry.default {
+            Literal::Signed(..0) => None,
+            default => default.bits(1),
+        }
     }
 }

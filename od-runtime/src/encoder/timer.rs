@@ -54,8 +54,8 @@ impl<M: Motion> Encoder<M> {
         }
         let starts = starts || cx.store.unsigned(TIMER.index, TIMER.sub) != self.timer;
         let changed = |at: Address, was: u64| match cx.store.dictionary().find(at) {
-            Ok(entry) if starts => !cx.store.is_default(entry),
-            Ok(entry) => cx.store.number(entry) != was,
+            Ok(entry) if starts => !cx.store.is_default(&entry),
+            Ok(entry) => cx.store.number(&entry) != was,
             Err(_) => false,
         };
         let was = match self.timer {

@@ -120,10 +120,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             let (needed, room) = (longest, SDO);
             return Err(Unfit::SdoBuffer { needed, room });
         }
-        let entries = dictionary.entries();
         let mut at = 0;
-        while at < entries.len() {
-            let entry = &entries[at];
+        while at < dictionary.len() {
+            let entry = dictionary.at(at);
             match entry.address.index {
                 index @ 0x1201..=0x127F => return Err(Unfit::SdoServer(index)),
                 0x1005 if produces_sync(entry.default) => return Err(Unfit::SyncProducer),

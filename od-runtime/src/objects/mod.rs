@@ -73,7 +73,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// The entry at an address.
-    pub(crate) fn entry(&self, address: Address) -> Result<&'c Entry, AbortCode> {
+    pub(crate) fn entry(&self, address: Address) -> Result<Entry, AbortCode> {
         Ok(self.store.dictionary().find(address)?)
     }
 
@@ -85,21 +85,28 @@ impl<'c, D: Device> Objects<'c, D> {
         address: Address,
         number: &'b mut [u8; 8],
     ) -> Result<&'b [u8], Unread> {
-        let (entry, plain) = self.store.locate(address).map_err(AbortCode::from)?;
+        let (position, row) = self
+            .store
+            .dictionary()
+            .locate(address)
+            .map_err(AbortCode::from)?;
+        let plain = row.plain();
         if plain.len == 0 {
-            self.check_special(entry)?;
+            self.check_special(&self.store.dictionary().at(position))?;
         }
         if address.index == 0x1003 {
             self.unused_error(address)?;
         }
         self.refresh(address)?;
         Ok(match self.store.slot(plain) {
-            [] => self.store.bytes(entry, number),
+            [] => self
+                .store
+                .bytes(&self.store.dictionary().at(position), number),
             bytes => bytes,
         })
     }
 
-    /// Whether a value that is not [plain](od_model::Place) can be read from the store.
+    /// Whether a value that is not plain (a number in the store) can be read from the store.
     #[inline(never)]
     fn check_special(&mut self, entry: &Entry) -> Result<(), Unread> {
         if !entry.access.readable() {
@@ -148,13 +155,13 @@ impl<'c, D: Device> Objects<'c, D> {
         &self,
         address: Address,
         len: Option<usize>,
-    ) -> Result<&'c Entry, AbortCode> {
+    ) -> Result<Entry, AbortCode> {
         let entry = self.entry(address)?;
         if !entry.access.writable() {
             return Err(AbortCode::ReadOnly);
         }
         if let Some(len) = len {
-            self.fit(entry, len)?;
+            self.fit(&entry, len)?;
         }
         Ok(entry)
     }
@@ -179,13 +186,13 @@ impl<'c, D: Device> Objects<'c, D> {
     /// services' and the application's rules, then the value, then what follows from it.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let entry = self.writable(address, None)?;
-        self.change(entry, bytes)
+        self.change(&entry, bytes)
     }
 
     /// Writes an object from the side of the device: as [`write`](Self::write), but for the access.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let entry = self.entry(address)?;
-        self.change(entry, bytes)
+        self.change(&entry, bytes)
     }
 
     fn change(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
@@ -302,7 +309,7 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Updates the operating records before they are saved.
     pub(crate) fn refresh_life_record(&mut self) {
         let entries = self.store.dictionary().entries();
-        for entry in entries.iter().filter(|entry| image::is_life_record(entry)) {
+        for entry in entries.filter(|entry| image::is_life_record(entry)) {
             // A value that cannot be updated is saved as it is.
             let _ = self.refresh(entry.address);
         }

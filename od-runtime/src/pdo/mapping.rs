@@ -1,6 +1,6 @@
 //! Mapping of a PDO, read from its object once and kept.
 
-use od_model::Entry;
+use od_model::row::Row;
 
 use crate::device::Device;
 use crate::objects::{Objects, check_mapped};
@@ -77,9 +77,8 @@ impl Mapping {
     fn mapped<D: Device>(&self, objects: &Objects<'_, D>, sub: u8) -> Option<Mapped> {
         let raw = objects.store.try_unsigned(self.object, sub)? as u32;
         let repr = check_mapped(&objects.store, self.object, raw).ok()?;
-        let entries = objects.store.dictionary().entries();
-        let entry = match entries.binary_search_by_key(&repr.address, |entry| entry.address) {
-            Ok(at) => at as u32,
+        let entry = match objects.store.dictionary().locate(repr.address) {
+            Ok((at, _)) => at as u32,
             Err(_) => DUMMY,
         };
         Some(Mapped {
@@ -93,7 +92,7 @@ impl Mapping {
     fn each<'c, D: Device>(
         &self,
         objects: &mut Objects<'c, D>,
-        mut each: impl FnMut(&mut Objects<'c, D>, Option<&'c Entry>, usize, usize),
+        mut each: impl FnMut(&mut Objects<'c, D>, Option<(usize, Row)>, usize, usize),
     ) {
         let mut first = 0;
         for at in 0..usize::from(self.count) {
@@ -102,13 +101,10 @@ impl Mapping {
                 // The object has not changed since `load`, so the entry is still there.
                 None => self.mapped(objects, at as u8 + 1).unwrap_or(NOTHING),
             };
-            let entry = objects
-                .store
-                .dictionary()
-                .entries()
-                .get(mapped.entry as usize);
+            let at = mapped.entry as usize;
+            let row = objects.store.dictionary().row(at);
             let bits = usize::from(mapped.bits);
-            each(objects, entry, first, bits);
+            each(objects, row.map(|row| (at, row)), first, bits);
             first += bits;
         }
     }
@@ -117,11 +113,11 @@ impl Mapping {
     #[inline]
     pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
         let mut data = 0u64;
-        self.each(objects, |objects, entry, first, bits| {
-            let Some(entry) = entry else { return };
+        self.each(objects, |objects, row, first, bits| {
+            let Some((at, row)) = row else { return };
             // A PDO has no way to say that a value could not be had; it takes the last one.
-            let _ = objects.refresh(entry.address);
-            let value = objects.store.number(entry);
+            let _ = objects.refresh(row.address());
+            let value = objects.store.number_at(at, row);
             data |= (value & mask(bits)) << first.min(63);
         });
         data.to_le_bytes()
@@ -131,11 +127,11 @@ impl Mapping {
     /// refuses its value keeps the old one.
     pub(super) fn apply<D: Device>(&self, objects: &mut Objects<'_, D>, data: [u8; 8]) {
         let data = u64::from_le_bytes(data);
-        self.each(objects, |objects, entry, first, bits| {
-            let Some(entry) = entry else { return };
+        self.each(objects, |objects, row, first, bits| {
+            let Some((_, row)) = row else { return };
             let value = data >> first.min(63) & mask(bits);
             let size = bits.div_ceil(8).min(8);
-            let _ = objects.write(entry.address, &value.to_le_bytes()[..size]);
+            let _ = objects.write(row.address(), &value.to_le_bytes()[..size]);
         });
     }
 }

@@ -156,8 +156,8 @@ impl<D: Device, const N: usize> Server<D, N> {
             self.replace(objects, address);
         }
         let entry = objects.writable(address, None)?;
-        let len = expedited::len(&objects.profile().sdo, entry, size, dlc)?;
-        if !objects.streams(entry) {
+        let len = expedited::len(&objects.profile().sdo, &entry, size, dlc)?;
+        if !objects.streams(&entry) {
             objects.write(address, &bytes[..len])?;
             self.reset();
         } else {
@@ -182,7 +182,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         let address = self.address;
         let entry = objects.writable(address, None)?;
         self.window.clear();
-        if objects.streams(entry) {
+        if objects.streams(&entry) {
             objects.stream(address, |stream, cx| {
                 stream.begin_download(cx, address, size)
             })?;

@@ -73,12 +73,12 @@ pub enum Loaded {
 
 /// Bytes of storage that `dictionary` needs to save every value at its longest, twice.
 pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
-    let entries = dictionary.entries();
     let mut bytes = HEADER;
     let mut i = 0;
-    while i < entries.len() {
-        if is_saved(&entries[i]) {
-            bytes += RECORD + entries[i].slot.len as usize;
+    while i < dictionary.len() {
+        let entry = dictionary.at(i);
+        if is_saved(&entry) {
+            bytes += RECORD + entry.slot.len as usize;
         }
         i += 1;
     }
@@ -111,7 +111,7 @@ pub fn load(
             continue;
         }
         let entry = store.dictionary().find(record.address).ok();
-        match entry.filter(|entry| is_saved(entry)) {
+        match entry.as_ref().filter(|entry| is_saved(entry)) {
             Some(entry) if !which(entry) || banks.is_cut() && !is_life_record(entry) => {}
             Some(entry) if record.len <= MAX_VALUE => {
                 let value = &mut value[..record.len];

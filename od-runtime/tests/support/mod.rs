@@ -251,12 +251,12 @@ impl<A: Application> Bench<A> {
 
     pub fn value(&self, index: u16, sub: u8) -> u64 {
         let mut values = self.values.clone();
-        let store =
-            od_runtime::Store::new(self.tables.dictionary(), &mut values, self.node.node_id());
+        let dictionary = self.tables.dictionary();
+        let store = od_runtime::Store::new(&dictionary, &mut values, self.node.node_id());
         store.expect("the values fit").unsigned(index, sub)
     }
 
     pub fn entry(&self, address: Address) -> od_model::Entry {
-        *self.tables.dictionary().find(address).expect("there")
+        self.tables.dictionary().find(address).expect("there")
     }
 }

@@ -153,7 +153,7 @@ impl Bench {
 
     fn with<R>(&mut self, call: impl FnOnce(&mut Encoder<Still>, &mut Context<'_, '_>) -> R) -> R {
         let dictionary = self.tables.dictionary();
-        let mut store = Store::new(dictionary, &mut self.values, NodeId::ONE).unwrap();
+        let mut store = Store::new(&dictionary, &mut self.values, NodeId::ONE).unwrap();
         let mut cx = Context {
             store: &mut store,
             now: self.now,

@@ -34,6 +34,6 @@ pub(super) fn restore(
 fn default(store: &Store<'_>, entry: &Entry, rule: SavedCobIds) -> Option<u64> {
     let is_number = entry.data_type.size().is_some_and(|size| size <= 8);
     let follows = is_number && matches!(entry.default, Literal::NodeId(_));
-    let default = entry.default.integer(store.node_id().raw())?;
-    (follows && rule == SavedCobIds::Difference).then_some(default as u64)
+    let default = entry.default.bits(store.node_id().raw())?;
+    (follows && rule == SavedCobIds::Difference).then_some(default)
 }

@@ -143,7 +143,7 @@ impl Set<'_> {
             }
         }
         let mut records = self.banks.records();
-        let entries = self.store.dictionary().entries().iter();
+        let entries = self.store.dictionary().entries();
         let mut entries = entries.filter(|entry| is_saved(entry));
         let (mut record, mut entry) = (records.next(storage)?, entries.next());
         loop {
@@ -152,7 +152,7 @@ impl Set<'_> {
                 return Ok(());
             };
             let old = record.filter(|old| old.address == address);
-            let new = entry.filter(|new| new.address == address);
+            let new = entry.as_ref().filter(|new| new.address == address);
             let fate = match (self.next.plan)(address, new) {
                 // After a save that was cut the factory values hold, and they stay.
                 Fate::Keep if self.banks.is_cut() && !new.is_some_and(is_life_record) => Fate::Drop,

@@ -74,7 +74,8 @@ impl Bench {
 
     fn store(&mut self) -> Store<'_> {
         let node_id = NodeId::new(self.node_id).unwrap();
-        Store::new(self.tables.dictionary(), &mut self.values, node_id).unwrap()
+        let dictionary = std::boxed::Box::leak(std::boxed::Box::new(self.tables.dictionary()));
+        Store::new(dictionary, &mut self.values, node_id).unwrap()
     }
 
     fn start(&mut self, storage: &mut dyn Storage) -> Loaded {
@@ -86,11 +87,15 @@ impl Bench {
     /// Every value as text.
     fn values(&mut self) -> Vec<String> {
         let store = self.store();
-        let show = |entry: &Entry| {
+        let show = |entry: Entry| {
             let mut number = [0; 8];
-            format!("{} {:02X?}", entry.address, store.bytes(entry, &mut number))
+            format!(
+                "{} {:02X?}",
+                entry.address,
+                store.bytes(&entry, &mut number)
+            )
         };
-        store.dictionary().entries().iter().map(show).collect()
+        store.dictionary().entries().map(show).collect()
     }
 
     /// Values that tell one set from another.
@@ -99,7 +104,7 @@ impl Bench {
         for index in [0x1017, 0x2101, 0x2201, 0x6003, 0x6010] {
             store.set_unsigned(od_model::Address::new(index, 0), u64::from(with));
         }
-        let text = *store.dictionary().entry(0x2300, 0).unwrap();
+        let text = store.dictionary().entry(0x2300, 0).unwrap();
         store
             .put(&text, &vec![with; usize::from(with) % 30])
             .unwrap();

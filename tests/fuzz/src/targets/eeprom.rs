@@ -106,7 +106,10 @@ fn run(input: &[u8]) {
     let memory = Shared(Arc::new(Mutex::new(Memory::new(bytes))));
     let mut bus = start(number, &memory);
     let device = &bus.devices()[0];
-    let (node, entries) = (device.node_id(), device.dictionary().entries().to_vec());
+    let (node, entries) = (
+        device.node_id(),
+        device.dictionary().entries().collect::<Vec<_>>(),
+    );
     for entry in &entries {
         let (Some(value), true) = (
             device.stored(entry.address.index, entry.address.sub),

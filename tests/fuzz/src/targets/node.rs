@@ -35,7 +35,7 @@ fn run(input: &[u8]) {
         return;
     };
     let device = bench::device(usize::from(head[0]));
-    let entries = device.dictionary().entries().to_vec();
+    let entries = device.dictionary().entries().collect::<Vec<_>>();
     let faults: Vec<&str> = device.faults();
     let mut bus = Bus::new();
     bus.add(device);

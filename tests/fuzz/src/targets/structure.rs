@@ -81,13 +81,14 @@ fn damage(text: &mut String, choices: &mut Choices<'_>) {
 
 /// The rows that the macro writes into a binary are read there as the same tables.
 fn rows(tables: &Tables) {
-    for entry in tables.entries() {
-        let row = table::entry_row(entry);
-        assert_eq!(table::entries(&row), [*entry]);
-        assert_eq!(tables.dictionary().find(entry.address), Ok(entry));
+    let dictionary = tables.dictionary();
+    for (row, entry) in tables.parts().0.iter().zip(dictionary.entries()) {
+        let bytes: Vec<u8> = row.0.into_iter().flat_map(u32::to_le_bytes).collect();
+        assert_eq!(table::rows(&bytes), [*row]);
+        assert_eq!(dictionary.find(entry.address), Ok(entry));
     }
-    for object in tables.objects() {
-        assert_eq!(table::objects(&table::object_row(object)), [*object]);
+    for object in dictionary.objects() {
+        assert_eq!(dictionary.object(object.index), Some(object));
     }
 }
 
@@ -251,7 +252,10 @@ impl Master {
 
     /// Reads and writes what there is.
     fn look_around(&mut self) {
-        let entries = self.0.devices()[0].dictionary().entries().to_vec();
+        let entries = self.0.devices()[0]
+            .dictionary()
+            .entries()
+            .collect::<Vec<_>>();
         let node = u16::from(self.0.devices()[0].node_id().raw());
         self.send(0, &[1, 0]);
         for entry in entries.iter().take(40) {

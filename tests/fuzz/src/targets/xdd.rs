@@ -67,7 +67,7 @@ fn run(input: &[u8]) {
         assert!(!is_fixable, "a fix of an EDS would break an XML");
     }
     let tables = Tables::new(&parsed.description);
-    for entry in tables.entries() {
+    for entry in tables.dictionary().entries() {
         assert_eq!(tables.dictionary().find(entry.address), Ok(entry));
     }
     eds::written_again(&parsed.description);

@@ -59,7 +59,7 @@ pub(super) struct Model {
 impl Model {
     pub(super) fn new(number: usize) -> Self {
         let device = bench::device(number);
-        let entries = device.dictionary().entries().to_vec();
+        let entries = device.dictionary().entries().collect::<Vec<_>>();
         let mut bus = Bus::new();
         bus.add(device);
         bus.start(0);

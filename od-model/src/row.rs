@@ -1,0 +1,236 @@
+//! A value of a dictionary as 16 bytes of flash, and back.
+//!
+//! | word | bits | content |
+//! |--:|--:|---|
+//! | 0 | 8–31 | address: index, sub-index |
+//! | | 3–7 | data type, its position in [`DataType::ALL`] |
+//! | | 0–2 | [kind](literal) of the default |
+//! | 1 | | offset in the store |
+//! | 2 | | default; of a wide one and of a string the position in the pool |
+//! | 3 | 0–3 | length, if a master may read the value, the store has it, and the type gives its length |
+//! | | 4–6, 7, 8–9 | access, PDO mapping, group |
+//! | | 10–12 | code of the object |
+//! | | 13 | the store has it |
+//! | | 14–31 | one more than the position of the limits in the pool; 0: no limits |
+//!
+//! The pool is words: of a wide literal low and high half, of a string start and length of its default
+//! and the length of its slot, of limits the kinds of both and then their words.
+
+use crate::access::{Access, Group};
+use crate::address::Address;
+use crate::entry::{Entry, Slot};
+use crate::types::{DataType, ObjectCode};
+use crate::value::{Literal, Range};
+
+/// A value of a dictionary, packed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Row(pub [u32; 4]);
+
+/// First kind of which a literal has two words.
+const WIDE: u32 = 4;
+/// Kind of a string.
+const RANGE: u32 = 7;
+
+/// Object codes by their number in a row.
+const CODES: [ObjectCode; 7] = [
+    ObjectCode::Null,
+    ObjectCode::Domain,
+    ObjectCode::DefType,
+    ObjectCode::DefStruct,
+    ObjectCode::Var,
+    ObjectCode::Array,
+    ObjectCode::Record,
+];
+
+/// Kind of a literal, and its bits: 1 UNSIGNED and 2 INTEGER of 32 bits, 3 `$NODEID`, 4 and 5 of 64,
+/// 6 REAL, 7 string. Kinds of one word have 32 bits.
+pub const fn literal(literal: Literal) -> (u32, u64) {
+    match literal {
+        Literal::None => (0, 0),
+        Literal::Unsigned(v) if v <= u32::MAX as u64 => (1, v),
+        Literal::Signed(v) if v as i32 as i64 == v => (2, v as u32 as u64),
+        Literal::NodeId(v) => (3, v as u64),
+        Literal::Unsigned(v) => (4, v),
+        Literal::Signed(v) => (5, v as u64),
+        Literal::Real(v) => (6, v.to_bits()),
+        Literal::Text(range) | Literal::Bytes(range) => {
+            (RANGE, (range.len as u64) << 32 | range.start as u64)
+        }
+    }
+}
+
+/// Number of words of a literal: 0 to 2.
+pub const fn words(kind: u32) -> usize {
+    match kind {
+        0 => 0,
+        1..WIDE => 1,
+        _ => 2,
+    }
+}
+
+/// The literal of a kind and its bits, for a value of this type.
+const fn unpack(kind: u32, bits: u64, is_text: bool) -> Literal {
+    let low = bits as u32;
+    match kind {
+        1 => Literal::Unsigned(low as u64),
+        2 => Literal::Signed(low as i32 as i64),
+        3 => Literal::NodeId(low),
+        4 => Literal::Unsigned(bits),
+        5 => Literal::Signed(bits as i64),
+        6 => Literal::Real(f64::from_bits(bits)),
+        RANGE => {
+            let range = Range::new(low, (bits >> 32) as u32);
+            match is_text {
+                true => Literal::Text(range),
+                false => Literal::Bytes(range),
+            }
+        }
+        _ => Literal::None,
+    }
+}
+
+/// A word of the pool.
+const fn word(pool: &[u32], at: usize) -> u32 {
+    if at < pool.len() { pool[at] } else { 0 }
+}
+
+/// The bits of a literal in the pool.
+const fn bits(pool: &[u32], at: usize, kind: u32) -> u64 {
+    let high = if words(kind) > 1 {
+        word(pool, at + 1)
+    } else {
+        0
+    };
+    (high as u64) << 32 | word(pool, at) as u64
+}
+
+impl Row {
+    /// The row of an entry of an object with this code. `default` is its bits, or where they are in the pool;
+    /// `limits` as the row has them.
+    pub const fn new(entry: &Entry, code: ObjectCode, default: u32, limits: u32) -> Self {
+        let mut data_type = 0;
+        while DataType::ALL[data_type as usize] as u16 != entry.data_type as u16 {
+            data_type += 1;
+        }
+        let mut number = 0;
+        while CODES[number as usize] as u8 != code as u8 {
+            number += 1;
+        }
+        let is_stored = entry.slot.len > 0;
+        let plain = match entry.data_type.size() {
+            Some(size) if is_stored && entry.access.readable() => size as u32,
+            _ => 0,
+        };
+        let (kind, _) = literal(entry.default);
+        Self([
+            entry.address.key() << 8 | data_type << 3 | kind,
+            entry.slot.offset,
+            default,
+            plain
+                | (entry.access as u32) << 4
+                | (entry.mappable as u32) << 7
+                | (entry.group as u32) << 8
+                | number << 10
+                | (is_stored as u32) << 13
+                | limits << 14,
+        ])
+    }
+
+    /// The address as one number.
+    #[inline(always)]
+    pub const fn key(self) -> u32 {
+        self.0[0] >> 8
+    }
+
+    /// Index and sub-index.
+    #[inline(always)]
+    pub const fn address(self) -> Address {
+        Address::new(self.index(), (self.0[0] >> 8) as u8)
+    }
+
+    /// Whether a master may read the value.
+    #[inline(always)]
+    pub const fn readable(self) -> bool {
+        self.0[3] >> 4 & 7 != Access::Wo as u32
+    }
+
+    /// Index of the object.
+    pub const fn index(self) -> u16 {
+        (self.0[0] >> 16) as u16
+    }
+
+    /// Code of the object.
+    pub const fn code(self) -> ObjectCode {
+        let number = (self.0[3] >> 10 & 7) as usize;
+        if number < CODES.len() {
+            CODES[number]
+        } else {
+            ObjectCode::Var
+        }
+    }
+
+    /// Slot of a value that a master may read and whose type gives its length; length 0 for any
+    /// other value.
+    #[inline(always)]
+    pub const fn plain(self) -> Slot {
+        Slot {
+            offset: self.0[1],
+            len: (self.0[3] & 15) as u16,
+        }
+    }
+
+    /// The entry. Not its name, which the row does not have.
+    #[inline(always)]
+    pub const fn entry(self, pool: &[u32]) -> Entry {
+        let [head, offset, payload, flags] = self.0;
+        let data_type = (head >> 3 & 31) as usize;
+        let data_type = match data_type < DataType::ALL.len() {
+            true => DataType::ALL[data_type],
+            false => DataType::Unsigned8,
+        };
+        let is_text = data_type as u16 == DataType::VisibleString as u16;
+        let (kind, at) = (head & 7, payload as usize);
+        let size = data_type.size();
+        let default = match kind < WIDE {
+            true => payload as u64,
+            false => bits(pool, at, kind),
+        };
+        let len = match size {
+            _ if flags & 1 << 13 == 0 => 0,
+            Some(size) => size as u16,
+            None => word(pool, at + 2) as u16,
+        };
+        let (mut low, mut high) = (Literal::None, Literal::None);
+        let limits = (flags >> 14) as usize;
+        if limits > 0 {
+            let kinds = word(pool, limits - 1);
+            low = unpack(kinds & 7, bits(pool, limits, kinds & 7), is_text);
+            let at = limits + words(kinds & 7);
+            high = unpack(kinds >> 3, bits(pool, at, kinds >> 3), is_text);
+        }
+        Entry {
+            address: self.address(),
+            data_type,
+            access: match flags >> 4 & 7 {
+                0 => Access::Ro,
+                1 => Access::Wo,
+                2 => Access::Rw,
+                3 => Access::Rwr,
+                4 => Access::Rww,
+                _ => Access::Const,
+            },
+            mappable: flags & 1 << 7 != 0,
+            group: match flags >> 8 & 3 {
+                0 => Group::None,
+                1 => Group::Communication,
+                2 => Group::Application,
+                _ => Group::Manufacturer,
+            },
+            name: Range::new(0, 0),
+            default: unpack(kind, default, is_text),
+            low,
+            high,
+            slot: Slot { offset, len },
+        }
+    }
+}
