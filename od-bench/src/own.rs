@@ -1,5 +1,4 @@
-//! What a device does of its own accord, told from outside: a value that it takes, an error that it
-//! reports.
+//! Changes from the side of a device: a value that it takes, an error that it reports.
 
 use std::format;
 use std::prelude::v1::*;

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         let stream = connection.get_mut();
         let written = stream.write_all(format!("{sent}\n").as_bytes());
-        // Why it was refused stands in what it says.
+        // A bench that refuses the connection says why.
         let written = written.and_then(|()| stream.flush());
         loop {
             let mut answer = String::new();

@@ -1,4 +1,4 @@
-//! What clients of the control socket ask of a bench that runs.
+//! Lines of the control socket, on a bench that runs.
 
 use super::control::Turn;
 use super::links::opened::Protocol;

@@ -46,7 +46,7 @@ pub(super) fn format(path: &Path) -> Result<Format, String> {
 }
 
 impl Log {
-    /// Begins the file anew.
+    /// Begins an empty file.
     ///
     /// # Errors
     /// It cannot be written.

@@ -30,7 +30,7 @@ fn stamp() -> Option<std::path::PathBuf> {
     let leader = nix::unistd::getsid(None).ok()?;
     let user = nix::unistd::Uid::current();
     let status = std::fs::read_to_string(format!("/proc/{leader}/stat")).unwrap_or_default();
-    // The name of the program stands in parentheses, with any characters; field 22 is the start.
+    // The name of the program is in parentheses, with any characters; field 22 is the start.
     let rest = status.rsplit(')').next().unwrap_or_default();
     let start = rest.split_whitespace().nth(19).unwrap_or("0");
     let folder = std::env::var_os("XDG_RUNTIME_DIR").map(std::path::PathBuf::from);

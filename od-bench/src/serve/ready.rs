@@ -16,7 +16,7 @@ impl Ready {
     /// Removes what an earlier bench left.
     ///
     /// # Errors
-    /// The path is no place for a file.
+    /// The path is not one of a file.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
         let failed = |why: &str| Failure::Failed(format!("--ready-file {}: {why}", path.display()));
         match fs::symlink_metadata(path) {

@@ -14,7 +14,7 @@ use crate::words::plural;
 /// Load and frames per second are those of this time.
 const WINDOW: Duration = Duration::from_secs(1);
 
-/// What a client sent.
+/// Frames of a client.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sent {
     pub(super) frames: u64,

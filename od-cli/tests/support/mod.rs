@@ -3,6 +3,7 @@
 #![allow(dead_code)] // each test file uses what it needs
 
 pub(crate) mod crowd;
+pub(crate) mod quiet;
 pub(crate) mod sim;
 
 use std::io::Write;

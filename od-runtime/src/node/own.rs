@@ -1,4 +1,4 @@
-//! What a device does of its own accord: a value that changes, an error that comes or goes.
+//! Changes from the side of the device: a value, an error that comes or goes.
 
 use od_model::Address;
 use od_wire::emcy::Emcy;

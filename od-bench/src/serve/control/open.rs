@@ -1,4 +1,4 @@
-//! The control socket, for this user alone.
+//! The control socket, for this user only.
 
 use std::io::ErrorKind;
 

@@ -23,7 +23,7 @@ impl Place {
     /// Reads `unix:PATH`, `tcp:HOST:PORT`, or a path.
     ///
     /// # Errors
-    /// What to write instead.
+    /// The text to write instead.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong =
             || format!("`{text}` is not a control socket; write unix:PATH or tcp:127.0.0.1:PORT");

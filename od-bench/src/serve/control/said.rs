@@ -1,4 +1,4 @@
-//! What a line did, in words.
+//! The effect of a line in words.
 
 use od_model::values;
 use od_runtime::BusEvent;
@@ -10,7 +10,7 @@ use crate::grammar::deed::{Deed, Shaft, Wire};
 use crate::grammar::shown::duration;
 use crate::words::code_text;
 
-/// What was done, on the bench as it is now.
+/// The effect of an action, on the bench as it is now.
 pub(super) fn said(deed: &Deed, bench: &Bench) -> String {
     let Ok(device) = bench.present() else {
         return String::from("done");

@@ -1,4 +1,4 @@
-//! Where clients come to: a port, or a path.
+//! A server, on a port or a path, and its clients.
 
 use std::io;
 use std::sync::Arc;

@@ -1,0 +1,104 @@
+//! A quiet `odkit sim`, for tests of what goes on in the background.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::{Done, command, odkit};
+
+/// A quiet `odkit sim` on an slcan port of its own; it ends with this value.
+pub(crate) struct Sim {
+    pub(crate) child: Child,
+    /// Its line on standard output.
+    pub(crate) ready: Value,
+}
+
+impl Sim {
+    pub(crate) fn start(args: &[&str]) -> Self {
+        let mut child = command()
+            .args([
+                "sim",
+                "--quiet",
+                "--slcan",
+                "127.0.0.1:0",
+                "--ready-file",
+                "-",
+            ])
+            .args(args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("odkit starts");
+        let mut line = String::new();
+        let mut out = BufReader::new(child.stdout.take().expect("a pipe"));
+        out.read_line(&mut line).expect("a line");
+        let ready = serde_json::from_str(&line).unwrap_or_else(|why| panic!("{line:?}: {why}"));
+        Self { child, ready }
+    }
+
+    pub(crate) fn client(&self) -> TcpStream {
+        let address = self.ready["links"][0]["address"].as_str().expect("a port");
+        let client = TcpStream::connect(address).expect("it listens");
+        let patience = Some(Duration::from_secs(10));
+        client.set_read_timeout(patience).expect("a time limit");
+        client
+    }
+
+    pub(crate) fn control(&self) -> &str {
+        self.ready["control"].as_str().expect("a control socket")
+    }
+
+    pub(crate) fn ctl(&self, lines: &[&str]) -> Done {
+        odkit(&[&["ctl", self.control()], lines].concat(), "")
+    }
+
+    /// Ends it with a signal, and returns what it said on standard error.
+    pub(crate) fn end(&mut self, signal: &str) -> String {
+        let pid = self.child.id().to_string();
+        let kill = std::process::Command::new("kill")
+            .args([signal, &pid])
+            .status();
+        assert!(kill.expect("kill").success());
+        self.child.wait().expect("it ends");
+        let mut said = String::new();
+        let mut error = self.child.stderr.take().expect("a pipe");
+        error.read_to_string(&mut said).expect("UTF-8");
+        said
+    }
+}
+
+impl Drop for Sim {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A path of this test; a path of a socket is short.
+pub(crate) fn path(name: &str) -> PathBuf {
+    let path = std::env::temp_dir().join(format!("odkit-{}-{name}", std::process::id()));
+    let _ = fs::remove_file(&path);
+    path
+}
+
+pub(crate) fn unix(path: &Path) -> String {
+    format!("unix:{}", path.display())
+}
+
+/// Waits until there is something.
+#[track_caller]
+pub(crate) fn until<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(found) = look() {
+            return found;
+        }
+        assert!(start.elapsed() < Duration::from_secs(20), "{what}");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
