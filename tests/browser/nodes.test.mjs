@@ -55,6 +55,18 @@ check('two nodes with one node ID both answer', {}, async (page) => {
   await becomes('answers', async () => (await rows(page)).filter((one) => one.id === '581').length, 2);
 });
 
+check('the send line takes what a script says of the world', {}, async (page) => {
+  await addNode(page, 'gxam');
+  await sendRaw(page, 'emcy 4200h');
+  await row(page, 'its EMCY', (one) => one.id === '082' && one.data.startsWith('00 42 09'));
+  await sendRaw(page, 'set 1017h = 100');
+  await row(page, 'its heartbeat', (one) => one.id === '702' && one.data === '7F');
+  await sendRaw(page, 'set 6004h = 5');
+  await becomes('why not', () => page.locator('.toasts').textContent(), /^6004h Position value is computed by the device/);
+  await sendRaw(page, 'power cycle 1s');
+  await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '702' && one.data === '00').length, 2);
+});
+
 check('rotary and DIP switches act at the next start', {}, async (page) => {
   await part(page, 'Hardware');
   const id = page.getByRole('spinbutton', { name: 'Node ID' }).first();

@@ -20,6 +20,16 @@ export function sendLine(line: string): void {
   if ('frame' in parsed) sendFrame(parsed.frame);
 }
 
+/** Is it a line of a script about what is outside the bus: `power off`, `set 6000h:01 = 5`? */
+export const isDeed = (line: string): boolean => /^\s*(power|shaft|switch|fault|bus|line|set|emcy)\s/.test(line);
+
+/** Carries out such a line on the selected device. */
+export async function doLine(line: string): Promise<void> {
+  const { diagnostics } = await add({ op: 'script', text: `use ${state.selectedNode.value + 1}\n${line}` });
+  // Without the place in a script of two lines.
+  if (diagnostics[0]) state.toast.value = { text: diagnostics[0].message.replace(/^line 2 [^\n]*\n\s*|^2:\d+: /, ''), tone: 'error' };
+}
+
 export function setPower(on: boolean): void {
   act({ op: 'power', node: state.selectedNode.value, on });
 }

@@ -98,6 +98,7 @@ export const bus = {
     heartbeat: 'Heartbeat every second',
     bus: 'Bus',
     characters: 'As characters',
+    deed: 'Changes the selected device or the bus line, not a frame',
     toLine: (text: string) => `Put ${text} on the send line`,
   },
   sendList: {

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
-import { readTyped, sendFrame, sendLine } from '../actions';
+import { doLine, isDeed, readTyped, sendFrame, sendLine } from '../actions';
 import { templates } from '../codec';
 import { typedForm } from '../format';
 import { askBus } from '../sim/link';
@@ -91,8 +91,9 @@ class RawFrame extends View {
     event.preventDefault();
     const parsed = readTyped(this.text);
     this.isTouched = true;
-    if ('error' in parsed) return;
-    sendFrame(parsed.frame);
+    if (isDeed(this.text)) void doLine(this.text);
+    else if ('error' in parsed) return;
+    else sendFrame(parsed.frame);
     if (this.history.at(-1) !== this.text) this.history = [...this.history, this.text].slice(-MOST_REMEMBERED);
     this.place = this.history.length;
     this.querySelector('input')?.select();
@@ -109,7 +110,8 @@ class RawFrame extends View {
   protected override render() {
     const parsed = readTyped(this.text);
     const isEmpty = this.text.trim() === '';
-    const error = 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
+    const deed = isDeed(this.text);
+    const error = !deed && 'error' in parsed && (!isEmpty || this.isTouched) ? parsed.error : '';
     const bytes = 'frame' in parsed ? T.send.bytes(parsed.frame.data.length) : '';
     const example = readTyped('read 6004');
     return html`<form class="dock-row" @submit=${this.submit} novalidate>
@@ -119,8 +121,8 @@ class RawFrame extends View {
           placeholder=${'frame' in example ? typedForm(example.frame) : ''} aria-describedby="raw-note" aria-invalid=${error !== ''}
           .value=${this.text} @input=${(event: Event) => void this.onInput((event.target as HTMLInputElement).value)} @keydown=${this.onKey}>
         <button type="button" class="icon-button" aria-label=${T.frames.toList} title=${T.frames.toList} ?disabled=${'error' in parsed} @click=${() => addToList(this.text)}>${icons.plus}</button>
-        <button class="primary" ?disabled=${'error' in parsed && !isEmpty}>${icons.send} ${T.send.send}</button>
-        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (isEmpty ? html`CAN-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> requests with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
+        <button class="primary" ?disabled=${'error' in parsed && !deed && !isEmpty}>${icons.send} ${T.send.send}</button>
+        <p id="raw-note" class="note" data-tone=${error ? 'error' : ''} aria-live="polite">${error || (deed ? T.send.deed : isEmpty ? html`CAN-ID, <code>#</code>, bytes in hexadecimal; <code>#R</code> requests with a remote frame` : html`${this.meaning}<span class="muted num"> ${bytes}</span>`)}</p>
       </div>
     </form>`;
   }
