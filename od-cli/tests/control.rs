@@ -167,6 +167,12 @@ fn a_control_socket_has_one_owner() {
     assert_eq!(sim.ctl(&["power off"]).code, 0);
     sim.end("-TERM");
     assert!(!socket.exists());
+    // A control socket is not a link: without the last link the bench ends.
+    let done = odkit(
+        &["sim", "gxmm", "--link", "-", "--control", &control],
+        "power off\n",
+    );
+    assert_eq!(done.code, 0, "{}", done.err);
     let not_mine = file("control.txt", "mine");
     let done = odkit(
         &[

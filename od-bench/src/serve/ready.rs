@@ -1,6 +1,7 @@
 //! One line of JSON for the program that started the bench, when everything listens.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::control::place::Place;
@@ -37,11 +38,16 @@ impl Ready {
         let Self(path) = self;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let new = path.with_file_name(format!(".{name}.{}", std::process::id()));
-        let written = fs::write(&new, format!("{json}\n")).and_then(|()| fs::rename(&new, path));
-        written.map_err(|error| {
-            let _ = fs::remove_file(&new);
-            Failure::Failed(format!("--ready-file {}: {error}", path.display()))
-        })
+        let _ = fs::remove_file(&new);
+        let mut file = fs::OpenOptions::new();
+        let file = file.write(true).create_new(true).open(&new);
+        let written = file.and_then(|mut file| file.write_all(format!("{json}\n").as_bytes()));
+        written
+            .and_then(|()| fs::rename(&new, path))
+            .map_err(|error| {
+                let _ = fs::remove_file(&new);
+                Failure::Failed(format!("--ready-file {}: {error}", path.display()))
+            })
     }
 }
 
