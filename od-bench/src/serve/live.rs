@@ -345,22 +345,26 @@ impl Live {
                     self.catch_up();
                     self.frame(&frame, Some(number));
                 }
-                Step::Line(text) if self.is_control(number) => self.command(number, &text),
-                Step::Line(text) => {
-                    if let Err(problem) = self.console.push(&text) {
-                        note(&format!("odkit: line {problem}"));
-                    }
-                    self.catch_up();
-                    self.run_console();
-                }
+                Step::Line(text) => self.line(number, &text),
             }
         }
         self.cause = None;
     }
 
-    fn is_control(&mut self, number: usize) -> bool {
-        let client = self.clients.get(number);
-        client.is_some_and(|client| client.protocol == Protocol::Control)
+    /// A line of a client; one that was disconnected has no more to say.
+    fn line(&mut self, number: usize, text: &str) {
+        let protocol = self.clients.get(number).map(|client| client.protocol);
+        match protocol {
+            Some(Protocol::Control) => self.command(number, text),
+            Some(_) => {
+                if let Err(problem) = self.console.push(text) {
+                    note(&format!("odkit: line {problem}"));
+                }
+                self.catch_up();
+                self.run_console();
+            }
+            None => {}
+        }
     }
 
     /// Lines of the console whose moment has come.

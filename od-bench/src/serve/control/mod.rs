@@ -76,7 +76,10 @@ impl Control {
 
     /// When a line is due, seen from `now`.
     pub(super) fn deadline(&self, now: Instant) -> Option<Instant> {
-        let due = |session: &Session| session.console.deadline(now);
+        let due = |session: &Session| match session.queue.front() {
+            Some(Entry::Line) | None => session.console.deadline(now),
+            Some(_) => Some(now),
+        };
         self.0.iter().filter_map(due).min()
     }
 
