@@ -32,7 +32,7 @@ impl Choices<'_> {
         }
     }
 
-    /// Once in so many times.
+    /// True once in `times`, on average.
     pub fn once_in(&mut self, times: usize) -> bool {
         self.below(times) == times - 1
     }
@@ -40,7 +40,7 @@ impl Choices<'_> {
     /// One of these.
     ///
     /// # Panics
-    /// If there is none.
+    /// If `from` is empty.
     pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }

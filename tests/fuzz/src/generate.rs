@@ -49,7 +49,7 @@ impl Device {
         device
     }
 
-    /// What every device has.
+    /// The objects of every device.
     fn fixed(&mut self) {
         use DataType::{Unsigned8, Unsigned16, Unsigned32};
         self.var(0x1000, Unsigned32, "const", "0");

@@ -1,7 +1,7 @@
 //! Runs inputs, notices those that fail or never end, and keeps them.
 
 use std::any::Any;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,7 +21,7 @@ use crate::watch::{Watch, Watcher};
 pub struct Failure {
     /// The input.
     pub input: Vec<u8>,
-    /// What did not hold.
+    /// The message of the panic.
     pub why: String,
     /// Makes the input again, before it was made small; `None` for one that is kept.
     pub seed: Option<Seed>,
@@ -29,43 +29,49 @@ pub struct Failure {
     pub kept: Result<PathBuf, String>,
 }
 
-/// What a run was.
+/// Count and duration of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Done {
     /// Number of inputs, or of frames for a target that counts them.
     pub count: u64,
-    /// How long it took.
+    /// Its duration.
     pub time: Duration,
 }
 
 thread_local! {
-    /// What the last panic of this thread said.
+    /// The message of this thread's last panic.
     static SAID: RefCell<String> = const { RefCell::new(String::new()) };
+    /// This thread runs an input.
+    static IS_ATTEMPT: Cell<bool> = const { Cell::new(false) };
 }
 
 /// Panics of inputs are reported once, when the input is small, and not as they come.
 pub fn quiet_panics() {
-    panic::set_hook(Box::new(|info| {
-        let text = format!("{info}");
-        SAID.with(|said| *said.borrow_mut() = text);
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(move |info| match IS_ATTEMPT.get() {
+        true => SAID.set(info.to_string()),
+        false => usual(info),
     }));
 }
 
 /// Runs one input.
 ///
 /// # Errors
-/// How it failed.
+/// The message of the panic.
 pub fn attempt(target: &Target, input: &[u8]) -> Result<(), String> {
-    match panic::catch_unwind(AssertUnwindSafe(|| (target.run)(input))) {
+    IS_ATTEMPT.set(true);
+    let result = panic::catch_unwind(AssertUnwindSafe(|| (target.run)(input)));
+    IS_ATTEMPT.set(false);
+    match result {
         Ok(()) => Ok(()),
         Err(payload) if payload.is::<Enough>() => Ok(()),
         Err(payload) => Err(said(&*payload)),
     }
 }
 
-/// What the hook heard, or else what the panic carries.
+/// The message that the hook kept, or else the one that the panic carries.
 fn said(payload: &(dyn Any + Send)) -> String {
-    let heard = SAID.with(|said| said.take());
+    let heard = SAID.take();
     let text = || payload.downcast_ref::<String>().cloned();
     let word = || {
         payload
@@ -153,7 +159,7 @@ pub fn run(target: &Target, plan: &Plan) -> Result<Done, Box<Failure>> {
     }
 }
 
-/// What the workers share.
+/// Shared by the workers.
 #[derive(Default)]
 struct State {
     /// The number of the next input.
@@ -269,7 +275,7 @@ fn kept(target: &Target, plan: &Plan, input: &[u8]) -> Result<PathBuf, String> {
 }
 
 impl Failure {
-    /// What failed, and how to see it again.
+    /// The failure as text, with the commands that run the input again.
     pub fn shown(&self, target: &Target) -> String {
         let command = "cargo test -p od-tests --test fuzz --";
         let mut text = format!("fuzz {} ... FAILED\n  ", target.name);

@@ -1,4 +1,4 @@
-//! What is fuzzed, and the harness that needs no nightly compiler.
+//! Fuzz targets, and the harness that needs no nightly compiler.
 //!
 //! A [`Target`](target::Target) is defined once. `tests/fuzz/main.rs` mutates inputs without
 //! coverage to steer it; `tests/fuzz/coverage` gives the same targets to libFuzzer

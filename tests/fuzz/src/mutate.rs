@@ -127,7 +127,7 @@ fn number(bytes: &mut Vec<u8>, at: usize, random: &mut Random) {
 }
 
 /// Smaller inputs that may still fail: without one piece after the other, large ones first.
-/// What an input consists of stays whole: `unit` bytes each.
+/// Pieces of `unit` bytes stay whole.
 pub fn shrink(input: &[u8], unit: usize, mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
     let mut best = input.to_vec();
     let mut pieces = best.len().div_ceil(2 * unit);

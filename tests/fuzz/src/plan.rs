@@ -1,4 +1,4 @@
-//! How much is tried, and from which seed.
+//! Extent and seed of a run.
 
 use std::env;
 use std::fmt;
@@ -12,7 +12,7 @@ use crate::files::repository;
 /// Names the inputs of a run: `7` is all of seed 7, `7:1200` those from number 1200 on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Seed {
-    /// Where chance begins.
+    /// Start of the random numbers.
     pub number: u64,
     /// The first input; those before it are left out.
     pub first: u64,
@@ -53,14 +53,14 @@ impl fmt::Display for Seed {
     }
 }
 
-/// How much is tried.
+/// Extent of a run.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// For each target.
     pub time: Duration,
     /// The inputs.
     pub seed: Seed,
-    /// So many frames instead, for a target that counts them.
+    /// Number of frames, instead of a time, for a target that counts them.
     pub frames: Option<u64>,
     /// Threads.
     pub workers: usize,

@@ -15,15 +15,15 @@ pub struct Target {
     pub run: fn(&[u8]),
     /// Inputs to start from.
     pub seeds: fn() -> Vec<Vec<u8>>,
-    /// Makes an input without a seed, where chance alone means something.
+    /// Makes an input without a seed, if random bytes are meaningful.
     pub make: Option<fn(&mut Random) -> Vec<u8>>,
-    /// What the input's language knows.
+    /// Words of the input's language.
     pub words: &'static [&'static str],
     /// Does it consist of lines?
     pub is_text: bool,
     /// Inputs are cut here.
     pub longest: usize,
-    /// Inputs consist of pieces of so many bytes.
+    /// Size of the pieces that inputs consist of, in bytes.
     pub unit: usize,
     /// Frames of an input. A target with this runs for a number of frames instead of a time.
     pub frames: Option<fn(&[u8]) -> u64>,
@@ -55,7 +55,7 @@ impl Target {
         self.frames.map_or(1, |frames| frames(input))
     }
 
-    /// What [`weight`](Self::weight) counts.
+    /// The unit of [`weight`](Self::weight).
     pub(crate) const fn unit_name(&self) -> &'static str {
         match self.frames {
             Some(_) => "frames",

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What one worker runs.
+/// The input that one worker runs.
 #[derive(Default)]
 pub(crate) struct Watch(Mutex<Running>);
 

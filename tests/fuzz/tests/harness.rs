@@ -2,9 +2,10 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Once;
 use std::time::Duration;
 
-use od_fuzz::harness::{Failure, run};
+use od_fuzz::harness::{Failure, quiet_panics, run};
 use od_fuzz::plan::{Plan, Seed};
 use od_fuzz::target::Target;
 
@@ -22,6 +23,8 @@ const BROKEN: Target = Target {
 
 /// As much as it takes to find something, in a folder of its own.
 fn plan(name: &str, seed: Seed) -> Plan {
+    static QUIET: Once = Once::new();
+    QUIET.call_once(quiet_panics);
     let found = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&found);
     Plan {

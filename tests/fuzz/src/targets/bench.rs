@@ -9,7 +9,7 @@ use od_runtime::{CanId, Frame, NodeId};
 /// Bytes of one step.
 pub(super) const STEP: usize = 10;
 
-/// How many devices there are to choose from.
+/// Number of devices to choose from.
 pub(super) fn kinds() -> usize {
     DEVICES.len() + FILES.len()
 }
@@ -46,13 +46,13 @@ pub(super) const fn first_file() -> usize {
     DEVICES.len()
 }
 
-/// What one step does.
+/// The effect of one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Act {
     Frame(Frame),
     /// Time passes, in microseconds.
     Time(u64),
-    /// Off for so many microseconds.
+    /// Without power for a time, in microseconds.
     Power(u64),
     Position(u64),
     Rpm(f64),
@@ -62,7 +62,7 @@ pub(super) enum Act {
     Fault(usize, bool),
 }
 
-/// What these ten bytes mean to the device; the entries are those of its dictionary.
+/// The act that these ten bytes encode; the entries are those of its dictionary.
 pub(super) fn act(step: &[u8; STEP], entries: &[Entry], node: u8) -> Act {
     let [op, a, b, c, rest @ ..] = *step;
     let own = u16::from(node);

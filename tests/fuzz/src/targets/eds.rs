@@ -28,7 +28,7 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
     seeds
 }
 
-/// What the language knows.
+/// Words of the language.
 pub(super) const WORDS: &[&str] = &[
     "[1000]\n",
     "[1018sub1]\n",

@@ -60,7 +60,7 @@ fn send(bus: &mut Bus, data: &[u8; 8]) {
 
 const SAVE: [u8; 8] = [0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e'];
 
-/// What a device leaves behind: an empty memory, one save, and a second one after writes.
+/// The images that a device leaves behind: an empty memory, one save, and a second one after writes.
 fn images(number: usize) -> Vec<Vec<u8>> {
     let memory = Shared(Arc::new(Mutex::new(Memory::new(vec![
         0xFF;

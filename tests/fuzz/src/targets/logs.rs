@@ -48,7 +48,7 @@ pub(super) const TARGET: Target = Target {
 
 const FORMATS: [Format; 4] = [Format::Candump, Format::Asc, Format::Trc, Format::Pcapng];
 
-/// What other tools write.
+/// Lines of other tools.
 const TEXTS: [&str; 8] = [
     " (003.602976)  can0  TX - -  181   [2]  41 42   'AB'\n (0.1)  can0  701   [1]  remote request\n",
     "date x\nbase dec  timestamps absolute\n   1.0 1  100             Rx   d 2 10 255\n",
@@ -128,7 +128,7 @@ fn run(input: &[u8]) {
     }
 }
 
-/// What a format keeps of the records: candump and pcapng have no direction.
+/// The records as a format keeps them: candump and pcapng have no direction.
 fn kept(format: Format, log: &Log) -> Vec<Record> {
     let has_direction = !matches!(format, Format::Candump | Format::Pcapng);
     let kept = log.records.iter().map(|record| Record {

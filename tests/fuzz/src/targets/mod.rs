@@ -1,4 +1,4 @@
-//! What is fuzzed, one file per target.
+//! The fuzz targets, one file each.
 
 mod bench;
 mod candump;

@@ -30,7 +30,7 @@ pub(super) const TARGET: Target = Target {
     ..Target::PLAIN
 };
 
-/// What an overlay knows that an EDS does not, and the frequent ones.
+/// Words of overlays.
 const WORDS: &[&str] = &[
     "Remove=1\n",
     "Remove=0\n",

@@ -18,7 +18,7 @@ pub(super) const TARGET: Target = Target {
     ..Target::PLAIN
 };
 
-/// What the language knows.
+/// Words of the language.
 pub(super) const WORDS: &[&str] = &[
     "device gxmm\n",
     "device eam_mt node 5 off as left\n",

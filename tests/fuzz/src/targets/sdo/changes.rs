@@ -1,4 +1,4 @@
-//! Which objects may change: by a frame that is no SDO request, and along with others.
+//! Which objects may change: by a frame other than an SDO request, and together with others.
 
 use od_bench::VirtualDevice;
 use od_runtime::Frame;
@@ -28,6 +28,9 @@ pub(super) fn by_frame(device: &VirtualDevice, frame: &Frame) -> Option<Vec<u16>
         // What it stores are the node ID and the bit rate, wherever they have an object.
         let stores = frame.data().first() == Some(&LSS_STORE);
         return Some(if stores { vec![0x2100, 0x2101] } else { vec![] });
+    }
+    if id == 0x600 + u16::from(device.node_id().raw()) {
+        return None;
     }
     let stored = |index: u16, sub: u8| device.stored(index, sub);
     let is_sync = stored(0x1005, 0).is_some_and(|value| value & 0x7FF == u64::from(id));

@@ -1,4 +1,4 @@
-//! What is sent, and which objects move by themselves.
+//! The frames to send, and the objects that change without a write.
 
 use super::super::bench::{self, STEP};
 use crate::random::Random;

@@ -108,6 +108,7 @@ impl Model {
                 self.shadow.insert(entry.address, value);
             }
         }
+        self.check_identifiers();
     }
 
     pub(super) fn send(&mut self, frame: &Frame) {
@@ -182,9 +183,6 @@ impl Model {
 
     /// Looks at everything that was sent.
     fn answers(&mut self, may_answer: bool, cause: &str) {
-        if self.is_ambiguous() {
-            Enough::give_up();
-        }
         let mut count = 0;
         while let Some(sent) = self.bus.poll() {
             trace(|| format!("< {:?} {}", sent.at, sent.frame));
@@ -223,16 +221,19 @@ impl Model {
 
     /// A master may give a PDO or EMCY the identifier of the answers; from then on nobody can
     /// tell them apart, and the input is over.
-    fn is_ambiguous(&self) -> bool {
+    fn check_identifiers(&self) {
         let device = &self.bus.devices()[0];
         let own = 0x580 + u64::from(device.node_id().raw());
         let pdos = (0x1800..0x1810).map(|index| (index, 1));
         let mut all = [(0x1014, 0), (0x1005, 0)].into_iter().chain(pdos);
-        all.any(|(index, sub)| {
+        let is_ambiguous = all.any(|(index, sub)| {
             // Valid, and 11 bits long.
             let value = device.stored(index, sub).unwrap_or(0);
             value & 0xA000_0000 == 0 && value & 0x7FF == own
-        })
+        });
+        if is_ambiguous {
+            Enough::give_up();
+        }
     }
 
     fn answer(&mut self, data: [u8; 8], cause: &str) {
@@ -331,6 +332,7 @@ impl Model {
 
     /// A download was acknowledged: the object has that value now, and the others theirs.
     fn wrote(&mut self, address: Address, bytes: Option<&[u8]>) {
+        self.check_identifiers();
         let now = self.read(address);
         // With the gear on, resolution and range follow from it: a write is taken without effect
         // (DECISIONS U-14).
