@@ -37,11 +37,7 @@ pub(crate) enum Change {
 pub(crate) type Changes = Fifo<Change, CHANGES>;
 
 /// Content of an empty place.
-pub(crate) const NO_CHANGE: Change = Change::Cleared {
-    code: 0,
-    register: None,
-    info: [0; 5],
-};
+pub(crate) const NO_CHANGE: Change = Change::Raised(NO_ERROR);
 
 const NO_ERROR: Emcy = Emcy {
     code: 0,

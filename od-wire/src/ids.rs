@@ -4,18 +4,18 @@ use core::fmt;
 
 use crate::frame::CanId;
 
-/// A node ID, 1–127 (CiA 301, chapter 6.2).
+/// A node ID, 1–127 (CiA 301, chapter 6.2). One less is kept: the usual one is all zeros.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct NodeId(u8);
 
 impl NodeId {
     /// Node 1, as most devices are delivered.
-    pub const ONE: Self = Self(1);
+    pub const ONE: Self = Self(0);
 
     /// The node ID `raw`; `None` outside 1–127.
     pub const fn new(raw: u8) -> Option<Self> {
         if raw >= 1 && raw <= 127 {
-            Some(Self(raw))
+            Some(Self(raw - 1))
         } else {
             None
         }
@@ -24,7 +24,7 @@ impl NodeId {
     /// The number, 1–127.
     #[inline]
     pub const fn raw(self) -> u8 {
-        self.0
+        self.0 + 1
     }
 
     /// The CAN-ID of the predefined connection set (CiA 301, chapter 7.3.3): four bits of
@@ -34,19 +34,19 @@ impl NodeId {
     /// 11 bits.
     #[inline]
     pub const fn plus(self, function: u16) -> CanId {
-        CanId::standard(function & 0x780 | self.0 as u16)
+        CanId::standard(function & 0x780 | self.raw() as u16)
     }
 }
 
 impl fmt::Display for NodeId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Display::fmt(&self.0, f)
+        fmt::Display::fmt(&self.raw(), f)
     }
 }
 
 impl fmt::Debug for NodeId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(&self.0, f)
+        fmt::Debug::fmt(&self.raw(), f)
     }
 }
 

@@ -56,7 +56,21 @@ impl Instant {
             return next;
         }
         let micros = if micros == 0 { 1 } else { micros };
-        self.plus_micros(((now.0 - self.0) / micros + 1).saturating_mul(micros))
+        // What is left of the last period, by shifts: a microcontroller has no division of 64 bits.
+        let (mut rest, mut periods) = (now.0 - self.0, micros);
+        while periods <= rest / 2 {
+            periods *= 2;
+        }
+        while periods >= micros {
+            if rest >= periods {
+                rest -= periods;
+            }
+            if periods == micros {
+                break;
+            }
+            periods /= 2;
+        }
+        now.plus_micros(micros - rest)
     }
 }
 

@@ -148,14 +148,17 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         let (node_id, bit_rate) = match reset {
             Reset::PowerOn | Reset::Node => {
                 let [node_id, bit_rate] = lss::stored(objects);
-                let made_with = self.made_with.map_or(lss::UNCONFIGURED, NodeId::raw);
+                let made_with = match self.made_unconfigured {
+                    true => lss::UNCONFIGURED,
+                    false => self.made_with.raw(),
+                };
                 (node_id.or(Some(made_with)), bit_rate)
             }
             Reset::Communication | Reset::Defaults => (pending, None),
         };
         if let Some(node_id) = node_id {
             let node_id = NodeId::new(node_id);
-            self.configured = node_id.is_some();
+            self.unconfigured = node_id.is_none();
             self.node_id = node_id.unwrap_or(self.node_id);
             objects.store.set_node_id(self.node_id);
         }
@@ -215,7 +218,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// goes out, Pre-operational begins.
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
         self.boot_at = None;
-        if !self.configured {
+        if self.unconfigured {
             return;
         }
         self.configure(objects);

@@ -87,7 +87,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// Bus-off: nothing goes out or comes in, and 1029h acts as the family has it.
     fn fall_off(&mut self, objects: &mut Objects<'_, D>, restarts: bool) {
         let profile = objects.profile().errors;
-        if let Some(bit_rate) = self.mute.and_then(|mute| mute.bit_rate) {
+        if let Some(bit_rate) = self.mute.and_then(Mute::bit_rate) {
             self.event(Event::BitRate(bit_rate));
         }
         self.bus = BusEvent::Off;
@@ -123,12 +123,12 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     /// A switch delay of LSS is over.
     pub(super) fn end_mute(&mut self) {
         let Some(mute) = self.mute.take() else { return };
-        if let Some(bit_rate) = mute.bit_rate {
+        if let Some(bit_rate) = mute.bit_rate() {
             self.event(Event::BitRate(bit_rate));
             if mute.silence_ms > 0 {
                 self.mute = Some(Mute {
                     until: mute.until.plus_millis(mute.silence_ms.into()),
-                    bit_rate: None,
+                    bit_rate: 0,
                     silence_ms: 0,
                 });
             }

@@ -36,16 +36,22 @@ impl BusEvent {
 pub(super) struct Mute {
     /// [`Instant::MAX`]: until the CAN controller is back.
     pub(super) until: Instant,
-    /// LSS: the bit rate that is in force then.
-    pub(super) bit_rate: Option<u8>,
+    /// LSS: one more than the bit rate that is in force then; 0: it stays. An `Option` here would
+    /// keep a node without power from being all zeros.
+    pub(super) bit_rate: u16,
     /// LSS: silence after that, in milliseconds.
     pub(super) silence_ms: u16,
 }
 
 impl Mute {
+    /// The bit rate that is in force then, if LSS changes it.
+    pub(super) fn bit_rate(self) -> Option<u8> {
+        self.bit_rate.checked_sub(1).map(|rate| rate as u8)
+    }
+
     pub(super) const BUS_OFF: Self = Self {
         until: Instant::MAX,
-        bit_rate: None,
+        bit_rate: 0,
         silence_ms: 0,
     };
 }

@@ -158,9 +158,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         if frame.is_remote() || profile.stopped_only && self.state != State::Stopped {
             return;
         }
-        let active = match self.configured {
-            true => self.node_id.raw(),
-            false => lss::UNCONFIGURED,
+        let active = match self.unconfigured {
+            true => lss::UNCONFIGURED,
+            false => self.node_id.raw(),
         };
         match self.lss.handle(objects, &profile, active, frame.data()) {
             Action::Answer(None) => {}
@@ -172,13 +172,13 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 let silence_ms = if profile.second_delay { delay_ms } else { 0 };
                 self.mute = Some(Mute {
                     until: self.now.plus_millis(delay_ms.into()),
-                    bit_rate: Some(bit_rate),
+                    bit_rate: u16::from(bit_rate) + 1,
                     silence_ms,
                 });
             }
         }
         self.finish(objects);
-        if !self.configured && self.lss.is_ready() {
+        if self.unconfigured && self.lss.is_ready() {
             self.reset(objects, Reset::Communication);
         }
     }

@@ -53,9 +53,12 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
 struct Machines<D, const PDO: usize, const SDO: usize> {
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
-    made_with: Option<NodeId>,
-    /// `false`: the node ID is FFh (CiA 305), and there is LSS alone.
-    configured: bool,
+    made_with: NodeId,
+    /// It was made without a node ID.
+    made_unconfigured: bool,
+    /// The node ID is FFh (CiA 305), and there is LSS alone. Not `configured`: a node without power is
+    /// all zeros, so that a static one takes no flash.
+    unconfigured: bool,
     state: State,
     powered: bool,
     now: Instant,
@@ -126,15 +129,18 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     /// is nothing but LSS until a master gives it one.
     pub const fn set_node_id(&mut self, node_id: Option<NodeId>) {
         let node = &mut self.machines;
-        node.made_with = node_id;
+        node.made_unconfigured = node_id.is_none();
+        if let Some(node_id) = node_id {
+            node.made_with = node_id;
+        }
         if !node.powered {
-            node.configured = node_id.is_some();
+            node.unconfigured = node_id.is_none();
         }
     }
 
     /// Whether the node has a node ID; without one it does nothing but LSS.
     pub const fn is_configured(&self) -> bool {
-        self.machines.configured
+        !self.machines.unconfigured
     }
 
     /// Whether the CAN controller is bus-off, as far as [`handle_bus`](Self::handle_bus)
@@ -167,17 +173,18 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     const fn new(node_id: NodeId) -> Self {
         Self {
             node_id,
-            made_with: Some(node_id),
-            configured: true,
+            made_with: node_id,
+            made_unconfigured: false,
+            unconfigured: false,
             state: State::Initialising,
             powered: false,
             now: Instant::ZERO,
             boot_at: None,
             tick_at: None,
-            sync_id: CanId::standard(0x80),
+            sync_id: CanId::standard(0),
             out: Fifo::new(Frame::standard(0, &[])),
             answer: None,
-            events: Fifo::new(Event::StorageDamaged),
+            events: Fifo::new(Event::State(State::Initialising)),
             sdo: sdo::Server::new(),
             heartbeat: error_control::Producer::new(),
             monitor: error_control::Monitor::new(),
@@ -210,7 +217,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
 
     /// It has started, and waits for LSS to give it a node ID.
     fn is_unconfigured(&self) -> bool {
-        !self.configured && self.boot_at.is_none() && self.mute.is_none()
+        self.unconfigured && self.boot_at.is_none() && self.mute.is_none()
     }
 
     /// The TPDOs that the dictionary has.

@@ -52,7 +52,7 @@ impl Outbox {
     pub(crate) const fn new() -> Self {
         Self {
             signals: Signals::new(),
-            effects: Fifo::new(Effect::Saved(0)),
+            effects: Fifo::new(Effect::Written(Address::new(0, 0))),
             overflow: false,
             saving: None,
             answer_later: false,

@@ -11,12 +11,12 @@ const KEPT: usize = 8;
 /// One mapped value: the position of its entry in the dictionary, and its length.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Mapped {
-    /// Position in the dictionary's entries; [`DUMMY`] for bits that nobody reads.
+    /// One more than the position in the dictionary's entries; [`DUMMY`] for bits that nobody reads.
     entry: u32,
     bits: u8,
 }
 
-const DUMMY: u32 = u32::MAX;
+const DUMMY: u32 = 0;
 
 const NOTHING: Mapped = Mapped {
     entry: DUMMY,
@@ -78,7 +78,7 @@ impl Mapping {
         let raw = objects.store.try_unsigned(self.object, sub)? as u32;
         let repr = check_mapped(&objects.store, self.object, raw).ok()?;
         let entry = match objects.store.dictionary().locate(repr.address) {
-            Ok((at, _)) => at as u32,
+            Ok((at, _)) => at as u32 + 1,
             Err(_) => DUMMY,
         };
         Some(Mapped {
@@ -101,7 +101,7 @@ impl Mapping {
                 // The object has not changed since `load`, so the entry is still there.
                 None => self.mapped(objects, at as u8 + 1).unwrap_or(NOTHING),
             };
-            let at = mapped.entry as usize;
+            let at = (mapped.entry as usize).wrapping_sub(1);
             let row = objects.store.dictionary().row(at);
             let bits = usize::from(mapped.bits);
             each(objects, row.map(|row| (at, row)), first, bits);

@@ -28,7 +28,7 @@ impl Rpdo {
     /// One that does not exist.
     pub(crate) const NONE: Self = Self {
         valid: false,
-        cob_id: CobId::new(1 << 31),
+        cob_id: CobId::new(0),
         synchronous: false,
         mapping: Mapping::NONE,
         waiting: None,

@@ -50,7 +50,7 @@ pub(crate) struct Tpdo {
 impl Config {
     const NONE: Self = Self {
         valid: false,
-        cob_id: CobId::new(1 << 31),
+        cob_id: CobId::new(0),
         kind: 0,
         event_us: 0,
         inhibit_us: 0,

@@ -36,8 +36,9 @@ const BLOCK_TIMEOUT_US: u64 = 5_000_000;
 /// First byte of an abort, as clients send it.
 const ABORT: u8 = 0x80;
 
-/// Transfer under way.
+/// Transfer under way. Without one it is all zeros, which a niche would not give.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(u8)]
 enum Transfer {
     #[default]
     None,

@@ -33,12 +33,16 @@ pub(super) struct Next<'n> {
     pub(super) cob_ids: SavedCobIds,
 }
 
+/// Not the start of a bank.
+const NONE: usize = usize::MAX;
+
 /// A set that is written but for its magic.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Pending {
     target: usize,
-    /// The set before it, if it does not count until then.
-    replaced: Option<usize>,
+    /// The set before it, if it does not count until then; else [`NONE`]. An `Option` here would keep
+    /// a node without power from being all zeros.
+    replaced: usize,
 }
 
 /// Writes the next set into the older bank, all but the magic.
@@ -67,12 +71,12 @@ pub(super) fn begin(
     let pending = Pending {
         target: banks.target,
         replaced: match banks.newest {
-            Some(bank) if next.cut == CutSave::Factory && !bank.replaced => Some(bank.start),
-            _ => None,
+            Some(bank) if next.cut == CutSave::Factory && !bank.replaced => bank.start,
+            _ => NONE,
         },
     };
-    if let Some(start) = pending.replaced {
-        storage.write(start, &[REPLACED])?;
+    if pending.replaced != NONE {
+        storage.write(pending.replaced, &[REPLACED])?;
         storage.flush()?;
     }
     if let Err(error) = set.write(storage, len) {
@@ -93,8 +97,8 @@ pub(crate) fn commit(storage: &mut dyn Storage, pending: Pending) -> Result<(), 
 /// The set before the next one is what it was.
 fn reinstate(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
     match pending.replaced {
-        Some(start) => storage.write(start, &MAGIC[..1]),
-        None => Ok(()),
+        NONE => Ok(()),
+        start => storage.write(start, &MAGIC[..1]),
     }
 }
 
