@@ -110,7 +110,7 @@ impl VirtualDevice {
     /// Place of the value of an object that is saved.
     fn saved_slot(&self, address: Address) -> Option<Range<usize>> {
         let dictionary = self.dictionary();
-        let entry = dictionary.find(address).ok().filter(|one| is_saved(one))?;
+        let entry = dictionary.find(address).ok().filter(is_saved)?;
         let start = entry.slot.offset as usize;
         Some(start..start + usize::from(entry.slot.len))
     }

@@ -309,7 +309,7 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Updates the operating records before they are saved.
     pub(crate) fn refresh_life_record(&mut self) {
         let entries = self.store.dictionary().entries();
-        for entry in entries.filter(|entry| image::is_life_record(entry)) {
+        for entry in entries.filter(image::is_life_record) {
             // A value that cannot be updated is saved as it is.
             let _ = self.refresh(entry.address);
         }

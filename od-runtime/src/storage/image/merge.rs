@@ -148,7 +148,7 @@ impl Set<'_> {
         }
         let mut records = self.banks.records();
         let entries = self.store.dictionary().entries();
-        let mut entries = entries.filter(|entry| is_saved(entry));
+        let mut entries = entries.filter(is_saved);
         let (mut record, mut entry) = (records.next(storage)?, entries.next());
         loop {
             let addresses = [record.map(|old| old.address), entry.map(|new| new.address)];
