@@ -77,6 +77,16 @@ fn one_client_too_many_is_refused() {
     say(&mut sim.client(), "V\r", "V1013\r");
 }
 
+#[test]
+fn who_has_left_makes_room_at_once() {
+    let sim = Sim::start(&["gxmm", "--max-clients", "1"]);
+    for _ in 0..50 {
+        let mut client = sim.client();
+        say(&mut client, "V\r", "V1013\r");
+        client.write_all(b"O\r").expect("it reads");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_client_for_whom_no_file_is_left_is_refused() {
@@ -139,10 +149,13 @@ fn what_a_suspended_bench_missed_is_not_sent() {
     wait_for(400);
     let took = start.elapsed();
     assert!(took > Duration::from_millis(250), "{took:?}");
-    let line = sim.told("the bus goes on from now");
-    let words = line.split_whitespace();
-    let late = words.filter_map(|word| word.parse::<u64>().ok()).next();
-    assert!(late.is_some_and(|late| (500..).contains(&late)), "{line}");
+    // A busy computer may have been late before, but never that much.
+    let mut late = 0;
+    while late < 500 {
+        let line = sim.told("the bus goes on from now");
+        let mut words = line.split_whitespace();
+        late = words.find_map(|word| word.parse().ok()).expect("a number");
+    }
 }
 
 /// `nohup` ignores SIGHUP, redirects nothing that is a pipe, and expects its program to go on.

@@ -2,11 +2,13 @@
 
 mod support;
 
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::Stdio;
 use std::time::Duration;
 
-use support::odkit;
 use support::sim::{Sim, say};
+use support::{command, odkit};
 
 #[test]
 fn socketcand_speaks_to_clients_that_compare_what_they_read() {
@@ -62,6 +64,92 @@ fn a_pseudo_terminal_is_an_adapter() {
             "\r\rz\rt58184300100096010200\r"
         );
     }
+}
+
+/// The end of a serial line is a pseudo-terminal here, which goes with its owner.
+#[cfg(unix)]
+#[test]
+fn a_link_that_dies_is_told_and_the_last_one_ends_the_bench() {
+    let mut other = Sim::start(&["gxmm", "--link", "slcan:pty"]);
+    let path = other.greeting.split("slcan on /").nth(1).expect("a path");
+    let path = format!("/{}", path.split([',', '\n', ' ']).next().expect("a path"));
+    let link = format!("slcan:{path}");
+    let mut last = command()
+        .args(["sim", "gxmm", "--link", &link])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("odkit starts");
+    let mut greeting = BufReader::new(last.stdout.take().expect("a pipe")).lines();
+    assert!(greeting.any(|line| line.is_ok_and(|line| line.contains("Ctrl-C"))));
+    let mut first = Sim::start_heard(&["gxmm", "--link", &link]);
+    other.child.kill().expect("it runs");
+    let ended = last.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(1), "{said}");
+    assert!(said.contains(&format!("{path} is lost: ")), "{said}");
+    assert!(said.contains("the last link is lost"), "{said}");
+    // One that can still be reached goes on.
+    first.told(&format!("{path} is lost: "));
+    say(&mut first.client(), "V\r", "V1013\r");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_output_that_fails_is_a_lost_link() {
+    for input in [Stdio::piped(), Stdio::null()] {
+        let full = std::fs::File::create("/dev/full").expect("a full device");
+        let mut sim = command()
+            .args(["sim", "gxmm", "--link", "-"])
+            .stdin(input)
+            .stdout(full)
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("odkit starts");
+        // The boot-up message finds no room, whether the input is still open or at its end.
+        let open = sim.stdin.take();
+        let ended = sim.wait_with_output().expect("it ends");
+        drop(open);
+        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+        assert_eq!(ended.status.code(), Some(1), "{said}");
+        let lost = "standard input and output is lost: ";
+        assert!(said.contains(lost), "{said}");
+    }
+}
+
+#[test]
+fn the_end_of_standard_input_ends_nothing_beside_a_server() {
+    let mut child = command()
+        .args(["sim", "gxmm", "--link", "-", "--slcan", "127.0.0.1:0"])
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("odkit starts");
+    let errors = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    let mut errors = errors.map(|line| line.expect("UTF-8"));
+    let line = errors.find(|line| line.contains("slcan on 127.0.0.1:"));
+    let port = line
+        .as_deref()
+        .and_then(|line| line.rsplit("127.0.0.1:").next());
+    let digits = port.map(|text| text.split(',').next().unwrap_or_default());
+    let port: u16 = digits
+        .and_then(|text| text.trim().parse().ok())
+        .expect("a port");
+    // The frames on standard output go on, too.
+    let mut frames = BufReader::new(child.stdout.take().expect("a pipe")).lines();
+    for frame in ["701#00", "601#4000100000000000", "581#4300100096010200"] {
+        let line = frames.next().expect("a frame").expect("UTF-8");
+        assert!(line.ends_with(frame), "{line}");
+        if frame == "701#00" {
+            let mut client = TcpStream::connect(("127.0.0.1", port)).expect("it listens");
+            client
+                .write_all(b"O\rt60184000100000000000\r")
+                .expect("it reads");
+        }
+    }
+    child.kill().expect("it runs");
+    child.wait().expect("it ends");
 }
 
 #[test]

@@ -21,6 +21,8 @@ const FAREWELL: Duration = Duration::from_secs(10);
 const CONTROLS: usize = 16;
 /// Bytes that one client may send in a turn to all others together.
 const WORK: usize = 256 * 1024;
+/// A turn is a multiple of this number of bytes, and so of the messages of any port.
+const WHOLE: usize = 64;
 /// Fewest bytes of a turn.
 const LEAST: usize = 512;
 
@@ -101,6 +103,12 @@ impl Clients {
 
     pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Client> {
         self.list.iter_mut()
+    }
+
+    /// Does anything wait for standard output?
+    pub(super) fn console_waits(&self) -> bool {
+        let mut consoles = self.list.iter();
+        consoles.any(|one| one.protocol == Protocol::Lines && !one.is_flushed())
     }
 
     /// When a codec has something to do next.
@@ -201,7 +209,7 @@ impl Clients {
 
     /// Bytes of a turn: the more clients hear every frame, the fewer, so that a turn takes the same time.
     pub(super) fn turn(&self) -> usize {
-        (WORK / self.list.len().max(1)).max(LEAST)
+        (WORK / self.list.len().max(1)).max(LEAST) / WHOLE * WHOLE
     }
 
     /// Reads what a client has sent, as much as its turn allows. `Ok(None)`: nothing.

@@ -137,17 +137,15 @@ impl Live {
     /// Whoever waits for the last lines gets them.
     fn finish(&mut self) -> io::Result<()> {
         self.flush();
-        let console = |clients: &mut Clients| {
-            let mut consoles = clients.all();
-            let console = consoles.find(|client| client.protocol == Protocol::Lines);
-            console.is_some_and(|console| !console.is_flushed())
-        };
-        while console(&mut self.clients) && !self.is_stopped() {
+        while self.clients.console_waits() && !self.is_stopped() {
             self.clients.wait(Duration::from_millis(100))?;
             self.flush();
         }
-        for client in self.clients.all() {
-            client.port.finish(&self.stopped);
+        let stopped = Arc::clone(&self.stopped);
+        let ports = self.clients.all();
+        let lost = ports.filter_map(|one| Some((one.number, one.port.finish(&stopped).err()?)));
+        for (number, error) in lost.collect::<Vec<_>>() {
+            self.end(number, Some(error));
         }
         if let Some(log) = self.log.take() {
             log.finish();
@@ -230,8 +228,16 @@ impl Live {
         self.clients.hear(frame, (at, stamp), from, self.cause);
     }
 
-    /// Everybody who has sent something gets a turn, as far as this round has room.
+    /// Everybody who has sent something gets a turn, as far as this round has room. Then others may
+    /// come: who has left already makes room for them.
     fn turns(&mut self) {
+        let mut turns = 0;
+        for number in self.clients.ready() {
+            if turns == ROUND || self.is_stopped() {
+                break;
+            }
+            turns += usize::from(self.turn(number));
+        }
         for (number, name) in self.clients.accept() {
             let Some(client) = self.clients.get(number) else {
                 continue;
@@ -242,48 +248,49 @@ impl Live {
             }
             self.clients.answer(number, hello);
         }
-        let mut turns = 0;
-        for number in self.clients.ready() {
-            if turns == ROUND || self.is_stopped() {
-                break;
-            }
-            turns += usize::from(self.turn(number));
-        }
     }
 
-    /// The turn of one client, if it has sent something.
+    /// The turn of one client, to the end of what it has sent or of its room. Returns whether that
+    /// was something.
     fn turn(&mut self, number: usize) -> bool {
         let mut buffer = [0; TURN];
-        let room = self.clients.turn().min(TURN);
-        let len = match self.clients.read(number, &mut buffer[..room]) {
-            Ok(Some(len)) if len > 0 => len,
-            Ok(None) => return false,
-            end => {
-                self.end(number, end.err());
-                return true;
-            }
-        };
-        let (bytes, now) = (&buffer[..len], self.bench.bus.now());
+        let mut room = self.clients.turn().min(TURN);
+        let mut has_sent = false;
+        while room > 0 {
+            let len = match self.clients.read(number, &mut buffer[..room]) {
+                Ok(Some(len)) if len > 0 => len,
+                Ok(None) => break,
+                end => {
+                    self.end(number, end.err());
+                    return has_sent;
+                }
+            };
+            (has_sent, room) = (true, room - len);
+            self.receive(number, &buffer[..len]);
+        }
+        // Its answers go out before the next turn.
+        let flushed = self.clients.get(number).map(|client| client.flush());
+        if let Some(Err(error)) = flushed {
+            self.end(number, Some(error));
+        }
+        has_sent
+    }
+
+    fn receive(&mut self, number: usize, bytes: &[u8]) {
+        let now = self.bench.bus.now();
         let Some(client) = self.clients.get(number) else {
-            return true;
+            return;
         };
         if client.is_http(bytes) {
             note(&format!(
                 "{} was disconnected: it sent an HTTP request, and a browser must not drive the bus",
                 client.name
             ));
-            self.clients.remove(number);
-            return true;
+            return self.clients.remove(number);
         }
         let mut steps = Vec::new();
         client.codec.receive(bytes, now, &mut steps);
         self.steps(number, steps);
-        // Its answers go out before the next turn.
-        let flushed = self.clients.get(number).map(|client| client.flush());
-        if let Some(Err(error)) = flushed {
-            self.end(number, Some(error));
-        }
-        true
     }
 
     /// A client has sent everything; with an `error`, it also hears no more.
@@ -302,7 +309,10 @@ impl Live {
             client.codec.finish(&mut rest);
         }
         self.steps(number, rest);
-        let is_heard = error.is_none() && (number >= LINKS || protocol == Protocol::Lines);
+        let mut left = self.clients.get(number).into_iter();
+        let waits = left.any(|client| client.flush().is_ok() && !client.is_flushed());
+        let hears = number >= LINKS && waits || protocol == Protocol::Lines;
+        let is_heard = error.is_none() && hears;
         if !is_heard {
             self.clients.remove(number);
         }

@@ -6,8 +6,11 @@ use od_runtime::Instant;
 
 /// A bus that is later than this goes on from now: it makes up for nothing.
 pub(super) const LATE: Duration = Duration::from_millis(50);
-/// Lateness within this time after an earlier one is not told again.
+/// Lateness within this time after an earlier one is not told again: the computer is too slow, and that
+/// is known.
 const AGAIN: Duration = Duration::from_secs(1);
+/// No slow computer is that late; this is always told.
+const LONG: Duration = Duration::from_millis(500);
 
 /// The time of the bus: that of the computer, without the times in which the process did not run.
 pub(super) struct Pace {
@@ -49,8 +52,8 @@ impl Pace {
         self.start += late;
         self.epoch += late.as_micros() as u64;
         let before = self.last.replace(clock);
-        let told = before.is_some_and(|last| clock.duration_since(last) < AGAIN);
-        (!told).then_some(late)
+        let known = before.is_some_and(|last| clock.duration_since(last) < AGAIN);
+        (!known || late >= LONG).then_some(late)
     }
 }
 
@@ -81,7 +84,9 @@ mod tests {
         assert_eq!(pace.stamp(millis(100)), day + 5_000_000);
         assert_eq!(pace.shift(millis(100), after(5200)), None);
         assert_eq!(pace.at(after(5200)), millis(100));
+        let late = Some(Duration::from_millis(500));
+        assert_eq!(pace.shift(millis(100), after(5700)), late);
         let late = Some(Duration::from_millis(1000));
-        assert_eq!(pace.shift(millis(100), after(6200)), late);
+        assert_eq!(pace.shift(millis(100), after(6700)), late);
     }
 }

@@ -87,7 +87,7 @@ impl Link {
             Self::Serial(path, baud) => serial::open(path, *baud),
             Self::SocketCan(name) => can::open(name),
             Self::Console => Ok(Opened::Ends(Ends {
-                name: "standard input".into(),
+                name: "standard input and output".into(),
                 protocol: Protocol::Lines,
                 port: Box::new(Threads::new(std::io::stdin(), std::io::stdout())),
             })),

@@ -26,8 +26,8 @@ pub(super) struct Threads {
     /// Input that found no room in the buffer of the reader.
     rest: Vec<u8>,
     output: Option<SyncSender<Vec<u8>>>,
-    /// Disconnects when all is written.
-    done: Option<Receiver<()>>,
+    /// Says that all is written, or why not.
+    done: Option<Receiver<io::Result<()>>>,
 }
 
 impl Threads {
@@ -52,16 +52,17 @@ impl Port for Threads {
         };
         let (heard, input) = sync_channel(PIECES);
         let (output, said) = sync_channel(PIECES);
-        let (alive, done) = sync_channel(1);
+        let (ended, done) = sync_channel(1);
         (self.input, self.output, self.done) = (Some(input), Some(output), Some(done));
         let (failed, calls) = (heard.clone(), Arc::clone(waker));
         thread::Builder::new().spawn(move || {
-            if let Err(error) = write(writing, &said, &calls) {
+            let written = write(writing, &said, &calls);
+            if let Err(error) = &written {
                 // Nothing else wakes up a reader of standard input when standard output closes.
-                let _ = failed.send(Err(error));
+                let _ = failed.send(Err(io::Error::new(error.kind(), error.to_string())));
                 let _ = calls.wake();
             }
-            drop(alive);
+            let _ = ended.send(written);
         })?;
         let calls = Arc::clone(waker);
         thread::Builder::new().spawn(move || read(reading, &heard, &calls))?;
@@ -97,15 +98,16 @@ impl Port for Threads {
         }
     }
 
-    fn finish(&mut self, stopped: &AtomicBool) {
+    fn finish(&mut self, stopped: &AtomicBool) -> io::Result<()> {
         self.output = None;
-        let patience = Duration::from_millis(100);
         let Some(done) = &self.done else {
-            return;
+            return Ok(());
         };
-        while let Err(RecvTimeoutError::Timeout) = done.recv_timeout(patience) {
-            if stopped.load(Ordering::Relaxed) {
-                return;
+        loop {
+            match done.recv_timeout(Duration::from_millis(100)) {
+                Ok(written) => return written,
+                Err(RecvTimeoutError::Timeout) if !stopped.load(Ordering::Relaxed) => {}
+                Err(_) => return Ok(()),
             }
         }
     }
