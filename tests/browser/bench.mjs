@@ -1,28 +1,39 @@
 // What the tests do over and over, in the words of a person at the page.
 import assert from 'node:assert/strict';
-import { isDeepStrictEqual } from 'node:util';
+import { inspect, isDeepStrictEqual } from 'node:util';
+import { opened } from './harness.mjs';
 
 /** Milliseconds that a machine with other work may take. */
 const PATIENCE = 20_000;
 
-/** Waits until `holds` accepts what `probe` answers, and answers with that; `fail` gets the last one. */
+/** What the open pages complained of and what stands on them, for a test that waited in vain. */
+async function seen() {
+  const looks = [...opened].map(async ([page, faults]) => {
+    const looked = page.evaluate(() => `${document.visibilityState}: ${document.body.innerText.replaceAll(/\s+/g, ' ').slice(0, 3000)}`).catch(String);
+    const stuck = new Promise((resolve) => setTimeout(resolve, 5000, 'the page does not answer'));
+    return ['', page.url(), ...faults, await Promise.race([looked, stuck])].join('\n  ');
+  });
+  return (await Promise.all(looks)).join('');
+}
+
+/** Waits until `holds` accepts what `probe` answers, and answers with that; `fail` gets the last one, and what is seen. */
 async function poll(probe, holds, fail) {
   const end = Date.now() + PATIENCE;
   for (;;) {
     const value = await probe();
     if (holds(value)) return value;
-    if (Date.now() > end) fail(value);
+    if (Date.now() > end) fail(value, await seen());
     await new Promise((resolve) => setTimeout(resolve, 40));
   }
 }
 
 /** Waits until `probe` answers with something true; says what was expected if it never does. */
-export const until = (what, probe) => poll(probe, Boolean, () => assert.fail(`expected ${what}`));
+export const until = (what, probe) => poll(probe, Boolean, (_, there) => assert.fail(`expected ${what}${there}`));
 
 /** Waits until `probe` answers `expected`, or a text that fits this pattern: what an action leads to comes later. */
 export function becomes(what, probe, expected) {
-  if (expected instanceof RegExp) return poll(probe, (value) => expected.test(value), (value) => assert.match(value, expected, what));
-  return poll(probe, (value) => isDeepStrictEqual(value, expected), (value) => assert.deepEqual(value, expected, what));
+  if (expected instanceof RegExp) return poll(probe, (value) => expected.test(value), (value, there) => assert.match(value, expected, `${what}: ${value}${there}`));
+  return poll(probe, (value) => isDeepStrictEqual(value, expected), (value, there) => assert.deepEqual(value, expected, `${what}: ${inspect(value)}${there}`));
 }
 
 /** Waits until `probe` answers the same for so many milliseconds of the bench's time; answers with that. */
@@ -37,7 +48,7 @@ export async function stays(page, what, probe, milliseconds) {
       return now - since >= milliseconds ? { value } : null;
     },
     Boolean,
-    () => assert.fail(`expected ${what} to stay; it is ${value}`),
+    (_, there) => assert.fail(`expected ${what} to stay; it is ${value}${there}`),
   ).then((found) => found.value);
 }
 

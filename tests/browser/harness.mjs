@@ -12,6 +12,9 @@ const ARGS = ['--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '
 
 export const launch = () => chromium.launch({ executablePath, args: ARGS });
 
+/** The pages that are open, and what went wrong in them. */
+export const opened = new Map();
+
 /**
  * Opens the page in a context of its own. `faults` collects what went wrong in it:
  * console errors, uncaught exceptions, requests that failed.
@@ -23,6 +26,8 @@ export async function open(browser, { width = 1280, height = 800, hash = '', ...
   page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
   page.on('pageerror', (error) => faults.push(String(error)));
   page.on('requestfailed', (request) => faults.push(`${request.url()} ${request.failure()?.errorText}`));
+  opened.set(page, faults);
+  page.on('close', () => opened.delete(page));
   await page.goto(new URL(hash, URL_OF_PAGE).href);
   return { page, faults, close: () => own.close() };
 }
