@@ -65,19 +65,29 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
     write.args(["--test", "fuzz", "--", "--seeds", target]);
     console.run("the inputs to start from", write.arg(&seeds.0))?;
 
-    let tool = install(repo, console)?;
+    let (tool, host) = install(repo, console)?;
+    let built = repo.target.join("cargo-fuzz");
+    let mut build = clean(&tool, &repo.root.join("tests/fuzz/coverage"), &["fuzz"]);
+    // The compiler of this command is pinned; libFuzzer needs another one.
+    build.env("RUSTUP_TOOLCHAIN", "nightly");
+    build.env_remove("RUSTC").env_remove("CARGO");
+    build.args([
+        "build",
+        "--fuzz-dir",
+        ".",
+        "--target",
+        &host,
+        "--target-dir",
+    ]);
+    console.run("building for libFuzzer", build.arg(&built).arg("any"))?;
+
     let found = Folder::new(&repo.root.join("tests/fuzz/found"), target)?;
     let before = found.files()?;
     let fuzz = |what: &str, folders: &[&Folder], args: &[&str]| {
-        let mut command = clean(&tool, &repo.root.join("tests/fuzz/coverage"), &["fuzz"]);
-        // The compiler of this command is pinned; libFuzzer needs another one.
-        command.env("RUSTUP_TOOLCHAIN", "nightly");
+        let program = built.join(&host).join("release").join(program("any"));
+        let mut command = clean(&program, &repo.root, args);
         command.env("ODKIT_FUZZ_TARGET", target);
-        command.env_remove("RUSTC").env_remove("CARGO");
-        command.args(["run", "--fuzz-dir", ".", "--target-dir"]);
-        command.arg(repo.target.join("cargo-fuzz")).arg("any");
-        command.args(folders.iter().map(|folder| &folder.0));
-        console.run(what, command.arg("--").args(args))
+        console.run(what, command.args(folders.iter().map(|folder| &folder.0)))
     };
     let seconds = format!("-max_total_time={}", options.minutes * 60);
     let artifacts = format!("-artifact_prefix={}/", found.0.display());
@@ -155,14 +165,18 @@ impl Folder {
     }
 }
 
-/// A nightly compiler, and cargo-fuzz in `.xtask`, built there when it is missing.
-fn install(repo: &Repo, console: &Console) -> Result<PathBuf> {
-    let has_nightly = || ask_in(&repo.root, "rustup", &["run", "nightly", "rustc", "-V"]).is_some();
-    if !has_nightly() {
+/// A nightly compiler, and cargo-fuzz in `.xtask`, built there when it is missing: the program,
+/// and the system that the compiler compiles for.
+fn install(repo: &Repo, console: &Console) -> Result<(PathBuf, String)> {
+    let args = ["run", "nightly", "rustc", "--print", "host-tuple"];
+    let host = || ask_in(&repo.root, "rustup", &args);
+    if host().is_none() {
         let mut add = Command::new("rustup");
         add.args(["toolchain", "install", "nightly", "--profile", "minimal"]);
         console.run("installing the nightly compiler (once)", &mut add)?;
     }
+    let missing = || Error::Missing(String::from("there is no nightly compiler; see rustup.rs"));
+    let host = host().ok_or_else(missing)?;
     let root = repo.tools().join("fuzz");
     let tool = root.join("bin").join(program("cargo-fuzz"));
     let wanted = format!("cargo-fuzz {VERSION}");
@@ -171,7 +185,7 @@ fn install(repo: &Repo, console: &Console) -> Result<PathBuf> {
         install.args(["cargo-fuzz", "--force", "--version", VERSION, "--root"]);
         console.run("building cargo-fuzz (once)", install.arg(&root))?;
     }
-    Ok(tool)
+    Ok((tool, host))
 }
 
 #[cfg(test)]
