@@ -27,6 +27,7 @@ use std::time::Instant;
 use od_fuzz::files::repository;
 use od_fuzz::harness;
 use od_fuzz::plan::Plan;
+use od_fuzz::random::Random;
 use od_fuzz::target::Target;
 use od_fuzz::targets::{self, ALL};
 use od_fuzz::trace;
@@ -131,7 +132,9 @@ fn seeds(name: Option<&String>, folder: Option<&Path>) -> ExitCode {
         eprintln!("--seeds needs a target and a folder; {}", names());
         return ExitCode::from(2);
     };
-    for (number, seed) in target.all_seeds().iter().enumerate() {
+    let mut seeds = target.all_seeds();
+    seeds.extend(target.make.map(|make| make(&mut Random::new(0))));
+    for (number, seed) in seeds.iter().enumerate() {
         let path = folder.join(format!("seed-{number:04}"));
         if let Err(error) = std::fs::write(&path, seed) {
             eprintln!("{}: {error}", path.display());

@@ -20,7 +20,7 @@ use counts::Counts;
 use report::{Outcome, Report};
 use stages::{Kind, Lane, STAGES, Stage};
 
-/// No single program of a stage may run longer.
+/// No single program of a stage may run longer; with `--long`, four times as long.
 const LIMIT: Duration = Duration::from_secs(30 * 60);
 
 /// The command line of `test`.
@@ -121,7 +121,8 @@ fn one(
     let path = logs.join(format!("{}.log", stage.name));
     let log = File::create(&path).map_err(|e| Error::io("create", &path, &e))?;
     // Tests in a browser or on a bus look at the time; those that only compute wait for them.
-    let console = Console::to_log(log, LIMIT, stage.lane == Lane::Cargo);
+    let limit = if options.long { LIMIT * 4 } else { LIMIT };
+    let console = Console::to_log(log, limit, stage.lane == Lane::Cargo);
     let context = Context {
         repo,
         console: &console,
