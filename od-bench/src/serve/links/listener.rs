@@ -1,16 +1,13 @@
 //! A server, on a port or a path, and its clients.
 
 use std::io;
-use std::sync::Arc;
 
 use mio::net::{TcpListener, TcpStream};
 #[cfg(unix)]
 use mio::net::{UnixListener, UnixStream};
-use mio::{Interest, Registry, Token, Waker};
+use mio::{Interest, Registry, Token};
 
 use super::opened::Protocol;
-#[cfg(unix)]
-use super::port::BOTH;
 use super::port::Port;
 use super::tcp;
 
@@ -81,20 +78,5 @@ impl Stream {
             #[cfg(unix)]
             Self::Unix(stream) => Box::new(stream),
         }
-    }
-}
-
-#[cfg(unix)]
-impl Port for UnixStream {
-    fn register(&mut self, events: &Registry, token: Token, _: &Arc<Waker>) -> io::Result<()> {
-        events.register(self, token, BOTH)
-    }
-
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        io::Read::read(self, buffer)
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        io::Write::write(self, bytes)
     }
 }

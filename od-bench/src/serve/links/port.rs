@@ -58,3 +58,18 @@ impl Port for TcpStream {
         Write::write(self, bytes)
     }
 }
+
+#[cfg(unix)]
+impl Port for mio::net::UnixStream {
+    fn register(&mut self, events: &Registry, token: Token, _: &Arc<Waker>) -> io::Result<()> {
+        events.register(self, token, BOTH)
+    }
+
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        Read::read(self, buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Write::write(self, bytes)
+    }
+}
