@@ -5,11 +5,13 @@
 //! differ, but then one of our findings is about that section; nothing else is passed over.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
-use std::{env, fs, thread};
+use std::fs;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use ini::{Ini, ParseOption};
 use od_eds::{Document, parse};
+use od_tests::corpus;
 
 /// What we report about lines that are not plain INI.
 const NOT_PLAIN: [&str; 7] = [
@@ -39,13 +41,11 @@ struct Sums {
 #[test]
 fn rust_ini_reads_the_same_in_every_case() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    collect(&here.join("cases"), &mut files);
-    collect(&here.join("../tests/cases"), &mut files);
-    collect(&here.join("../devices/eds"), &mut files);
     let mut sums = Sums::default();
-    for file in &files {
-        compare_file(file, &mut sums);
+    for folder in ["../od-eds/cases", "cases", "../devices/eds"] {
+        for file in corpus::files(&here.join(folder), corpus::ALL) {
+            compare_file(&file, &mut sums);
+        }
     }
     assert!(sums.sections > 5_000 && sums.pairs > 20_000, "{sums:?}");
     assert!(sums.not_plain * 100 < sums.sections, "{sums:?}");
@@ -53,28 +53,19 @@ fn rust_ini_reads_the_same_in_every_case() {
 
 #[test]
 fn rust_ini_reads_the_same_in_the_corpus() {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
-    let folder = env::var_os("ODKIT_CORPUS").map_or(beside, PathBuf::from);
-    let mut files = Vec::new();
-    collect(&folder, &mut files);
-    if files.is_empty() {
-        let text = "no corpus: set ODKIT_CORPUS to a folder of EDS files";
-        assert!(env::var_os("CI").is_none(), "{text}");
-        println!("{text}");
+    let Some(folder) = corpus::folder() else {
         return;
-    }
-    let workers = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| {
-        for files in files.chunks(files.len().div_ceil(workers)) {
-            scope.spawn(move || {
-                let mut sums = Sums::default();
-                for file in files {
-                    compare_file(file, &mut sums);
-                }
-                assert!(sums.not_plain * 100 < sums.sections, "{sums:?}");
-            });
-        }
+    };
+    let all = Mutex::new(Sums::default());
+    corpus::each(&corpus::files(&folder, corpus::ALL), |file| {
+        let mut sums = Sums::default();
+        compare_file(file, &mut sums);
+        let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+        all.sections += sums.sections;
+        all.not_plain += sums.not_plain;
     });
+    let sums = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    assert!(sums.not_plain * 100 < sums.sections, "{sums:?}");
 }
 
 #[test]
@@ -208,21 +199,5 @@ fn by_rust_ini(text: &str) -> Result<Option<(String, Pairs)>, String> {
     match sections.next() {
         None => Ok(first),
         Some(more) => Err(format!("{first:?} and {more:?}")),
-    }
-}
-
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    let Ok(entries) = fs::read_dir(folder) else {
-        return;
-    };
-    for entry in entries {
-        let path = entry.unwrap().path();
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        let ending = ending.unwrap_or_default().to_ascii_lowercase();
-        if path.is_dir() {
-            collect(&path, files);
-        } else if matches!(ending.as_str(), "eds" | "dcf" | "xdd" | "xdc" | "xpd") {
-            files.push(path);
-        }
     }
 }
