@@ -1,6 +1,7 @@
 //! All clients: who may come, whose turn it is, and who hears a frame.
 
 use std::io;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant as Clock};
 
 use mio::Token;
@@ -109,6 +110,13 @@ impl Clients {
     pub(super) fn console_waits(&self) -> bool {
         let mut consoles = self.list.iter();
         consoles.any(|one| one.protocol == Protocol::Lines && !one.is_flushed())
+    }
+
+    /// Waits until ports have written everything. Returns those that have not, with the reason.
+    pub(super) fn finish(&mut self, stopped: &AtomicBool) -> Vec<(usize, io::Error)> {
+        let ports = self.list.iter_mut();
+        let lost = ports.filter_map(|one| Some((one.number, one.port.finish(stopped).err()?)));
+        lost.collect()
     }
 
     /// When a codec has something to do next.

@@ -141,10 +141,7 @@ impl Live {
             self.clients.wait(Duration::from_millis(100))?;
             self.flush();
         }
-        let stopped = Arc::clone(&self.stopped);
-        let ports = self.clients.all();
-        let lost = ports.filter_map(|one| Some((one.number, one.port.finish(&stopped).err()?)));
-        for (number, error) in lost.collect::<Vec<_>>() {
+        for (number, error) in self.clients.finish(&self.stopped) {
             self.end(number, Some(error));
         }
         if let Some(log) = self.log.take() {
@@ -154,12 +151,12 @@ impl Live {
     }
 
     fn deadline(&self) -> Option<Instant> {
-        let console = self.console.deadline(self.bench.bus.now());
+        let (bus, now) = (&self.bench.bus, self.bench.bus.now());
         let all = [
             self.clients.codecs_due(),
-            console,
-            self.control.deadline(self.bench.bus.now()),
-            self.bench.bus.next_deadline(),
+            self.console.deadline(now),
+            self.control.deadline(now),
+            bus.next_deadline(),
         ];
         all.into_iter().flatten().min()
     }
