@@ -11,6 +11,8 @@ use crate::repo::Repo;
 pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 /// A microcontroller without an operating system: proof of `no_std`.
 pub(crate) const BARE: &str = "thumbv7m-none-eabi";
+/// The smallest microcontroller: no atomic read-modify-write, no division.
+pub(crate) const SMALLEST: &str = "thumbv6m-none-eabi";
 /// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 

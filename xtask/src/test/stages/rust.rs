@@ -115,7 +115,11 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
             &[&args[..], &["--target", target::BARE]].concat(),
         )?;
     }
-    Ok(())
+    // The last one brings the others along.
+    target::add(context.repo, context.console, target::SMALLEST)?;
+    let args = ["build", "--package", "od-devices", "--no-default-features"];
+    let args = [&args[..], &["--target", target::SMALLEST]].concat();
+    run(context, "od-devices for a Cortex-M0", &args)
 }
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
