@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
+use od_eds::{Eds, Finding, Label, Sentence, Severity, Span, say};
 
 /// A file's findings as text, an empty line behind each.
 pub(crate) fn render(path: &str, text: &str, findings: &[Finding], colours: bool) -> String {
@@ -32,7 +32,7 @@ fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence) -> Group<'a> 
     let mut group = level
         .primary_title(short(&sentence.message))
         .id(sentence.code)
-        .elements(snippet(path, text, sentence));
+        .elements(snippets(path, text, sentence));
     if sentence.span.is_none() {
         group = group.element(annotate_snippets::Origin::path(path));
     }
@@ -60,24 +60,40 @@ fn short(message: &str) -> Cow<'_, str> {
     }
 }
 
+/// Bytes between two places that are shown in one piece.
+const FAR: u32 = 1 << 14;
+
 /// The lines that the finding is about, and no more of the file.
-fn snippet<'a>(
+fn snippets<'a>(
     path: &'a str,
     text: &'a str,
     sentence: &'a Sentence,
+) -> Vec<Snippet<'a, annotate_snippets::Annotation<'a>>> {
+    let Some(main) = sentence.span else {
+        return Vec::new();
+    };
+    let is_near = |label: &&Label| {
+        let span = label.span;
+        span.start.abs_diff(main.start) <= FAR && span.end.abs_diff(main.end) <= FAR
+    };
+    let (near, far): (Vec<_>, Vec<_>) = sentence.labels.iter().partition(is_near);
+    let own = snippet(path, text, Some(main), &near);
+    let others = far
+        .iter()
+        .filter_map(|label| snippet(path, text, None, &[label]));
+    own.into_iter().chain(others).collect()
+}
+
+/// The lines from the first of these places to the last.
+fn snippet<'a>(
+    path: &'a str,
+    text: &'a str,
+    main: Option<Span>,
+    labels: &[&'a Label],
 ) -> Option<Snippet<'a, annotate_snippets::Annotation<'a>>> {
-    let main = sentence.span?;
-    let labels = sentence.labels.iter();
-    let first = labels
-        .clone()
-        .map(|label| label.span)
-        .chain([main])
-        .min_by_key(|s| s.start)?;
-    let end = labels
-        .clone()
-        .map(|label| label.span.end)
-        .chain([main.end])
-        .max()?;
+    let spans = labels.iter().map(|label| label.span).chain(main);
+    let first = spans.clone().min_by_key(|span| span.start)?;
+    let end = spans.map(|span| span.end).max()?;
     let bytes = text.as_bytes();
     let line_end = |byte: &u8| matches!(*byte, b'\n' | b'\r');
     let start = bytes
@@ -97,8 +113,8 @@ fn snippet<'a>(
     let snippet = Snippet::source(shown)
         .line_start(first.line as usize)
         .path(path)
-        .annotation(AnnotationKind::Primary.span(range(main)));
-    Some(snippet.annotations(sentence.labels.iter().map(|label| {
+        .annotations(main.map(|main| AnnotationKind::Primary.span(range(main))));
+    Some(snippet.annotations(labels.iter().map(|label| {
         AnnotationKind::Context
             .span(range(label.span))
             .label(label.text.as_str())

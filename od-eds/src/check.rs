@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, sort};
+use crate::log::Log;
 use crate::subject::objects;
 
 pub use crate::allow::{Allows, parse_allow};
@@ -17,15 +18,15 @@ pub use crate::rules::{RULES, rule};
 ///
 /// Findings about the text itself come from [`parse`](crate::parse()).
 pub fn check(description: &Description) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    run(description, &mut findings);
-    once(description, &mut findings);
+    let mut log = Log::default();
+    run(description, &mut log);
+    let mut findings = log.finish();
     sort(&mut findings);
     findings
 }
 
 /// Runs the checks of all rules, in one pass over the objects.
-fn run(description: &Description, findings: &mut Vec<Finding>) {
+pub(crate) fn run(description: &Description, log: &mut Log) {
     let (mut of_entries, mut of_objects, mut of_device) = (Vec::new(), Vec::new(), Vec::new());
     for rule in RULES {
         match rule.check {
@@ -35,15 +36,24 @@ fn run(description: &Description, findings: &mut Vec<Finding>) {
             Check::ByReader | Check::ByEdit => {}
         }
     }
+    let mut found = Vec::new();
+    let mut report = |found: &mut Vec<Finding>| {
+        once(description, found);
+        log.extend(found.drain(..));
+    };
     for object in objects(description) {
         for entry in object.entries() {
-            of_entries.iter().for_each(|check| check(&entry, findings));
+            let checks = of_entries.iter();
+            checks.for_each(|check| check(&entry, &mut found));
         }
-        of_objects.iter().for_each(|check| check(&object, findings));
+        let checks = of_objects.iter();
+        checks.for_each(|check| check(&object, &mut found));
+        report(&mut found);
     }
-    of_device
-        .iter()
-        .for_each(|check| check(description, findings));
+    for check in of_device {
+        check(description, &mut found);
+        report(&mut found);
+    }
 }
 
 /// Keeps the first of the same findings about sub-objects that one section describes (CompactSubObj).

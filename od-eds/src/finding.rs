@@ -104,7 +104,8 @@ pub struct Rule {
     pub source: &'static str,
     /// The fix that `odkit check` can apply.
     pub fixability: Fixability,
-    /// A statement of a macro call that breaks the rule; empty for a rule with a pair of files.
+    /// A statement of a macro call, or a file in words, that breaks the rule; empty for a rule
+    /// with a pair of files.
     pub example: &'static str,
     /// The fault, unless a finding takes one of `also`: one clause without a full stop.
     #[cfg_attr(feature = "serde", serde(skip))]

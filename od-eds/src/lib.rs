@@ -35,6 +35,7 @@ mod fact;
 mod finding;
 pub mod fix;
 mod load;
+mod log;
 mod overlay;
 pub mod patch;
 mod read;

@@ -3,9 +3,11 @@
 use alloc::vec::Vec;
 
 use crate::allow::Allows;
-use crate::check::check;
+use crate::check::run;
+use crate::description::Description;
 use crate::document::Document;
 use crate::finding::{Finding, sort};
+use crate::log::Log;
 use crate::read::modules;
 use crate::read::parsed::Parsed;
 use crate::read::sorted;
@@ -26,52 +28,65 @@ pub fn is_xml(text: &str) -> bool {
 /// Never fails, never panics: what it cannot read is a finding, and text in the `extra` of where
 /// it was. It does not check: see [`check`](crate::check::check) and [`load`].
 pub fn parse(text: &str) -> Parsed {
-    ordered(read(text), text)
+    let mut log = Log::default();
+    let description = read(text, &mut log);
+    ordered(description, log.finish(), text)
 }
 
 /// Reads and checks a text: [`parse`], then [`check`](crate::check::check), without what the
 /// text [allows](crate::check::Allows).
 pub fn load(text: &str) -> Parsed {
-    checked(read(text), text)
+    let mut log = Log::default();
+    let description = read(text, &mut log);
+    checked(description, log, text)
 }
 
 impl Document {
     /// Reads the file as [`parse`](crate::parse()) does. Reports its encoding too.
     pub fn parse(&self) -> Parsed {
-        ordered(self.read(), self.text())
+        let (description, log) = self.read();
+        ordered(description, log.finish(), self.text())
     }
 
     /// Reads and checks the file as [`load`](crate::load()) does. Reports its encoding too.
     pub fn load(&self) -> Parsed {
-        checked(self.read(), self.text())
+        let (description, log) = self.read();
+        checked(description, log, self.text())
     }
 
-    fn read(&self) -> Parsed {
-        let mut parsed = read(self.text());
-        parsed.findings.extend(encoded(self));
-        parsed
+    fn read(&self) -> (Description, Log) {
+        let mut log = Log::default();
+        let description = read(self.text(), &mut log);
+        log.extend(encoded(self));
+        (description, log)
     }
 }
 
-/// Reads a text in its form. Findings are in no order yet.
-fn read(text: &str) -> Parsed {
+/// Reads a text in its form.
+fn read(text: &str, log: &mut Log) -> Description {
     #[cfg(feature = "xdd")]
     if is_xml(text) {
-        return xdd::parse(text);
+        return xdd::parse(text, log);
     }
-    let mut parsed = sorted::eds(text);
-    modules::check(&parsed.description.sections, &mut parsed.findings);
-    parsed
+    let description = sorted::eds(text, log);
+    modules::check(&description.sections, log);
+    description
 }
 
-fn checked(mut parsed: Parsed, text: &str) -> Parsed {
-    parsed.findings.extend(check(&parsed.description));
-    Allows::of(text).apply(&mut parsed.findings);
-    ordered(parsed, text)
+/// Checks what was read.
+fn checked(description: Description, mut log: Log, text: &str) -> Parsed {
+    run(&description, &mut log);
+    let mut findings = log.finish();
+    Allows::of(text).apply(&mut findings);
+    ordered(description, findings, text)
 }
 
 /// Puts the findings in file order.
-fn ordered(mut parsed: Parsed, text: &str) -> Parsed {
+fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Parsed {
+    let mut parsed = Parsed {
+        description,
+        findings,
+    };
     sort(&mut parsed.findings);
     if cfg!(feature = "xdd") && is_xml(text) {
         // A fix of an EDS would break an XML.

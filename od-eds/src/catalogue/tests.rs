@@ -72,7 +72,7 @@ fn every_sentence_is_said_and_filled() {
         .iter()
         .map(|path| Document::new(fs::read(path).unwrap()));
     let findings = documents.flat_map(|document| document.load().findings);
-    for finding in findings.chain(faults_of_edits()) {
+    for finding in findings.chain(faults_of_edits()).chain(faults_of_size()) {
         faults.extend(gaps(&finding));
         let forms = said.entry(finding.code()).or_default();
         forms.insert((finding.form.says, finding.form.help));
@@ -130,6 +130,15 @@ fn faults_of_edits() -> Vec<Finding> {
     let edits = [Edit::modify(member(0x1018, 9))];
     findings.extend(patch::apply(&mut description, &edits));
     findings
+}
+
+/// The findings of a text that is too large.
+fn faults_of_size() -> Vec<Finding> {
+    let mut text = "junk\n".repeat(10_001);
+    for index in 0x2000..0x2000 + 4_000 {
+        text += &format!("[{index:04X}]\nObjectType=8\nCompactSubObj=254\n");
+    }
+    crate::load::parse(&text).findings
 }
 
 #[test]

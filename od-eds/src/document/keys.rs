@@ -16,8 +16,8 @@ impl Document {
     /// The value of a key in the sections of a name, both in any case; of keys that are there
     /// twice the first counts. With what is behind it on its line, if that is a comment.
     pub fn get(&self, section: &str, key: &str) -> Option<&str> {
-        let scan = lines::scan(&self.text);
-        let (_, value) = pairs(&scan.sections, section, key).next()?;
+        let sections = lines::sections(&self.text);
+        let (_, value) = pairs(&sections, section, key).next()?;
         let Span { start, end, .. } = value.span;
         self.text.get(start as usize..end as usize)
     }
@@ -45,8 +45,8 @@ impl Document {
         if key.is_empty() || key.starts_with([';', '#', '[']) {
             return Err(EditError::NotOneLine(key.to_string()));
         }
-        let scan = lines::scan(&self.text);
-        if let Some((key, old)) = pairs(&scan.sections, section, key).next() {
+        let sections = lines::sections(&self.text);
+        if let Some((key, old)) = pairs(&sections, section, key).next() {
             let before = number::before_comment(old);
             let start = old.span.start as usize;
             let len = match holds_comment(key, before) {
@@ -58,7 +58,7 @@ impl Document {
                 text: value.into(),
             });
         }
-        let Some(found) = named(&scan.sections, section).next() else {
+        let Some(found) = named(&sections, section).next() else {
             return Err(EditError::NoSection(section.into()));
         };
         let last = found.pairs.last().map_or(found.header, |(key, _)| key.span);
@@ -67,8 +67,8 @@ impl Document {
 
     /// Removes a key, however often the sections of the name have it; `false` if none has.
     pub fn remove(&mut self, section: &str, key: &str) -> bool {
-        let scan = lines::scan(&self.text);
-        let edits: Vec<Edit> = pairs(&scan.sections, section, key)
+        let sections = lines::sections(&self.text);
+        let edits: Vec<Edit> = pairs(&sections, section, key)
             .map(|(key, _)| self.without_line(key.span))
             .collect();
         !edits.is_empty() && self.apply(&edits).is_ok()
@@ -81,8 +81,8 @@ impl Document {
     /// A section of the name exists, or a name, key or value does not fit into a line.
     pub fn add_section(&mut self, name: &str, pairs: &[(&str, &str)]) -> Result<(), EditError> {
         one_line(name, &['[', ']'])?;
-        let scan = lines::scan(&self.text);
-        if named(&scan.sections, name).next().is_some() {
+        let sections = lines::sections(&self.text);
+        if named(&sections, name).next().is_some() {
             return Err(EditError::SectionExists(name.into()));
         }
         let mut section = alloc::vec![format!("[{name}]")];
@@ -97,8 +97,8 @@ impl Document {
 
     /// Removes the sections of a name with all their keys; `false` if the name is missing.
     pub fn remove_section(&mut self, name: &str) -> bool {
-        let scan = lines::scan(&self.text);
-        let edits: Vec<Edit> = named(&scan.sections, name)
+        let sections = lines::sections(&self.text);
+        let edits: Vec<Edit> = named(&sections, name)
             .map(|section| self.without_section(section))
             .collect();
         !edits.is_empty() && self.apply(&edits).is_ok()

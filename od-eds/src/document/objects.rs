@@ -20,14 +20,14 @@ impl Document {
     ///
     /// There is a section for the index, or the file's encoding lacks a character.
     pub fn add_object(&mut self, index: u16, object: &ObjectDescription) -> Result<(), EditError> {
-        let scan = lines::scan(&self.text);
-        if scan.sections.iter().any(|section| is_of(section, index)) {
+        let sections = lines::sections(&self.text);
+        if sections.iter().any(|section| is_of(section, index)) {
             return Err(EditError::SectionExists(format!("{index:04X}")));
         }
         let mut edits = Vec::new();
         let mut behind = Vec::new();
         let list = List::of(index).name();
-        match named(&scan.sections, list).next() {
+        match named(&sections, list).next() {
             Some(section) => self.entry_edits(section, index, &mut edits),
             None => {
                 behind.push(format!("[{list}]"));
@@ -45,9 +45,9 @@ impl Document {
     /// Removes an object: its sections, its members', and its entries in the lists, which
     /// are numbered from there. `false` if the object does not exist.
     pub fn remove_object(&mut self, index: u16) -> bool {
-        let scan = lines::scan(&self.text);
+        let sections = lines::sections(&self.text);
         let mut edits = Vec::new();
-        for section in &scan.sections {
+        for section in &sections {
             if is_of(section, index) {
                 edits.push(self.without_section(section));
             } else if let Place::List(_) = place(&section.name) {

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, Value};
 use crate::fact::Key;
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
 use crate::rules::structure::{w0313, w0314, w0321};
@@ -53,7 +53,7 @@ pub(crate) fn expand(
     template: (EntryDescription, Unread),
     count: &Spanned<u8>,
     sections: CompactSections<'_>,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) -> BTreeMap<u8, EntryDescription> {
     let (template, unread) = template;
     let mut entries = BTreeMap::from([(0, highest(address.index, count))]);
@@ -93,7 +93,7 @@ pub(crate) fn expand(
 }
 
 /// Names an NrOfEntries that does not count the entries of its section.
-fn entry_count(section: &Placed<'_>, address: Address, log: &mut Vec<Finding>) {
+fn entry_count(section: &Placed<'_>, address: Address, log: &mut Log) {
     let entries = section
         .pairs
         .iter()

@@ -9,7 +9,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::rules::pdo::i0515;
 use crate::scan::number::number;
 use crate::span::{Span, Spanned};
@@ -52,7 +52,7 @@ const DIRECTIONS: [Direction; 2] = [
 /// The objects that CompactPDO replaces.
 pub(crate) fn objects(
     description: &Description,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) -> BTreeMap<u16, ObjectDescription> {
     let mut made = BTreeMap::new();
     let Some(info) = description.section("DeviceInfo") else {

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use crate::description::{EntryDescription, Value};
 use crate::fact::Key;
 use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
@@ -24,7 +25,7 @@ use od_model::{Access, Address, DataType, Kind, ObjectCode};
 /// Destination of the findings of one section, and the object that it is about.
 pub(crate) struct Reader<'a> {
     pub(crate) address: Address,
-    pub(crate) log: &'a mut Vec<Finding>,
+    pub(crate) log: &'a mut Log,
 }
 
 /// Values that could not be read, kept as text.

@@ -1,18 +1,21 @@
 //! Findings about lines that are not plain INI.
 
-use crate::finding::Finding;
+use crate::log::Log;
+use crate::rules;
 use crate::rules::text::{w0101, w0102, w0103, w0104, w0105, w0108, w0110};
 use crate::scan::lines::Fault;
 
-/// The finding of a fault.
-pub(crate) fn finding(fault: &Fault<'_>) -> Finding {
+/// Reports a fault.
+pub(crate) fn report(fault: &Fault<'_>, log: &mut Log) {
     match *fault {
-        Fault::NoPair(line) => w0101::finding(line),
-        Fault::NoKey(line) => w0102::finding(line),
-        Fault::Open { line, name } => w0103::finding(line, name),
-        Fault::Behind { name, text } => w0104::finding(name, text),
-        Fault::NoName(line) => w0110::finding(line),
-        Fault::NoSection { line, key } => w0105::finding(line, key),
-        Fault::Colon { at, key, value } => w0108::finding(at, key, value),
+        Fault::NoPair(line) => log.add(&rules::W0101, || w0101::finding(line)),
+        Fault::NoKey(line) => log.add(&rules::W0102, || w0102::finding(line)),
+        Fault::Open { line, name } => log.add(&rules::W0103, || w0103::finding(line, name)),
+        Fault::Behind { name, text } => log.add(&rules::W0104, || w0104::finding(name, text)),
+        Fault::NoName(line) => log.add(&rules::W0110, || w0110::finding(line)),
+        Fault::NoSection { line, key } => log.push(w0105::finding(line, key)),
+        Fault::Colon { at, key, value } => {
+            log.add(&rules::W0108, || w0108::finding(at, key, value));
+        }
     }
 }

@@ -6,8 +6,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::fact::Key;
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::other::unknown_object_keys;
+use crate::rules;
 use crate::rules::structure::i0320;
 use crate::rules::text::w0107;
 use crate::scan::number::before_comment;
@@ -26,7 +27,7 @@ pub(crate) struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// The fields of a section; of duplicate keys, the first.
-    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Vec<Finding>) -> Self {
+    pub(crate) fn new(placed: Placed<'a>, address: Address, log: &mut Log) -> Self {
         let mut pairs = placed.pairs;
         let twice = duplicates(&pairs, log);
         let repeated: Vec<_> = twice.iter().map(|at| pairs[*at].0.value.clone()).collect();
@@ -75,7 +76,7 @@ impl<'a> Fields<'a> {
     }
 
     /// The keys that nobody has taken, in file order; unknown ones are reported.
-    pub(crate) fn rest(self, address: Address, log: &mut Vec<Finding>) -> Vec<(String, String)> {
+    pub(crate) fn rest(self, address: Address, log: &mut Log) -> Vec<(String, String)> {
         unknown_object_keys(&self.pairs, address, log);
         self.pairs
             .into_iter()
@@ -109,11 +110,13 @@ pub(crate) const fn location(group: Group) -> &'static str {
 }
 
 /// Reports duplicate keys, and returns the positions of the later ones.
-pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Vec<Finding>) -> Vec<usize> {
+pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<usize> {
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
-        log.push(w0107::finding(first.span, key, value, value == same));
+        log.add(&rules::W0107, || {
+            w0107::finding(first.span, key, value, value == same)
+        });
         found.push(at);
     };
     // Sections are short; a tree is for the text that was made to be slow.

@@ -4,7 +4,8 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::description::{Description, ObjectDescription};
-use crate::finding::Finding;
+use crate::fix::Fix;
+use crate::log::Log;
 use crate::rules::lists::{w0201, w0202, w0203, w0204, w0205, w0206, w0207, w0214, w0242};
 use crate::scan::names::List;
 use crate::scan::number::number;
@@ -16,7 +17,7 @@ pub(crate) fn check(
     lists: &BTreeMap<List, Vec<Placed<'_>>>,
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) {
     let mut listed: BTreeMap<u16, Span> = BTreeMap::new();
     for (list, sections) in lists {
@@ -44,12 +45,18 @@ fn entries(
     description: &Description,
     made: &BTreeMap<u16, ObjectDescription>,
     listed: &mut BTreeMap<u16, Span>,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) {
     let mut count: Option<&Text<'_>> = None;
     let mut found = 0;
     let mut numbers: BTreeMap<Option<i128>, Span> = BTreeMap::new();
     let mut ordered = true;
+    // Each of these fixes numbers all entries: more of them are of no use to anybody.
+    let mut fixes = 0..8;
+    let mut renumbered = || match fixes.next() {
+        Some(_) => w0242::renumbered(placed),
+        None => Fix::safe(),
+    };
     for (key, value) in &placed.pairs {
         let word = key.bytes().filter(|b| !b.is_ascii_whitespace());
         if word
@@ -66,13 +73,13 @@ fn entries(
         found += 1;
         if let Some(first) = numbers.get(&number(key)) {
             ordered = false;
-            log.push(w0214::finding(placed, key, *first));
+            log.push(w0214::finding(renumbered(), key, *first));
         } else {
             numbers.insert(number(key), key.span);
         }
         if number(key) != Some(found) && ordered {
             ordered = false;
-            log.push(w0242::finding(placed, key, found));
+            log.push(w0242::finding(renumbered(), key, found));
         }
         if let Some(first) = listed.get(&index) {
             log.push(w0207::finding(value.span, index, *first));

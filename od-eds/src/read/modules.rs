@@ -5,13 +5,13 @@
 //! sub-indices to.
 
 use alloc::borrow::Cow;
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::sorted;
 use crate::rules::lists::w0215;
 use crate::rules::structure::w0323;
@@ -58,7 +58,7 @@ pub enum Count {
 
 /// The modules that a description has sections for, by number.
 pub fn modules(description: &Description) -> Vec<Module> {
-    read(&description.sections, &mut Vec::new())
+    read(&description.sections, &mut Log::default())
 }
 
 /// The numbers of the modules that a DCF's `[ConnectedModules]` lists, in their order.
@@ -144,7 +144,7 @@ fn extend(object: &mut ObjectDescription, extension: &Extension, left: &mut u8) 
 }
 
 /// Names what is wrong with the modules of a file.
-pub(crate) fn check(sections: &[Section], log: &mut Vec<Finding>) {
+pub(crate) fn check(sections: &[Section], log: &mut Log) {
     if sections
         .iter()
         .any(|section| known::module_part(&section.name).is_some())
@@ -153,7 +153,7 @@ pub(crate) fn check(sections: &[Section], log: &mut Vec<Finding>) {
     }
 }
 
-fn read(sections: &[Section], log: &mut Vec<Finding>) -> Vec<Module> {
+fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
     let mut modules: BTreeMap<u16, Module> = BTreeMap::new();
     let list = sections
         .iter()
@@ -200,9 +200,7 @@ fn read(sections: &[Section], log: &mut Vec<Finding>) -> Vec<Module> {
             let placed = found
                 .into_iter()
                 .map(|(place, section)| placed(section, place, &[]));
-            let parsed = sorted::objects(placed.collect(), Vec::new());
-            log.extend(parsed.findings);
-            module.fixed = parsed.description.objects;
+            module.fixed = sorted::objects(placed.collect(), log).objects;
         }
     }
     modules.into_values().collect()
@@ -227,11 +225,10 @@ fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a
     }
 }
 
-fn extension(section: &Section, place: Place, log: &mut Vec<Finding>) -> Option<Extension> {
+fn extension(section: &Section, place: Place, log: &mut Log) -> Option<Extension> {
     let own = placed(section, place, &["Count", "ObjExtend"]);
-    let parsed = sorted::objects(alloc::vec![own], Vec::new());
-    log.extend(parsed.findings);
-    let object = parsed.description.objects.into_values().next()?;
+    let described = sorted::objects(alloc::vec![own], log);
+    let object = described.objects.into_values().next()?;
     let entry = object.entries.into_values().next()?;
     let given = section.get("Count");
     let count = given.and_then(|given| count(given));
@@ -270,7 +267,7 @@ fn listed(
     module: u16,
     word: &str,
     found: &[(Place, &Section)],
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) {
     let name = format!("M{module}{word}");
     let list = sections
@@ -286,21 +283,24 @@ fn listed(
             Some((index, value.span))
         })
         .collect();
-    let has = |index: u16| {
-        found
-            .iter()
-            .any(|(place, _)| *place == Place::Object(index))
-    };
+    let described: BTreeSet<u16> = found
+        .iter()
+        .filter_map(|(place, _)| match place {
+            Place::Object(index) => Some(*index),
+            _ => None,
+        })
+        .collect();
     for (index, span) in &listed {
-        if !has(*index) {
+        if !described.contains(index) {
             log.push(w0215::no_section(*span, *index, module));
         }
     }
+    let listed: BTreeSet<u16> = listed.into_iter().map(|(index, _)| index).collect();
     for (place, section) in found {
         let Place::Object(index) = place else {
             continue;
         };
-        if !listed.iter().any(|(listed, _)| listed == index) {
+        if !listed.contains(index) {
             log.push(w0215::unlisted(section.name.span, *index, &name));
         }
     }

@@ -6,13 +6,13 @@ use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, ObjectDescription};
 use crate::fact::Key;
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::compact;
 use crate::read::compact::CompactSections;
 use crate::read::entry::{Reader, Unread, extra};
 use crate::read::fields::Fields;
 use crate::rules::lists::e0208;
-use crate::rules::structure::{e0301, e0305, w0302, w0316, w0317, w0322};
+use crate::rules::structure::{e0301, e0305, e0353, w0302, w0316, w0317, w0322};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
 use od_model::{Address, DataType, ObjectCode};
@@ -29,7 +29,7 @@ pub(crate) struct Sections<'a> {
 pub(crate) fn object(
     index: u16,
     sections: Sections<'_>,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) -> Option<ObjectDescription> {
     let Some(own) = sections.own else {
         return orphan(index, sections.members, log);
@@ -55,6 +55,7 @@ pub(crate) fn object(
     }
     let mut entries = BTreeMap::new();
     let mut flags = 0;
+    let count = count.map(|count| room(&mut reader, count));
     if let Some(count) = &count {
         let template = reader.entry(&mut fields, name.clone(), None);
         flags = template.0.flags;
@@ -106,11 +107,20 @@ pub(crate) fn object(
     })
 }
 
+/// The members of a CompactSubObj that there is room for: all, or none.
+fn room(reader: &mut Reader<'_>, count: Spanned<u8>) -> Spanned<u8> {
+    if reader.log.expand(usize::from(count.value)) {
+        return count;
+    }
+    reader.report(e0353::finding(count.span));
+    Spanned::new(0, count.span)
+}
+
 /// Members without the section of their object.
 fn orphan(
     index: u16,
     members: BTreeMap<u8, Placed<'_>>,
-    log: &mut Vec<Finding>,
+    log: &mut Log,
 ) -> Option<ObjectDescription> {
     let span = members.values().next()?.header;
     log.push(e0208::finding(span, index));
@@ -129,7 +139,7 @@ fn orphan(
     })
 }
 
-fn member(address: Address, section: Placed<'_>, log: &mut Vec<Finding>) -> EntryDescription {
+fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescription {
     let mut fields = Fields::new(section, address, log);
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);

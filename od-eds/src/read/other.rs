@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::finding::Finding;
+use crate::log::Log;
 use crate::rules::lists::{i0211, w0213};
 use crate::rules::standard::{i0610, i0611, w0609};
 use crate::rules::structure::{i0319, w0318};
@@ -14,7 +15,7 @@ use crate::scan::placed::{Placed, Text};
 use od_model::Address;
 
 /// Names what is unknown in a section, and values that are not what they should be.
-pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Finding>) {
+pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
     let name = &placed.name;
     if name.is_empty() || known::is_of_objects(name) {
         return;
@@ -29,12 +30,16 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Vec<Finding>) {
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
-            None => unknown_key(key, value, known.keys.iter().map(|(key, _)| *key), log),
+            None => log.push(unknown_key(
+                key,
+                value,
+                known.keys.iter().map(|(key, _)| *key),
+            )),
         }
     }
 }
 
-fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Finding>) {
+fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
     let name = &placed.name;
     let names = known::SECTIONS
         .iter()
@@ -46,38 +51,27 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Vec<Finding>) {
     });
 }
 
-/// Names a key that nobody reads, and the one that may be meant.
-pub(crate) fn unknown_key<'a>(
-    key: &Text<'_>,
-    value: &str,
-    keys: impl Iterator<Item = &'a str>,
-    log: &mut Vec<Finding>,
-) {
-    log.push(match known::near(key, keys) {
+/// The finding about a key that nobody reads, with the one that may be meant.
+fn unknown_key<'a>(key: &Text<'_>, value: &str, keys: impl Iterator<Item = &'a str>) -> Finding {
+    match known::near(key, keys) {
         Some(meant) => w0318::finding(key, value, &meant.replace('#', "1")),
         None => i0319::finding(key),
-    });
+    }
 }
 
 /// Names the keys of an object or a member that nobody reads.
-pub(crate) fn unknown_object_keys(
-    rest: &[(Text<'_>, Text<'_>)],
-    address: Address,
-    log: &mut Vec<Finding>,
-) {
+pub(crate) fn unknown_object_keys(rest: &[(Text<'_>, Text<'_>)], address: Address, log: &mut Log) {
     for (key, value) in rest {
         if !OBJECT_KEYS
             .iter()
             .any(|known| key.eq_ignore_ascii_case(known))
         {
-            let mut found = Vec::new();
-            unknown_key(key, value, OBJECT_KEYS.into_iter(), &mut found);
-            log.extend(found.into_iter().map(|finding| finding.about(address)));
+            log.push(unknown_key(key, value, OBJECT_KEYS.into_iter()).about(address));
         }
     }
 }
 
-fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Vec<Finding>) {
+fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut Log) {
     if value.is_empty() || matches!(form, Form::Text) {
         return;
     }

@@ -5,9 +5,8 @@
 
 use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::object::Sections;
 use crate::rules::values::i0425;
 use crate::scan::number::{self, number};
@@ -26,7 +25,7 @@ struct OwnType<'a> {
 }
 
 /// Puts the types in the place of the references to them.
-pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut Vec<Finding>) {
+pub(crate) fn resolve<'a>(objects: &mut BTreeMap<u16, Sections<'a>>, log: &mut Log) {
     let own: BTreeMap<u16, OwnType<'a>> = objects
         .range(OWN)
         .filter_map(|(index, sections)| Some((*index, own_type(sections)?)))
@@ -94,6 +93,8 @@ fn own_type<'a>(sections: &Sections<'a>) -> Option<OwnType<'a>> {
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use super::*;
     use crate::description::Value;
 

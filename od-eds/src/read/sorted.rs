@@ -6,12 +6,12 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::description::Section;
+use crate::description::{Description, Section};
 use crate::finding::Finding;
+use crate::log::Log;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
-use crate::read::parsed::Parsed;
 use crate::read::{compact_pdo, faults, lists, other, own_types};
 use crate::rules::lists::{i0212, w0209};
 use crate::rules::structure::{e0303, w0304};
@@ -22,44 +22,49 @@ use crate::scan::{lines, number::number};
 use crate::span::Span;
 use od_model::Address;
 
-/// Reads an EDS or a DCF. Findings are in no order yet.
-pub(crate) fn eds(text: &str) -> Parsed {
-    let scan = lines::scan(text);
-    let log = scan.faults.iter().map(faults::finding).collect();
-    let mut sorted = sorted(scan.sections, log);
+/// Reads an EDS or a DCF.
+pub(crate) fn eds(text: &str, log: &mut Log) -> Description {
+    let sections = lines::scan(text, &mut |fault| faults::report(fault, log));
+    let mut sorted = Sorted::of(sections, log);
     sorted.has_lists = true;
-    sorted.parsed()
+    sorted.described()
 }
 
 /// Reads only the sections of objects, as an XDD and the modules of a device have them: no
-/// list names them. Findings are in no order yet.
-pub(crate) fn objects(sections: Vec<Placed<'_>>, log: Vec<Finding>) -> Parsed {
-    sorted(sections, log).parsed()
-}
-
-fn sorted<'a>(sections: Vec<Placed<'a>>, log: Vec<Finding>) -> Sorted<'a> {
-    let mut sorted = Sorted {
-        log,
-        ..Sorted::default()
-    };
-    for section in sections {
-        sorted.add(section);
-    }
-    sorted
+/// list names them.
+pub(crate) fn objects(sections: Vec<Placed<'_>>, log: &mut Log) -> Description {
+    Sorted::of(sections, log).described()
 }
 
 /// The sections of a file by what they are about.
-#[derive(Default)]
-struct Sorted<'a> {
+struct Sorted<'a, 'l> {
     objects: BTreeMap<u16, Sections<'a>>,
     lists: BTreeMap<List, Vec<Placed<'a>>>,
     others: Vec<Placed<'a>>,
     names: BTreeMap<String, Span>,
+    /// Keys of the sections that are there twice, with their places among the first's pairs.
+    repeated: BTreeMap<Place, BTreeMap<String, usize>>,
     has_lists: bool,
-    log: Vec<Finding>,
+    log: &'l mut Log,
 }
 
-impl<'a> Sorted<'a> {
+impl<'a, 'l> Sorted<'a, 'l> {
+    fn of(sections: Vec<Placed<'a>>, log: &'l mut Log) -> Self {
+        let mut sorted = Self {
+            objects: BTreeMap::new(),
+            lists: BTreeMap::new(),
+            others: Vec::new(),
+            names: BTreeMap::new(),
+            repeated: BTreeMap::new(),
+            has_lists: false,
+            log,
+        };
+        for section in sections {
+            sorted.add(section);
+        }
+        sorted
+    }
+
     fn add(&mut self, section: Placed<'a>) {
         let place = self.place(&section);
         let (index, sub) = match place {
@@ -75,13 +80,14 @@ impl<'a> Sorted<'a> {
             _ => sections.own.as_mut(),
         };
         if let Some(first) = first {
-            let finding = twice(first, section, Address::new(index, sub));
-            return self.log.push(finding);
+            let keys = self.repeated.entry(place).or_insert_with(|| keys(first));
+            let finding = twice(first, keys, section);
+            return self.log.push(finding.about(Address::new(index, sub)));
         }
         match place {
             Place::Member(..) => drop(sections.members.insert(sub, section)),
             Place::Compact(_, compact) => {
-                duplicates(&section.pairs, &mut self.log);
+                duplicates(&section.pairs, self.log);
                 sections.compact.insert(compact, section);
             }
             _ => sections.own = Some(section),
@@ -105,8 +111,8 @@ impl<'a> Sorted<'a> {
     }
 
     fn other(&mut self, section: Placed<'a>) {
-        duplicates(&section.pairs, &mut self.log);
-        other::check(&section, &mut self.log);
+        duplicates(&section.pairs, self.log);
+        other::check(&section, self.log);
         let name = &section.name;
         match self.names.entry(name.to_ascii_lowercase()) {
             Entry::Vacant(entry) => {
@@ -117,9 +123,9 @@ impl<'a> Sorted<'a> {
         self.others.push(section);
     }
 
-    fn parsed(mut self) -> Parsed {
-        let mut parsed = Parsed::default();
-        own_types::resolve(&mut self.objects, &mut self.log);
+    fn described(mut self) -> Description {
+        let mut described = Description::default();
+        own_types::resolve(&mut self.objects, self.log);
         for (index, mut sections) in core::mem::take(&mut self.objects) {
             let is_compact = sections.own.as_ref().is_some_and(counts_members);
             if !is_compact {
@@ -128,19 +134,18 @@ impl<'a> Sorted<'a> {
                     self.others.push(section);
                 }
             }
-            if let Some(object) = object::object(index, sections, &mut self.log) {
-                parsed.description.objects.insert(index, object);
+            if let Some(object) = object::object(index, sections, self.log) {
+                described.objects.insert(index, object);
             }
         }
         self.others.sort_by_key(|section| section.header.start);
-        parsed.description.sections = self.others.into_iter().map(kept).collect();
-        let mut made = compact_pdo::objects(&parsed.description, &mut self.log);
+        described.sections = self.others.into_iter().map(kept).collect();
+        let mut made = compact_pdo::objects(&described, self.log);
         if self.has_lists {
-            lists::check(&self.lists, &parsed.description, &made, &mut self.log);
+            lists::check(&self.lists, &described, &made, self.log);
         }
-        parsed.description.objects.append(&mut made);
-        parsed.findings = self.log;
-        parsed
+        described.objects.append(&mut made);
+        described
     }
 }
 
@@ -169,22 +174,37 @@ fn counts_members(own: &Placed<'_>) -> bool {
         .is_some_and(|count| count > 0)
 }
 
-/// Reports a second section, and adds to the first what it lacks.
-fn twice<'a>(first: &mut Placed<'a>, second: Placed<'a>, address: Address) -> Finding {
+/// The first place of each key of a section.
+fn keys(section: &Placed<'_>) -> BTreeMap<String, usize> {
+    let mut keys = BTreeMap::new();
+    for (at, (key, _)) in section.pairs.iter().enumerate() {
+        keys.entry(key.to_ascii_lowercase()).or_insert(at);
+    }
+    keys
+}
+
+/// The finding about a second section; what the first, with these keys, lacks is added to it.
+fn twice<'a>(
+    first: &mut Placed<'a>,
+    keys: &mut BTreeMap<String, usize>,
+    second: Placed<'a>,
+) -> Finding {
     let contradict = second.pairs.iter().any(|(key, value)| {
-        let same = first.get(key);
-        same.is_some_and(|first| first != value)
+        let same = keys.get(&key.to_ascii_lowercase());
+        let same = same.and_then(|at| first.pairs.get(*at));
+        same.is_some_and(|(_, first)| first != value)
     });
     let finding = match contradict {
         true => e0303::finding(first, &second),
         false => w0304::finding(first, &second),
     };
     for (key, value) in second.pairs {
-        if first.get(&key).is_none() {
+        if let Entry::Vacant(entry) = keys.entry(key.to_ascii_lowercase()) {
+            entry.insert(first.pairs.len());
             first.pairs.push((key, value));
         }
     }
-    finding.about(address)
+    finding
 }
 
 #[cfg(test)]
@@ -192,6 +212,7 @@ mod tests {
     use super::*;
     use crate::description::Value;
     use crate::load::parse;
+    use crate::read::parsed::Parsed;
     use od_model::{DataType, Group, ObjectCode};
 
     fn codes(parsed: &Parsed) -> Vec<&'static str> {

@@ -35,11 +35,11 @@ pub struct Pair {
     pub fixed: &'static [u8],
 }
 
-/// The files of a code; an EDS unless its kind is given. Edits of a macro call have none.
+/// The files of a code; an EDS unless its kind is given. A rule with an `example` has none.
 #[cfg(feature = "explain")]
 macro_rules! pair {
     ($code:ident) => { pair!($code eds) };
-    ($code:ident edit) => {
+    ($code:ident example) => {
         super::Pair { code: stringify!($code), bad: b"", fixed: b"" }
     };
     ($code:ident $kind:ident) => {
@@ -92,7 +92,7 @@ static TABLE: [&Rule; COUNT] = {
     table
 };
 
-/// The pair of files that a rule is tested and explained with; `None` for edits of a macro call.
+/// The pair of files that a rule is tested and explained with; `None` for a rule with an `example`.
 #[cfg(feature = "explain")]
 pub fn pair(code: &str) -> Option<&'static Pair> {
     let mut pairs = FILES.iter().copied().flatten();

@@ -315,6 +315,14 @@ fn distance(a: &str, b: &str, most: usize) -> usize {
     if a.len().abs_diff(b.len()) > most || a.len() > 40 {
         return most + 1;
     }
+    // Fast, for texts with millions of keys: a wrong letter changes two bits at most.
+    let letters = |text: &str| {
+        let bits = text.bytes().map(|b| 1u64 << (b.to_ascii_lowercase() % 64));
+        bits.fold(0, |all, bit| all | bit)
+    };
+    if (letters(a) ^ letters(b)).count_ones() as usize > 2 * most {
+        return most + 1;
+    }
     let lower = |text: &str| -> Vec<u8> { text.bytes().map(|b| b.to_ascii_lowercase()).collect() };
     let (a, b) = (lower(a), lower(b));
     let mut before: Vec<usize> = Vec::new();

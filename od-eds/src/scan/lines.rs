@@ -12,12 +12,12 @@ use crate::scan::find::either;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
-/// The result of scanning a text.
-pub(crate) struct Scan<'a> {
+/// Scanning a text, line by line.
+struct Scan<'a, 'f> {
     /// Sections in file order, duplicates and all.
-    pub(crate) sections: Vec<Placed<'a>>,
-    /// Lines that were ignored, or read otherwise than they are written, in file order.
-    pub(crate) faults: Vec<Fault<'a>>,
+    sections: Vec<Placed<'a>>,
+    /// Takes the lines that are ignored, or read otherwise than they are written, in file order.
+    fault: &'f mut dyn FnMut(&Fault<'a>),
 }
 
 /// A line that is not plain INI.
@@ -138,19 +138,24 @@ pub(crate) fn comment(text: &str) -> String {
     format!("{}{text}", if is_read { ";;" } else { ";" })
 }
 
-/// Scans a text; a byte order mark before it is skipped.
-pub(crate) fn scan(text: &str) -> Scan<'_> {
+/// The sections of a text, in file order, duplicates and all; a byte order mark is skipped.
+pub(crate) fn sections(text: &str) -> Vec<Placed<'_>> {
+    scan(text, &mut |_| {})
+}
+
+/// As [`sections`]; `fault` gets the lines that are not plain INI, in file order.
+pub(crate) fn scan<'a>(text: &'a str, fault: &mut dyn FnMut(&Fault<'a>)) -> Vec<Placed<'a>> {
     let mut scan = Scan {
         sections: Vec::new(),
-        faults: Vec::new(),
+        fault,
     };
     for line in lines(text) {
         scan.line(&line);
     }
-    scan
+    scan.sections
 }
 
-impl<'a> Scan<'a> {
+impl<'a> Scan<'a, '_> {
     fn line(&mut self, line: &Line<'a>) {
         let trimmed = line.text.trim();
         match trimmed.as_bytes().first() {
@@ -183,7 +188,7 @@ impl<'a> Scan<'a> {
             Some((name, behind)) => (name.trim(), behind.trim()),
             None => {
                 let name = inside.split([';', '#']).next().unwrap_or(inside).trim();
-                self.faults.push(Fault::Open {
+                (self.fault)(&Fault::Open {
                     line: line.span(trimmed),
                     name: line.spanned(name),
                 });
@@ -192,10 +197,10 @@ impl<'a> Scan<'a> {
         };
         if !behind.is_empty() {
             let text = line.spanned(behind);
-            self.faults.push(Fault::Behind { name, text });
+            (self.fault)(&Fault::Behind { name, text });
         }
         if name.is_empty() {
-            self.faults.push(Fault::NoName(line.span(trimmed)));
+            (self.fault)(&Fault::NoName(line.span(trimmed)));
         }
         let whole = &trimmed[..trimmed.len() - behind.len()];
         self.sections.push(Placed {
@@ -208,17 +213,17 @@ impl<'a> Scan<'a> {
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
         let Some(at) = either(trimmed, ['=', ':']) else {
-            self.faults.push(Fault::NoPair(line.spanned(trimmed)));
+            (self.fault)(&Fault::NoPair(line.spanned(trimmed)));
             return;
         };
         let (key, value) = (trimmed[..at].trim_end(), trimmed[at + 1..].trim_start());
         if key.is_empty() {
-            self.faults.push(Fault::NoKey(line.spanned(trimmed)));
+            (self.fault)(&Fault::NoKey(line.spanned(trimmed)));
             return;
         }
         if trimmed[at..].starts_with(':') {
             let at = line.span(&trimmed[at..=at]);
-            self.faults.push(Fault::Colon { at, key, value });
+            (self.fault)(&Fault::Colon { at, key, value });
         }
         let pair = (line.text(key), line.text(value));
         match self.sections.last_mut() {
@@ -226,7 +231,7 @@ impl<'a> Scan<'a> {
             None => {
                 let start = line.span(&trimmed[..0]);
                 let line = line.span(trimmed);
-                self.faults.push(Fault::NoSection { line, key });
+                (self.fault)(&Fault::NoSection { line, key });
                 self.sections.push(Placed {
                     name: Spanned::new(Cow::Borrowed(""), start),
                     header: start,
@@ -245,9 +250,9 @@ mod tests {
     /// Every key and value is where its span says.
     #[track_caller]
     fn check<'a>(text: &'a str, expected: &[(&str, &[(&str, &str)])]) -> Vec<Fault<'a>> {
-        let scan = scan(text);
-        let found: Vec<_> = scan
-            .sections
+        let mut faults = Vec::new();
+        let sections = scan(text, &mut |fault| faults.push(*fault));
+        let found: Vec<_> = sections
             .iter()
             .map(|s| {
                 let pairs = s.pairs.iter().map(|(key, value)| (&***key, &***value));
@@ -256,7 +261,7 @@ mod tests {
             .collect();
         let expected: Vec<_> = expected.iter().map(|(n, p)| (*n, p.to_vec())).collect();
         assert_eq!(found, expected);
-        for section in &scan.sections {
+        for section in &sections {
             for part in core::iter::once(&section.name)
                 .chain(section.pairs.iter().flat_map(|(key, value)| [key, value]))
             {
@@ -264,7 +269,7 @@ mod tests {
                 assert_eq!(&text[start as usize..end as usize], **part);
             }
         }
-        scan.faults
+        faults
     }
 
     #[test]
@@ -307,18 +312,18 @@ mod tests {
     #[test]
     fn columns_count_characters() {
         let text = "[a]\nGröße = µ\r[b]";
-        let scan = scan(text);
-        let value = &scan.sections[0].pairs[0].1;
+        let sections = sections(text);
+        let value = &sections[0].pairs[0].1;
         assert_eq!((value.span.line, value.span.column), (2, 9));
-        assert_eq!(scan.sections[1].header.line, 3);
+        assert_eq!(sections[1].header.line, 3);
     }
 
     #[test]
     fn the_storage_comment_belongs_to_its_section() {
-        let scan =
-            scan("; StorageLocation=X\n[a]\n;StorageLocation = RAM\n;StorageLocation=ROM\n[b]");
-        let storage = scan.sections[0].storage.as_ref();
+        let sections =
+            sections("; StorageLocation=X\n[a]\n;StorageLocation = RAM\n;StorageLocation=ROM\n[b]");
+        let storage = sections[0].storage.as_ref();
         assert_eq!(storage.map(|text| &*text.value), Some("RAM"));
-        assert_eq!(scan.sections[1].storage, None);
+        assert_eq!(sections[1].storage, None);
     }
 }

@@ -42,7 +42,7 @@ pub(crate) enum Compact {
 }
 
 /// Subject of a section.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Place {
     Object(u16),
     Member(u16, u8),

@@ -5,6 +5,7 @@
 //! `DeviceComissioning`; CANopenEditor for the standard's capitals and dates, and for
 //! [FileInfo] and [DeviceInfo].
 
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -49,17 +50,17 @@ struct Canonical {
 /// The sections of a description, those that every file has included.
 fn sections(description: &Description) -> Vec<Canonical> {
     let mut made: Vec<(usize, Canonical)> = Vec::new();
+    // The place of each section, and the keys that it has; in lower case.
+    let mut places: BTreeMap<String, (usize, BTreeSet<String>)> = BTreeMap::new();
     for section in &description.sections {
         let (order, name) = name(section);
-        let at = made
-            .iter()
-            .position(|(_, m)| m.name.eq_ignore_ascii_case(&name));
-        let at = at.unwrap_or_else(|| {
+        let place = places.entry(name.to_ascii_lowercase());
+        let (at, keys) = place.or_insert_with(|| {
             let pairs = Vec::new();
             made.push((order, Canonical { name, pairs }));
-            made.len() - 1
+            (made.len() - 1, BTreeSet::new())
         });
-        take(&mut made[at].1, section);
+        take(&mut made[*at].1, keys, section);
     }
     for name in ["FileInfo", "DeviceInfo", "DummyUsage"] {
         if !made.iter().any(|(_, made)| made.name == name) {
@@ -90,7 +91,7 @@ fn name(section: &Section) -> (usize, String) {
 }
 
 /// Adds the keys that the section lacks yet.
-fn take(made: &mut Canonical, section: &Section) {
+fn take(made: &mut Canonical, keys: &mut BTreeSet<String>, section: &Section) {
     let known = known::section(&made.name).map(|(_, known)| known);
     for (key, value) in &section.pairs {
         let (key, value) = match known.and_then(|known| pair(known, key, value)) {
@@ -98,11 +99,7 @@ fn take(made: &mut Canonical, section: &Section) {
             Some(None) => continue,
             None => (key.value.clone(), value.value.clone()),
         };
-        if !made
-            .pairs
-            .iter()
-            .any(|(there, _)| there.eq_ignore_ascii_case(&key))
-        {
+        if keys.insert(key.to_ascii_lowercase()) {
             made.pairs.push((key, value));
         }
     }

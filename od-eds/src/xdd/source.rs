@@ -6,13 +6,13 @@ use alloc::vec::Vec;
 
 use roxmltree::Node;
 
-use crate::finding::Finding;
+use crate::log::Log;
 use crate::span::{Span, Spanned};
 
 /// Shared by the parts of this module: places and findings.
 pub(super) struct Reader<'a> {
     places: Places<'a>,
-    pub(super) log: Vec<Finding>,
+    pub(super) log: Log,
 }
 
 /// Lines and columns of bytes.
@@ -65,7 +65,7 @@ impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         Self {
             places: Places::new(text),
-            log: Vec::new(),
+            log: Log::default(),
         }
     }
 

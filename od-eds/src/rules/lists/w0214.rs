@@ -1,6 +1,6 @@
 use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
-use crate::rules::lists::w0242::renumbered;
-use crate::scan::placed::{Placed, Text};
+use crate::fix::Fix;
+use crate::scan::placed::Text;
 use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
@@ -16,9 +16,9 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// The finding about a number that another entry of the list has.
-pub(crate) fn finding(list: &Placed<'_>, key: &Text<'_>, first: Span) -> Finding {
+pub(crate) fn finding(renumbered: Fix, key: &Text<'_>, first: Span) -> Finding {
     RULE.at(key.span)
         .fact("number", &*key.value)
         .related(first, "first used here")
-        .fix(renumbered(list))
+        .fix(renumbered)
 }

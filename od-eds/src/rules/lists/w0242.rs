@@ -18,11 +18,11 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// The finding about the first entry of a list whose number is not its place.
-pub(crate) fn finding(list: &Placed<'_>, key: &Text<'_>, place: i128) -> Finding {
+pub(crate) fn finding(renumbered: Fix, key: &Text<'_>, place: i128) -> Finding {
     RULE.at(key.span)
         .fact("place", place)
         .fact("number", &*key.value)
-        .fix(renumbered(list))
+        .fix(renumbered)
 }
 
 /// Gives every entry the number of its place.

@@ -35,4 +35,5 @@ catalogue! {
     w0350 W0350
     w0351 W0351
     w0352 W0352
+    e0353 E0353 (example)
 }

@@ -16,4 +16,5 @@ catalogue! {
     e0113 E0113 (xdd)
     e0114 E0114 (xdd)
     e0115 E0115 (xdd)
+    w0116 W0116 (example)
 }

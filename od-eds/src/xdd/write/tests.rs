@@ -1,12 +1,11 @@
 use super::*;
 use crate::description::tables::Tables;
-use crate::xdd;
 
 #[track_caller]
 fn round(text: &str) -> String {
     let description = crate::parse(text).description;
     let written = write(&description);
-    let again = xdd::parse(&written);
+    let again = crate::parse(&written);
     assert!(again.findings.is_empty(), "{:?}\n{written}", again.findings);
     let [a, b] = [&description, &again.description].map(Tables::new);
     assert!(a.dictionary() == b.dictionary(), "{written}");

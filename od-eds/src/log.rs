@@ -1,0 +1,83 @@
+//! Findings of one text while it is read: no more of one rule than somebody can look at.
+
+use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
+use alloc::vec::Vec;
+
+use crate::finding::{Finding, Rule};
+use crate::rules::text::w0116;
+use crate::span::Span;
+
+/// Findings of one rule that are kept.
+pub(crate) const KEPT: usize = 10_000;
+/// Sub-objects that a text may have without a section of their own.
+pub(crate) const EXPANDED: usize = 1_000_000;
+
+/// Findings in no order, and what is left of the limits.
+#[derive(Default)]
+pub(crate) struct Log {
+    findings: Vec<Finding>,
+    counts: BTreeMap<&'static str, Count>,
+    expanded: usize,
+}
+
+/// Findings of one rule.
+struct Count {
+    rule: &'static Rule,
+    all: usize,
+    /// Place of the first that was left out.
+    first: Span,
+}
+
+impl Log {
+    /// Keeps a finding, unless there are too many of its rule.
+    pub(crate) fn push(&mut self, finding: Finding) {
+        self.add(finding.rule, || finding);
+    }
+
+    /// As [`push`](Self::push), for a finding that is made only if it is kept.
+    pub(crate) fn add(&mut self, rule: &'static Rule, make: impl FnOnce() -> Finding) {
+        let count = match self.counts.entry(rule.code) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(Count {
+                rule,
+                all: 0,
+                first: Span::default(),
+            }),
+        };
+        count.all += 1;
+        if count.all <= KEPT {
+            self.findings.push(make());
+        } else if count.first.line == 0 {
+            count.first = make().span().unwrap_or_default();
+        }
+    }
+
+    /// Keeps findings, as [`push`](Self::push) does.
+    pub(crate) fn extend(&mut self, findings: impl IntoIterator<Item = Finding>) {
+        findings.into_iter().for_each(|finding| self.push(finding));
+    }
+
+    /// Takes over the findings of another.
+    #[cfg(feature = "xdd")]
+    pub(crate) fn append(&mut self, other: Self) {
+        self.extend(other.finish());
+    }
+
+    /// Is there room for this number of sub-objects without a section? Then it is taken.
+    pub(crate) fn expand(&mut self, count: usize) -> bool {
+        let fits = count <= EXPANDED - self.expanded;
+        self.expanded += if fits { count } else { 0 };
+        fits
+    }
+
+    /// The findings, and one for each rule that has too many.
+    pub(crate) fn finish(mut self) -> Vec<Finding> {
+        let counts = self.counts.into_values();
+        for count in counts.filter(|count| count.all > KEPT) {
+            let finding = w0116::finding(count.first, count.rule.code, KEPT, count.all - KEPT);
+            self.findings.push(finding);
+        }
+        self.findings
+    }
+}

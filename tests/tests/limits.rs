@@ -1,0 +1,72 @@
+//! Texts that are made to be slow or large: what is read of them grows with their length only.
+
+use od_eds::{Parsed, load, parse};
+
+fn count(parsed: &Parsed, code: &str) -> usize {
+    let all = parsed.findings.iter();
+    all.filter(|finding| finding.code() == code).count()
+}
+
+/// `line(n)` for each n, behind `head`.
+fn lines(head: &str, count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).fold(head.to_owned(), |mut text, n| {
+        text.push_str(&line(n));
+        text.push('\n');
+        text
+    })
+}
+
+const VAR: &str = "[2000]\nParameterName=a\nDataType=7\nAccessType=rw\n";
+
+#[test]
+fn findings_of_one_rule_are_counted_not_kept() {
+    for (head, line, code) in [
+        ("", "junk", "W0101"),
+        ("", "=1", "W0102"),
+        ("", "[x", "W0103"),
+        ("", "[x] y", "W0104"),
+        ("[FileInfo]\n", "FileName=1", "W0107"),
+        ("[FileInfo]\n", "FileName:1", "W0108"),
+        ("", "[]", "W0110"),
+        (VAR, "[2000]", "W0304"),
+        (VAR, "[2000]\nParameterName=b", "E0303"),
+        ("", "[FileInfo]", "W0106"),
+        (VAR, "[2001sub1]", "W0304"),
+        ("[OptionalObjects]\n", "1=0x1005", "W0214"),
+        (VAR, "; x\n[2000]\nOwn:1", "W0304"),
+    ] {
+        let parsed = load(&lines(head, 48_000, |_| line.into()));
+        assert_eq!(count(&parsed, code), 10_000, "{line}");
+        let more = parsed.findings.iter().filter(|f| f.code() == "W0116");
+        let more: Vec<_> = more.map(|f| od_eds::say(f, &od_eds::Eds).message).collect();
+        let own = more.iter().find(|said| said.starts_with(code));
+        let own = own.unwrap_or_else(|| panic!("{line}: {more:?}"));
+        let left: usize = own.split(' ').nth(2).and_then(|n| n.parse().ok()).unwrap();
+        assert!((37_990..=38_000).contains(&left), "{own}");
+    }
+}
+
+#[test]
+fn sections_with_keys_of_their_own_are_joined() {
+    let parsed = parse(&lines(VAR, 48_000, |n| format!("[2000]\nKey{n}=1")));
+    let object = &parsed.description.objects[&0x2000];
+    assert_eq!(object.entries[&0].extra.len(), 48_000);
+    let text = lines("", 48_000, |n| format!("[Own{n}]\nA=1"));
+    let canonical = od_eds::canonical(&parse(&text).description);
+    assert!(canonical.contains("[Own0]\nA=1\n") && canonical.contains("[Own47999]\nA=1\n"));
+}
+
+#[test]
+fn a_text_that_claims_millions_of_sub_objects_gets_a_million() {
+    let array = |n: usize| {
+        let index = 0x2000 + n;
+        format!("[{index:04X}]\nObjectType=8\nDataType=5\nAccessType=ro\nCompactSubObj=254")
+    };
+    let parsed = parse(&lines("", 4_000, array));
+    assert_eq!(count(&parsed, "E0353"), 4_000 - 1_000_000 / 254);
+    let entries = parsed.description.entries().count();
+    assert_eq!(entries, 4_000 + 1_000_000 / 254 * 254);
+    // The object itself is kept.
+    assert_eq!(parsed.description.objects.len(), 4_000);
+    assert_eq!(count(&parse(&lines("", 1_000, array)), "E0353"), 0);
+}
