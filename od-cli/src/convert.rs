@@ -32,6 +32,9 @@ pub(crate) struct Args {
     /// Value of an object of the configured device (DCF only); may be repeated
     #[arg(long = "set", value_name = "OBJECT=VALUE")]
     values: Vec<String>,
+    /// Accept that the target lacks objects of the source
+    #[arg(long)]
+    lossy: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
@@ -48,7 +51,7 @@ enum Form {
     /// C header with a macro for each index, sub-index, default and limit
     #[value(alias = "h")]
     C,
-    /// Objects and entries as JSON
+    /// Everything as JSON (docs/odkit-dictionary-2.schema.json)
     Json,
 }
 
@@ -85,27 +88,27 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     let source = Source::find(&args.input)?;
-    let mut description = source.description()?;
+    // Only a datasheet needs the type of each value.
+    let (mut description, lost) = source.complete(form == Form::Md)?;
     if form == Form::Dcf {
         configure(&mut description, args)?;
     }
-    let tables = Tables::new(&description);
-    let dictionary = tables.dictionary();
     let text = match form {
         Form::Eds | Form::Dcf => od_eds::canonical(&description),
         Form::Xdd => xdd::write(&description),
         Form::Md => match source.kind {
             Some(kind) => datasheet::page(kind),
-            None => markdown::page(&args.input, dictionary),
+            None => markdown::page(&args.input, Tables::new(&description).dictionary()),
         },
         Form::C => {
             let stem = Path::new(&args.input).file_stem();
             let stem = stem.and_then(|stem| stem.to_str()).unwrap_or("device");
-            c_header::write(dictionary, stem, &args.input)
+            c_header::write(&description, stem, &args.input)
         }
-        Form::Json => format!("{:#}", json::write(dictionary, &args.input)),
+        Form::Json => json::write(&description, &args.input),
     };
-    output::save(args.output.as_deref(), &text)
+    output::save(args.output.as_deref(), &text)?;
+    lost.judge(args.lossy)
 }
 
 /// Node ID, bit rate and the values of the arguments. A value of the file stays if none is given.

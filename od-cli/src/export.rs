@@ -15,9 +15,13 @@ pub(crate) struct Args {
     /// Output file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Accept that the target lacks objects of the source
+    #[arg(long)]
+    lossy: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let description = Source::find(&args.device)?.description()?;
-    output::save(args.output.as_deref(), &od_eds::canonical(&description))
+    let (description, lost) = Source::find(&args.device)?.complete(false)?;
+    output::save(args.output.as_deref(), &od_eds::canonical(&description))?;
+    lost.judge(args.lossy)
 }

@@ -30,6 +30,9 @@ pub(crate) struct Args {
     /// Checkout of odkit to depend on, instead of the published crates
     #[arg(long, value_name = "FOLDER")]
     odkit: Option<PathBuf>,
+    /// Accept that the crate lacks objects of the file
+    #[arg(long)]
+    lossy: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -44,7 +47,23 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             folder.display()
         )));
     }
-    let (device, notes) = device(&args.file)?;
+    let (
+        device,
+        repair::Notes {
+            all: notes,
+            removed,
+        },
+    ) = device(&args.file)?;
+    if !removed.is_empty() && !args.lossy {
+        for note in &notes {
+            output::note!("note: {note}");
+        }
+        let count = report::plural(removed.len(), "object");
+        return Err(Failure::Failed(format!(
+            "the crate would lack {count} of {}; correct them, or add `--lossy` to accept that",
+            args.file
+        )));
+    }
     let project = files::Project {
         name: &args.name,
         device: &device,
@@ -83,7 +102,7 @@ fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
-    let mut notes = repair::Notes::new();
+    let mut notes = repair::Notes::default();
     let is_sound = !findings.iter().any(Finding::is_error);
     if !is_sound {
         notes = repair::fix(&mut description).map_err(|left| {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
+use od_eds::convert::lost;
 use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed};
 use od_runtime::DeviceKind;
 use od_runtime::NodeId;
@@ -33,6 +34,29 @@ struct Laid {
     /// Path and text.
     overlay: (String, String),
     made: Overlaid,
+}
+
+/// Findings of the objects that a target lacks.
+pub(crate) struct Lost(Vec<Finding>);
+
+impl Lost {
+    /// # Errors
+    /// The target lacks objects, and nobody accepted that.
+    pub(crate) fn judge(&self, accepted: bool) -> Result<(), Failure> {
+        if self.0.is_empty() || accepted {
+            return Ok(());
+        }
+        let objects = self.0.iter().filter_map(|finding| finding.object);
+        let objects: Vec<String> = objects.map(|object| object.to_string()).collect();
+        let count = report::plural(self.0.len(), "object");
+        let named = match objects.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", objects.join(", ")),
+        };
+        Err(Failure::Failed(format!(
+            "the target lacks {count} of the source{named}; correct them, or add `--lossy` to accept that"
+        )))
+    }
 }
 
 /// Limit of the errors that are shown when a device is made from a file.
@@ -164,15 +188,32 @@ impl Source {
         Ok(parsed)
     }
 
-    /// Returns the description. Prints errors on standard error.
-    pub(crate) fn description(&self) -> Result<Description, Failure> {
+    /// Returns the description for a target that has to be complete. Prints errors on standard
+    /// error, and the findings of objects that the target lacks; `typed` if it leaves out what has
+    /// no type.
+    pub(crate) fn complete(&self, typed: bool) -> Result<(Description, Lost), Failure> {
         let Parsed {
             description,
-            mut findings,
+            findings,
         } = self.parse()?;
-        findings.retain(Finding::is_error);
-        self.note(&findings);
-        Ok(description)
+        let checked = match typed {
+            true => od_eds::check::check(&description),
+            false => Vec::new(),
+        };
+        let mut lost = lost::unread(&findings);
+        if typed {
+            let all: Vec<_> = findings.iter().chain(&checked).cloned().collect();
+            lost.extend(lost::untyped(&description, &all));
+        }
+        let mut shown: Vec<_> = findings.into_iter().filter(Finding::is_error).collect();
+        shown.extend(
+            lost.iter()
+                .filter(|one| !shown.contains(one))
+                .cloned()
+                .collect::<Vec<_>>(),
+        );
+        self.note(&shown);
+        Ok((description, Lost(lost)))
     }
 
     /// Shows findings on standard error.

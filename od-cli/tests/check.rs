@@ -117,7 +117,7 @@ fn folders_and_several_files_in_one_report() {
     let run = odkit(&["check", &tree, "--format", "json"], "");
     assert_eq!(run.code, 1);
     let report: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
-    assert_eq!(report["version"], 2);
+    assert_eq!(report["version"], 3);
     let files = report["files"].as_array().expect("a list");
     let names: Vec<_> = files.iter().map(|file| file["path"].as_str()).collect();
     assert_eq!(names.len(), 2, "{names:?}");
@@ -131,11 +131,81 @@ fn folders_and_several_files_in_one_report() {
     );
     assert_eq!(octal["fix"]["applicability"], "safe");
     let edit = &octal["fix"]["edits"][0];
-    // The text is UTF-8, whatever the file is.
-    let text: String = ODD.iter().map(|byte| char::from(*byte)).collect();
     let place = |key: &str| edit[key].as_u64().map_or(0, |n| n as usize);
-    assert_eq!(&text[place("start")..place("end")], "010");
+    assert_eq!(&ODD[place("start")..place("end")], b"010");
     assert_eq!(edit["text"], "8");
+}
+
+/// The bytes of a text in an encoding, behind its mark.
+fn encoded(text: &str, encoding: &str) -> Vec<u8> {
+    let units = || text.encode_utf16();
+    match encoding {
+        "windows-1252" => text.chars().map(|c| c as u8).collect(),
+        "utf-8" => text.as_bytes().to_vec(),
+        "utf-8 with a mark" => [b"\xEF\xBB\xBF", text.as_bytes()].concat(),
+        "utf-16le" => [0xFEFF]
+            .into_iter()
+            .chain(units())
+            .flat_map(u16::to_le_bytes)
+            .collect(),
+        _ => [0xFEFF]
+            .into_iter()
+            .chain(units())
+            .flat_map(u16::to_be_bytes)
+            .collect(),
+    }
+}
+
+/// Every place that a report names is a place of the file as it is on the disk.
+#[test]
+fn offsets_are_bytes_of_the_file() {
+    let text: String = ODD.iter().map(|byte| char::from(*byte)).collect();
+    for encoding in [
+        "windows-1252",
+        "utf-8",
+        "utf-8 with a mark",
+        "utf-16le",
+        "utf-16be",
+    ] {
+        let bytes = encoded(&text, encoding);
+        let body = |text: &str| {
+            let mark = encoded("", encoding).len();
+            encoded(text, encoding)[mark..].to_vec()
+        };
+        let path = file(&format!("{}.eds", encoding.replace(' ', "-")), "");
+        fs::write(&path, &bytes).expect("a folder for test files");
+        let path = path.display().to_string();
+        let run = odkit(&["check", &path, "--format", "json"], "");
+        let json: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+        let number = |value: &serde_json::Value| value.as_u64().expect("a number") as usize;
+        let found = json["files"][0]["diagnostics"].as_array().expect("a list");
+        for (code, part) in [("W0108", ":"), ("I0408", "010"), ("W0406", "maybe")] {
+            let one = found.iter().find(|one| one["code"] == code).expect(code);
+            let (start, end) = (number(&one["span"]["start"]), number(&one["span"]["end"]));
+            assert_eq!(&bytes[start..end], body(part), "{encoding} {code}");
+            for edit in one["fix"]["edits"].as_array().into_iter().flatten() {
+                let replaced = &bytes[number(&edit["start"])..number(&edit["end"])];
+                assert_eq!(replaced, body(part), "{encoding} {code}");
+            }
+        }
+        let run = odkit(&["check", &path, "--format", "sarif"], "");
+        let sarif: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+        let results = sarif["runs"][0]["results"].as_array().expect("a list");
+        let octal = results
+            .iter()
+            .find(|one| one["ruleId"] == "I0408")
+            .expect("octal");
+        let region = &octal["locations"][0]["physicalLocation"]["region"];
+        let fixed = &octal["fixes"][0]["artifactChanges"][0]["replacements"][0];
+        for region in [region, &fixed["deletedRegion"]] {
+            let start = number(&region["byteOffset"]);
+            let end = start + number(&region["byteLength"]);
+            assert_eq!(&bytes[start..end], body("010"), "{encoding}");
+        }
+        let at = number(&fixed["deletedRegion"]["charOffset"]);
+        let chars: String = text.chars().skip(at).take(3).collect();
+        assert_eq!(chars, "010", "{encoding}");
+    }
 }
 
 #[test]

@@ -156,3 +156,111 @@ fn a_c_compiler_takes_the_header() {
     drop(input);
     assert!(compiler.wait().expect("it ends").success(), "{program}");
 }
+
+/// One object of an unknown type, one without a type, and two to which CiA 301 gives it.
+const TYPES: &str = "[FileInfo]\nFileName=types.eds\n[DeviceInfo]\nVendorName=A & B\n\
+    VendorNumber=0x5F\nProductName=P\nProductNumber=16\nRevisionNumber=2\n\
+    BaudRate_125=1\nBaudRate_250=0\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1018\n\
+    [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+    [1018sub0]\nParameterName=Highest\nAccessType=const\nDefaultValue=1\n\
+    [1018sub1]\nParameterName=Vendor-ID\nAccessType=ro\nDefaultValue=0x5F\n\
+    [OptionalObjects]\nSupportedObjects=1\n1=0x1017\n\
+    [1017]\nParameterName=Heartbeat\nAccessType=rw\nDefaultValue=1000\nParameterValue=500\n\
+    [ManufacturerObjects]\nSupportedObjects=3\n1=0x2000\n2=0x2001\n3=0x2002\n\
+    [2000]\nParameterName=Odd\nDataType=0x0099\nAccessType=rw\nDefaultValue=5\n\
+    [2001]\nParameterName=None\nAccessType=ro\n\
+    [2002]\nParameterName=Sound\nDataType=3\nAccessType=rw\nDefaultValue=-5\nLowLimit=-9\nHighLimit=9\n";
+
+#[test]
+fn what_a_target_can_hold_is_kept() {
+    let path = file("types.eds", TYPES).display().to_string();
+    let json = odkit(&["convert", &path, "--to", "json"], "");
+    assert_eq!(json.code, 0, "{}", json.err);
+    let value: serde_json::Value = serde_json::from_str(&json.out).expect("JSON");
+    assert_eq!(value["format"], "odkit-dictionary/2");
+    assert_eq!(value["identity"]["vendorNumber"], 0x5F);
+    assert_eq!(value["device"]["bitRates"], serde_json::json!([125]));
+    assert_eq!(value["file"]["name"], "types.eds");
+    let object = |index: &str| {
+        let objects = value["objects"].as_array().expect("a list");
+        let found = objects.iter().find(|object| object["index"] == index);
+        found.unwrap_or_else(|| panic!("{index}"))["entries"].clone()
+    };
+    assert_eq!(object("0x1018")[1]["dataType"], "UNSIGNED32");
+    let heartbeat = &object("0x1017")[0];
+    assert_eq!(
+        (&heartbeat["default"], &heartbeat["parameter"]),
+        (&1000.into(), &500.into())
+    );
+    let odd = &object("0x2000")[0];
+    assert_eq!(
+        (&odd["dataType"], &odd["extra"]["DataType"]),
+        (&serde_json::Value::Null, &"0x0099".into())
+    );
+    assert_eq!(odd["extra"]["DefaultValue"], "5");
+    assert_eq!(object("0x2001")[0]["dataType"], serde_json::Value::Null);
+    let sound = &object("0x2002")[0];
+    assert_eq!((&sound["low"], &sound["high"]), (&(-9).into(), &9.into()));
+    let header = odkit(&["convert", &path, "--to", "c"], "");
+    assert_eq!(header.code, 0, "{}", header.err);
+    for line in [
+        "TYPES_ODD_INDEX 0x2000u",
+        "TYPES_IDENTITY_VENDOR_ID_DEFAULT 0x5Fu",
+        "TYPES_NONE_SUB 0x00u",
+    ] {
+        assert!(header.out.contains(line), "{line}\n{}", header.out);
+    }
+    for target in ["eds", "xdd"] {
+        let made = odkit(&["convert", &path, "--to", target], "");
+        assert_eq!(made.code, 0, "{}", made.err);
+        let path = file(&format!("types-again.{target}"), &made.out)
+            .display()
+            .to_string();
+        let found = odkit(&["check", &path, "--format", "json"], "").out;
+        // The types that CiA 301 gives are written now; that which no type has is as it was.
+        assert!(
+            !found.contains("W0426") && found.contains("`0x0099` is not a data type"),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn what_a_target_lacks_is_said() {
+    let path = file("types.eds", TYPES).display().to_string();
+    let page = odkit(&["convert", &path, "--to", "md"], "");
+    assert_eq!(page.code, 1);
+    for said in [
+        "E0401",
+        "E0402",
+        "lacks 2 objects of the source (2000h:00, 2001h:00)",
+        "`--lossy`",
+    ] {
+        assert!(page.err.contains(said), "{said}\n{}", page.err);
+    }
+    assert!(
+        page.out.contains("2002h") && !page.out.contains("2001h"),
+        "{}",
+        page.out
+    );
+    assert_eq!(
+        odkit(&["convert", &path, "--to", "md", "--lossy"], "").code,
+        0
+    );
+    assert_eq!(odkit(&["export", &path], "").code, 0);
+    let nameless = "<ISO15745ProfileContainer><CANopenObject index=\"x\" name=\"a\"/>\
+        <CANopenObject index=\"2000\" name=\"b\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/>\
+        </ISO15745ProfileContainer>";
+    let path = file("nameless.xdd", nameless).display().to_string();
+    for command in [&["export", &path][..], &["convert", &path, "--to", "json"]] {
+        let run = odkit(command, "");
+        assert_eq!(run.code, 1, "{}", run.err);
+        assert!(
+            run.err.contains("E0114") && run.err.contains("lacks 1 object"),
+            "{}",
+            run.err
+        );
+        assert!(run.out.contains("2000"), "{}", run.out);
+        assert_eq!(odkit(&[command, &["--lossy"]].concat(), "").code, 0);
+    }
+}

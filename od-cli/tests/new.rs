@@ -78,7 +78,14 @@ fn a_broken_file_is_fixed_and_each_change_is_listed() {
     let eds = file("broken-new.eds", BROKEN).display().to_string();
     let folder = fresh("new-broken");
     let path = folder.display().to_string();
-    let made = odkit(&["new", &eds, "--name", "gate", "--path", &path], "");
+    let arguments = ["new", &eds, "--name", "gate", "--path", &path, "--lossy"];
+    let refused = odkit(&arguments[..6], "");
+    assert_eq!(refused.code, 1, "{}", refused.err);
+    for told in ["2001h: removed", "(E0401)", "lack 1 object", "`--lossy`"] {
+        assert!(refused.err.contains(told), "{told}\n{}", refused.err);
+    }
+    assert!(!folder.exists());
+    let made = odkit(&arguments, "");
     assert_eq!(made.code, 0, "{}", made.err);
     let readme = read(&folder, "README.md");
     for told in [
@@ -164,7 +171,8 @@ fn the_corpus_makes_crates() {
     for (number, path) in files.iter().enumerate() {
         let to = all.join(number.to_string()).display().to_string();
         let from = path.display().to_string();
-        let made = odkit(&["new", &from, "--name", "real", "--path", &to], "");
+        let arguments = ["new", &from, "--name", "real", "--path", &to, "--lossy"];
+        let made = odkit(&arguments, "");
         assert_eq!(made.code, 0, "{from}: {}", made.err);
     }
     if !files.is_empty() {

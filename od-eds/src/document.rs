@@ -11,6 +11,7 @@ use crate::span::Span;
 
 mod keys;
 mod objects;
+pub(crate) mod offsets;
 
 /// Another text for a stretch of a document.
 ///
@@ -191,6 +192,23 @@ impl Document {
         Ok(())
     }
 
+    /// Are the bytes of the file those of the text, behind the mark?
+    fn is_plain(&self) -> bool {
+        self.bytes.len() - self.mark == self.text.len()
+            && matches!(self.encoding, Encoding::Ascii | Encoding::Utf8)
+    }
+
+    /// Number of bytes of a piece of the text in the file, where it begins at `byte`.
+    fn len_of(&self, text: Range<usize>, byte: usize) -> usize {
+        let mut at = byte;
+        for c in self.text[text].chars() {
+            let (read, len) = self.encoding.next(&self.bytes[at..]);
+            debug_assert_eq!(read, c);
+            at += len;
+        }
+        at - byte
+    }
+
     /// Line end of the line at `at`, else the first line end of the file.
     fn line_end(&self, at: usize) -> &'static str {
         let behind = &self.text[at..];
@@ -242,20 +260,10 @@ struct Place<'a> {
 impl Place<'_> {
     /// The byte that belongs to a place in the text, which lies ahead.
     fn find(&self, text: usize) -> usize {
-        let document = self.document;
-        let encoding = document.encoding;
-        if document.bytes.len() - document.mark == document.text.len()
-            && matches!(encoding, Encoding::Ascii | Encoding::Utf8)
-        {
-            return text + document.mark;
+        match self.document.is_plain() {
+            true => text + self.document.mark,
+            false => self.byte + self.document.len_of(self.text..text, self.byte),
         }
-        let mut byte = self.byte;
-        for c in document.text[self.text..text].chars() {
-            let (read, len) = encoding.next(&document.bytes[byte..]);
-            debug_assert_eq!(read, c);
-            byte += len;
-        }
-        byte
     }
 
     fn copy_to(&mut self, to: usize, text: &mut String, bytes: &mut Vec<u8>) {

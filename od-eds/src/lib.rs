@@ -52,6 +52,7 @@ pub use description::tables::Tables;
 pub use description::{
     Commissioning, Description, EntryDescription, ObjectDescription, Section, Value,
 };
+pub use document::offsets::Offsets;
 pub use document::{Document, Edit, EditError};
 pub use fact::{Fact, Key};
 pub use finding::{Finding, Form, Place, Related, Severity};

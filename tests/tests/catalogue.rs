@@ -159,6 +159,7 @@ fn fixes_keep_what_was_read() {
             (&guessed, Applicability::Unsafe),
         ] {
             let again = fix(&fixed.document, level, find);
+            assert_eq!(again.edits, 0, "{name}: {level:?}");
             assert_eq!(
                 again.document.bytes(),
                 fixed.document.bytes(),

@@ -1,6 +1,7 @@
 //! The result of a check, from which every report is made.
 
-use od_eds::{Finding, Sentence, Severity, Span};
+use od_eds::fix::{Held, Why};
+use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
 use serde::Serialize;
 
 use crate::source::Source;
@@ -14,6 +15,8 @@ pub(super) struct Checked {
     pub(super) shown: String,
     /// Number of edits by fixes.
     pub(super) fixed: usize,
+    /// Fixes that were not applied.
+    pub(super) held: Vec<Held>,
     /// Why the file could not be read or written.
     pub(super) failed: Option<String>,
 }
@@ -39,6 +42,20 @@ pub(super) fn about(finding: &Sentence) -> String {
     match finding.address {
         Some(address) => format!("object {address}: {}", finding.message),
         None => finding.message.clone(),
+    }
+}
+
+/// Why a fix was not applied, as a clause.
+pub(super) fn why(held: &Held) -> String {
+    match &held.why {
+        Why::Adds(error) => {
+            let error = say(error, &Eds);
+            format!("it would add {}: {}", error.code, about(&error))
+        }
+        Why::Stays => "the finding would stay, or another fix would undo it".into(),
+        Why::NoCharacter(c, encoding) => {
+            format!("{encoding}, the encoding of the file, lacks `{c}`")
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! The report as one JSON object; `version` counts changes that break its readers.
 
-use od_eds::fix::{Applicability, TextEdit};
-use od_eds::{Eds, Finding, Label, Severity, Span, say};
+use od_eds::fix::{self, Applicability, TextEdit};
+use od_eds::{Eds, Finding, Label, Offsets, Severity, Span, say};
 use serde::Serialize;
 
-use super::checked::{Checked, Summary};
+use super::checked::{Checked, Summary, why};
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -19,12 +19,15 @@ struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
     fixed: usize,
+    /// Fixes that were not applied.
+    held: Vec<Held>,
     /// The name that readers of version 1 know.
     #[serde(rename = "diagnostics")]
     findings: Vec<Reported>,
 }
 
-/// Bytes are counted from 0 in the text as UTF-8, lines and columns from 1.
+/// Bytes are counted from 0 in the file as it is on the disk, lines and columns from 1; columns
+/// are characters.
 #[derive(Serialize)]
 struct Reported {
     code: &'static str,
@@ -39,6 +42,15 @@ struct Reported {
     fix: Option<Fix>,
 }
 
+/// A fix that would do harm.
+#[derive(Serialize)]
+struct Held {
+    code: &'static str,
+    object: Option<String>,
+    line: Option<u32>,
+    why: String,
+}
+
 #[derive(Serialize)]
 struct Fix {
     applicability: Applicability,
@@ -47,7 +59,7 @@ struct Fix {
 
 pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
     let report = Report {
-        version: 2,
+        version: 3,
         odkit: env!("CARGO_PKG_VERSION"),
         files: checked.iter().map(file).collect(),
         summary,
@@ -58,21 +70,45 @@ pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
 }
 
 fn file(checked: &Checked) -> File<'_> {
-    let text = checked.file.text();
+    let document = checked.file.document();
+    let offsets = document.offsets();
     File {
         path: &checked.file.path,
         failed: checked.failed.as_deref(),
         fixed: checked.fixed,
+        held: checked.held.iter().map(held).collect(),
         findings: checked
             .findings
             .iter()
-            .map(|finding| reported(finding, text))
+            .map(|finding| reported(finding, document.text(), &offsets))
             .collect(),
     }
 }
 
-fn reported(finding: &Finding, text: &str) -> Reported {
-    let finding = say(finding, &Eds);
+/// Edits of the text as edits of the file.
+fn on_disk(mut edits: Vec<TextEdit>, offsets: &Offsets<'_>) -> Vec<TextEdit> {
+    for edit in &mut edits {
+        edit.start = offsets.byte(edit.start as usize) as u32;
+        edit.end = offsets.byte(edit.end as usize) as u32;
+    }
+    edits
+}
+
+fn held(held: &fix::Held) -> Held {
+    let finding = &held.finding;
+    Held {
+        code: finding.code(),
+        object: finding.object.map(|address| address.to_string()),
+        line: finding.span().map(|span| span.line),
+        why: why(held),
+    }
+}
+
+fn reported(finding: &Finding, text: &str, offsets: &Offsets<'_>) -> Reported {
+    let mut finding = say(finding, &Eds);
+    for label in &mut finding.labels {
+        label.span = offsets.span(label.span);
+    }
     let fix = finding.fix.as_ref();
     Reported {
         code: finding.code,
@@ -80,11 +116,11 @@ fn reported(finding: &Finding, text: &str) -> Reported {
         object: finding.address.map(|address| address.to_string()),
         index: finding.address.map(|address| address.index),
         sub: finding.address.map(|address| address.sub),
-        span: finding.span,
+        span: finding.span.map(|span| offsets.span(span)),
         fix: fix.and_then(|fix| {
             Some(Fix {
                 applicability: fix.applicability,
-                edits: fix.text_edits(text)?,
+                edits: on_disk(fix.text_edits(text)?, offsets),
             })
         }),
         message: finding.message,

@@ -3,14 +3,14 @@
 use od_eds::Document;
 use od_eds::check::parse_allow;
 use od_eds::fix;
-use od_eds::fix::Applicability;
+use od_eds::fix::{Applicability, Held};
 use od_eds::{Finding, Severity};
 
 use crate::failure::Failure;
 use crate::output::{self, Output};
 use crate::report;
 use crate::source::Source;
-use checked::{Checked, Summary};
+use checked::{Checked, Summary, why};
 
 mod checked;
 mod files;
@@ -108,6 +108,7 @@ impl Args {
                     checked.failed = fixed::write(path, done.document.bytes()).err();
                 }
                 (checked.fixed, checked.findings) = (done.edits, done.findings);
+                checked.held = done.held;
                 checked.file.replace(done.document);
             }
         }
@@ -156,6 +157,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Fixes that are held back, of which the text report gives the reason.
+const HELD: usize = 20;
+
 fn text(
     args: &Args,
     checked: &[Checked],
@@ -190,6 +194,25 @@ fn text(
         }
     }
     output.line(&line)?;
+    let held = |file: &Checked| {
+        let path = file.file.path.clone();
+        let line = move |held: &Held| {
+            let line = held.finding.span().map_or(0, |span| span.line);
+            let code = held.finding.code();
+            format!(
+                "{path}:{line}: the fix of {code} is held back: {}",
+                why(held)
+            )
+        };
+        file.held.iter().map(line).collect::<Vec<_>>()
+    };
+    let held: Vec<String> = checked.iter().flat_map(held).collect();
+    for line in held.iter().take(HELD) {
+        output.line(line)?;
+    }
+    if let Some(more @ 1..) = held.len().checked_sub(HELD) {
+        output.line(&format!("{more} more held back; `--format json` lists all"))?;
+    }
     for hint in hints(args, checked, summary) {
         output.line(&hint)?;
     }

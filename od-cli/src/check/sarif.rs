@@ -2,10 +2,11 @@
 
 use od_eds::check::RULES;
 use od_eds::fix::TextEdit;
-use od_eds::{Eds, Finding, Severity, Span, say};
+use od_eds::{Eds, Finding, Offsets, Severity, Span, say};
 use serde_json::{Value, json};
 
 use super::checked::{Checked, about, end_column};
+use crate::source::Source;
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json";
@@ -25,7 +26,11 @@ pub(super) fn report(checked: &[Checked]) -> String {
         .collect();
     let results: Vec<Value> = checked
         .iter()
-        .flat_map(|file| file.findings.iter().map(|finding| result(file, finding)))
+        .flat_map(|file| {
+            let places = Places::of(file);
+            let results = file.findings.iter();
+            results.map(move |finding| result(&places, finding))
+        })
         .collect();
     let failed: Vec<Value> = checked
         .iter()
@@ -65,7 +70,58 @@ const fn level(severity: Severity) -> &'static str {
     }
 }
 
-fn result(file: &Checked, finding: &Finding) -> Value {
+/// A file, and the places of its text.
+struct Places<'a> {
+    file: &'a Source,
+    offsets: Offsets<'a>,
+    /// Characters before every [`STEP`] bytes of the text.
+    characters: Vec<usize>,
+}
+
+/// Bytes of text between two places whose characters are counted.
+const STEP: usize = 512;
+
+impl<'a> Places<'a> {
+    fn of(checked: &'a Checked) -> Self {
+        let file = &checked.file;
+        let starts = |piece: &[u8]| piece.iter().filter(|byte| is_start(**byte)).count();
+        let pieces = file.text().as_bytes().chunks(STEP);
+        let mut before = 0;
+        let counted = pieces.map(|piece| {
+            let here = before;
+            before += starts(piece);
+            here
+        });
+        Self {
+            file,
+            offsets: file.document().offsets(),
+            characters: counted.collect(),
+        }
+    }
+
+    /// The characters before a byte of the text.
+    fn characters(&self, at: usize) -> usize {
+        let text = self.file.text().as_bytes();
+        let at = at.min(text.len());
+        let near = (at / STEP).min(self.characters.len().saturating_sub(1));
+        let known = self.characters.get(near).copied().unwrap_or(0);
+        let rest = text.get(near * STEP..at).unwrap_or_default();
+        known + rest.iter().filter(|byte| is_start(**byte)).count()
+    }
+
+    /// The bytes of the file between two bytes of the text.
+    fn bytes(&self, start: u32, end: u32) -> (usize, usize) {
+        let [start, end] = [start, end].map(|at| self.offsets.byte(at as usize));
+        (start, end - start)
+    }
+}
+
+/// Does a character of UTF-8 begin with this byte?
+const fn is_start(byte: u8) -> bool {
+    byte & 0xC0 != 0x80
+}
+
+fn result(file: &Places<'_>, finding: &Finding) -> Value {
     let finding = say(finding, &Eds);
     let text = file.file.text();
     let mut message = about(&finding);
@@ -89,7 +145,7 @@ fn result(file: &Checked, finding: &Finding) -> Value {
     if let Some(fix) = &finding.fix
         && let Some(edits) = fix.text_edits(text)
     {
-        let replacements: Vec<Value> = edits.iter().map(|edit| replacement(text, edit)).collect();
+        let replacements: Vec<Value> = edits.iter().map(|edit| replacement(file, edit)).collect();
         result["fixes"] = json!([{
             "description": { "text": finding.help },
             "artifactChanges": [{
@@ -101,14 +157,17 @@ fn result(file: &Checked, finding: &Finding) -> Value {
     result
 }
 
-fn location(file: &Checked, span: Option<Span>, what: Option<&str>) -> Value {
+fn location(file: &Places<'_>, span: Option<Span>, what: Option<&str>) -> Value {
     let mut place = json!({ "artifactLocation": { "uri": uri(&file.file.path) } });
     if let Some(span) = span {
+        let (start, length) = file.bytes(span.start, span.end);
         place["region"] = json!({
             "startLine": span.line,
             "startColumn": span.column,
             "endLine": span.line,
             "endColumn": end_column(file.file.text(), span),
+            "byteOffset": start,
+            "byteLength": length,
         });
     }
     let mut location = json!({ "physicalLocation": place });
@@ -118,12 +177,17 @@ fn location(file: &Checked, span: Option<Span>, what: Option<&str>) -> Value {
     location
 }
 
-/// An edit by characters from the start of the file, as SARIF counts them.
-fn replacement(text: &str, edit: &TextEdit) -> Value {
-    let (start, end) = (edit.start as usize, edit.end as usize);
-    let count = |range| text.get(range).map_or(0, |part: &str| part.chars().count());
+/// An edit by characters behind a byte order mark, as SARIF counts them, and by bytes of the file.
+fn replacement(file: &Places<'_>, edit: &TextEdit) -> Value {
+    let [start, end] = [edit.start, edit.end].map(|at| file.characters(at as usize));
+    let (byte, length) = file.bytes(edit.start, edit.end);
     json!({
-        "deletedRegion": { "charOffset": count(0..start), "charLength": count(start..end) },
+        "deletedRegion": {
+            "charOffset": start,
+            "charLength": end - start,
+            "byteOffset": byte,
+            "byteLength": length,
+        },
         "insertedContent": { "text": edit.text },
     })
 }

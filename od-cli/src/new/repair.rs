@@ -1,12 +1,28 @@
 //! Changes a description with errors until a device can be built from it, and lists the changes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_eds::{Description, Eds, EntryDescription, Finding, ObjectDescription, Spanned, Value, say};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
-/// One sentence per change.
-pub(super) type Notes = Vec<String>;
+/// Changes of a description.
+#[derive(Default)]
+pub(super) struct Notes {
+    /// One sentence per change.
+    pub(super) all: Vec<String>,
+    /// The objects that were removed, each once.
+    pub(super) removed: BTreeSet<String>,
+}
+
+impl Notes {
+    fn removed(&mut self, object: String, why: &str) {
+        self.all.push(format!("{object}: removed{why}"));
+        // With a whole object go its sub-objects.
+        let members = format!("{object}:");
+        self.removed.retain(|other| !other.starts_with(&members));
+        self.removed.insert(object);
+    }
+}
 
 /// Limit of rounds; each removes something, and a file has some thousand entries.
 const ROUNDS: usize = 100;
@@ -16,7 +32,7 @@ const ROUNDS: usize = 100;
 /// # Errors
 /// The findings that are left where nothing can be done.
 pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> {
-    let mut notes = Notes::new();
+    let mut notes = Notes::default();
     drop_unreadable(description, &mut notes);
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
@@ -29,10 +45,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
         for error in &errors {
             let tries = tries.entry((error.code(), error.object)).or_default();
             *tries = tries.saturating_add(1);
-            if let Some(note) = step(description, error, *tries) {
-                notes.push(note);
-                progress = true;
-            }
+            progress |= step(description, error, *tries, &mut notes).is_some();
         }
         if !progress {
             return Err(errors);
@@ -60,10 +73,12 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
         object.extra.retain(|(key, _)| !is_field(key));
         object.entries.retain(|sub, entry| {
             let place = Address::new(*index, *sub);
+            let has_text = entry.extra.iter().any(|(key, _)| key == "DataType");
             entry.extra.retain(|(key, value)| {
                 let keep = !is_field(key);
                 if !keep && !value.trim().is_empty() {
-                    notes.push(format!("{place}: removed the invalid {key} `{value}`"));
+                    let note = format!("{place}: removed the invalid {key} `{value}`");
+                    notes.all.push(note);
                 }
                 keep
             });
@@ -71,9 +86,13 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
                 .data_type
                 .is_some_and(|data_type| data_type.kind() != Kind::Record);
             if !usable {
-                notes.push(format!(
-                    "{place}: removed, because it has no valid DataType"
-                ));
+                let code = match (entry.data_type, has_text) {
+                    (Some(_), _) => "E0403",
+                    (None, true) => "E0402",
+                    (None, false) => "E0401",
+                };
+                let why = format!(" ({code}): it has no valid DataType");
+                notes.removed(place.to_string(), &why);
             }
             usable
         });
@@ -81,16 +100,19 @@ fn drop_unreadable(description: &mut Description, notes: &mut Notes) {
     description.objects.retain(|index, object| {
         let keep = !object.entries.is_empty();
         if !keep {
-            notes.push(format!(
-                "{index:04X}h: removed, because it has no valid sub-object"
-            ));
+            notes.removed(format!("{index:04X}h"), ": it has no valid sub-object");
         }
         keep
     });
 }
 
 /// One change for one error; `None` where nothing is left to change.
-fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<String> {
+fn step(
+    description: &mut Description,
+    error: &Finding,
+    tries: u8,
+    notes: &mut Notes,
+) -> Option<()> {
     let mandatory = match error.code() {
         "E0601" => Some(0x1000),
         "E0602" => Some(0x1001),
@@ -99,9 +121,12 @@ fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<Str
     };
     if let Some(index) = mandatory {
         description.objects.insert(index, standard(index)?);
-        return Some(format!("{index:04X}h: added, because it is mandatory"));
+        let note = format!("{index:04X}h: added, because it is mandatory");
+        notes.all.push(note);
+        return Some(());
     }
     let address = error.object?;
+    let said = format!(" ({}): {}", error.code(), say(error, &Eds).message);
     let Address { index, sub } = address;
     let object = description.objects.get_mut(&index)?;
     match (error.code(), tries) {
@@ -129,18 +154,18 @@ fn step(description: &mut Description, error: &Finding, tries: u8) -> Option<Str
         (_, 2) if sub > 0 => {
             object.entries.remove(&sub)?;
             count(object);
-            return Some(format!("{address}: removed: {}", say(error, &Eds).message));
+            notes.removed(address.to_string(), &said);
+            return Some(());
         }
         (_, ..=3) if standard(index).is_none() => {
             description.objects.remove(&index)?;
-            return Some(format!(
-                "{index:04X}h: removed: {}",
-                say(error, &Eds).message
-            ));
+            notes.removed(format!("{index:04X}h"), &said);
+            return Some(());
         }
         _ => return None,
     }
-    Some(format!("{address}: changed: {}", say(error, &Eds).message))
+    notes.all.push(format!("{address}: changed{said}"));
+    Some(())
 }
 
 /// Sub-index 0 says the highest sub-index.

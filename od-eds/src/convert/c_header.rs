@@ -1,16 +1,18 @@
-//! A dictionary as a C header: what a master's firmware needs to know of a device.
+//! A description as a C header: what a master's firmware needs to know of a device.
 
 use alloc::collections::BTreeSet;
 use alloc::string::String;
 use alloc::{format, vec};
 use core::fmt::Write;
 
-use od_model::{DataType, Dictionary, Entry, Literal};
+use crate::description::tables::fitting;
+use crate::description::{Description, EntryDescription, Value};
+use od_model::{DataType, Kind};
 
 /// Returns the header's text.
 ///
 /// `name` prefixes every macro: `GXMM_POSITION_VALUE_INDEX`. `source` is named in its first line.
-pub fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
+pub fn write(description: &Description, name: &str, source: &str) -> String {
     let prefix = macro_name(name);
     let mut out = String::new();
     let mut names = BTreeSet::new();
@@ -21,76 +23,88 @@ pub fn write(dictionary: Dictionary<'_>, name: &str, source: &str) -> String {
          #ifndef {prefix}_OD_H\n#define {prefix}_OD_H",
         comment(source)
     );
-    for object in dictionary.objects() {
+    for (&index, object) in &description.objects {
         let has_members = object.code.has_members();
-        let title = dictionary.text(object.name);
-        let stem = unique(&mut names, macro_name(title), object.index, None);
+        let title = object.name.value.as_str();
+        let stem = unique(&mut names, macro_name(title), index, None);
         let _ = writeln!(
             out,
             "\n/* {:04X}h {}, {} */\n#define {prefix}_{stem}_INDEX 0x{:04X}u",
-            object.index,
+            index,
             comment(title),
             object.code.name(),
-            object.index
+            index
         );
-        for entry in dictionary.members(&object) {
+        for (&sub, entry) in &object.entries {
             let stem = if has_members {
-                let member = macro_name(dictionary.text(entry.name));
-                let sub = Some(entry.address.sub);
-                unique(&mut names, format!("{stem}_{member}"), object.index, sub)
+                let member = macro_name(&entry.name);
+                unique(&mut names, format!("{stem}_{member}"), index, Some(sub))
             } else {
                 stem.clone()
             };
-            one(&mut out, dictionary, &entry, &prefix, &stem);
+            one(&mut out, sub, entry, &prefix, &stem);
         }
     }
     let _ = writeln!(out, "\n#endif /* {prefix}_OD_H */");
     out
 }
 
-fn one(out: &mut String, dictionary: Dictionary<'_>, entry: &Entry, prefix: &str, stem: &str) {
-    let mut facts = vec![entry.data_type.name(), entry.access.name()];
-    match (entry.maps_to_tpdo(), entry.maps_to_rpdo()) {
+fn one(out: &mut String, sub: u8, entry: &EntryDescription, prefix: &str, stem: &str) {
+    let data_type = entry.data_type.map(|data_type| data_type.value);
+    let mut facts = vec![
+        data_type.map_or("unknown type", DataType::name),
+        entry.access.name(),
+    ];
+    let mappable = *entry.mappable;
+    let [tpdo, rpdo] = [entry.access.maps_to_tpdo(), entry.access.maps_to_rpdo()];
+    match (mappable && tpdo, mappable && rpdo) {
         (true, true) => facts.push("TPDO, RPDO"),
         (true, false) => facts.push("TPDO"),
         (false, true) => facts.push("RPDO"),
         (false, false) => {}
     }
     let facts = facts.join(", ");
-    let sub = entry.address.sub;
     let _ = writeln!(
         out,
         "#define {prefix}_{stem}_SUB 0x{sub:02X}u /* {facts} */"
     );
-    if let Some(bits) = entry.data_type.bits() {
+    let Some(data_type) = data_type else { return };
+    if let Some(bits) = data_type.bits() {
         let _ = writeln!(out, "#define {prefix}_{stem}_BITS {bits}u");
     }
-    for (what, literal) in [
-        ("DEFAULT", entry.default),
-        ("MIN", entry.low),
-        ("MAX", entry.high),
+    for (what, value) in [
+        (
+            "DEFAULT",
+            fitting(&entry.parameter, data_type).or(fitting(&entry.default, data_type)),
+        ),
+        ("MIN", fitting(&entry.low, data_type)),
+        ("MAX", fitting(&entry.high, data_type)),
     ] {
-        if let Some(text) = constant(dictionary, entry.data_type, literal) {
+        if let Some(text) = value.and_then(|value| constant(data_type, value)) {
             let _ = writeln!(out, "#define {prefix}_{stem}_{what} {text}");
         }
     }
 }
 
 /// A C constant; defaults that hang on the node ID are a macro's argument away.
-fn constant(dictionary: Dictionary<'_>, data_type: DataType, literal: Literal) -> Option<String> {
+fn constant(data_type: DataType, value: &Value) -> Option<String> {
     let wide = data_type.bits().is_some_and(|bits| bits > 32);
     let (unsigned, signed) = if wide { ("ull", "ll") } else { ("u", "") };
-    Some(match literal {
-        Literal::None | Literal::Bytes(_) => return None,
-        Literal::Unsigned(value) => format!("0x{value:X}{unsigned}"),
+    let is_signed = data_type.kind() == Kind::Signed;
+    Some(match *value {
+        Value::Bytes(_) => return None,
+        Value::Unsigned(value) if is_signed => format!("({value}{signed})"),
+        Value::Unsigned(value) => format!("0x{value:X}{unsigned}"),
+        // It fits an unsigned type, so it is not negative.
+        Value::Signed(value) if !is_signed => format!("0x{value:X}{unsigned}"),
         // The smallest number of a type has no literal of its own in C.
-        Literal::Signed(i64::MIN) => "(-9223372036854775807ll - 1ll)".into(),
-        Literal::Signed(value @ -0x8000_0000) => format!("({}{signed} - 1{signed})", value + 1),
-        Literal::Signed(value) => format!("({value}{signed})"),
-        Literal::Real(value) if value.is_finite() => format!("({value:?})"),
-        Literal::Real(_) => return None,
-        Literal::NodeId(offset) => format!("(0x{offset:X}u + (NODE_ID))"),
-        Literal::Text(range) => format!("\"{}\"", c_string(dictionary.text(range))),
+        Value::Signed(i64::MIN) => "(-9223372036854775807ll - 1ll)".into(),
+        Value::Signed(value @ -0x8000_0000) => format!("({}{signed} - 1{signed})", value + 1),
+        Value::Signed(value) => format!("({value}{signed})"),
+        Value::Real(value) if value.is_finite() => format!("({value:?})"),
+        Value::Real(_) => return None,
+        Value::NodeId(offset) => format!("(0x{offset:X}u + (NODE_ID))"),
+        Value::Text(ref text) => format!("\"{}\"", c_string(text)),
     })
 }
 

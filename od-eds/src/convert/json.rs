@@ -1,68 +1,254 @@
-//! A dictionary as JSON: for tools that want tables and no parser.
+//! A description as JSON: for tools that want tables and no parser.
+//!
+//! `docs/odkit-dictionary-2.schema.json` is the schema of the text.
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use od_model::{Dictionary, Entry, Group, Literal};
-use serde_json::{Value, json};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::json;
 
-/// Returns one JSON object: `objects` by index, each with its `entries`. `source` is named in it.
-pub fn write(dictionary: Dictionary<'_>, source: &str) -> Value {
-    let objects: Vec<Value> = dictionary
-        .objects()
-        .map(|object| {
-            let members = dictionary.members(&object);
-            json!({
-                "index": format!("0x{:04X}", object.index),
-                "name": dictionary.text(object.name),
-                "type": object.code.name(),
-                "entries": members.map(|entry| one(dictionary, &entry)).collect::<Vec<_>>(),
-            })
-        })
-        .collect();
-    json!({ "format": "odkit-dictionary/1", "source": source, "objects": objects })
+use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
+use crate::scan::names::List;
+use crate::scan::number::number;
+use crate::span::Spanned;
+use crate::subject::start_value;
+use od_model::{Address, Group};
+
+/// The format's name; its number counts changes that break its readers.
+const FORMAT: &str = "odkit-dictionary/2";
+
+/// Returns the text of one JSON object with all that the description says: file, identity, device,
+/// commissioning, sections and objects. `source` is named in it.
+///
+/// The text is written object by object, so a large description needs no more memory than its text.
+pub fn write(description: &Description, source: &str) -> String {
+    let whole = Whole {
+        description,
+        source,
+    };
+    // A String takes all, and no map here has a key that is not a text.
+    serde_json::to_string_pretty(&whole).unwrap_or_default()
 }
 
-fn one(dictionary: Dictionary<'_>, entry: &Entry) -> Value {
-    let group = match entry.group {
-        Group::None => Value::Null,
-        Group::Communication => "communication".into(),
-        Group::Application => "application".into(),
-        Group::Manufacturer => "manufacturer".into(),
+struct Whole<'a> {
+    description: &'a Description,
+    source: &'a str,
+}
+
+impl Serialize for Whole<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let description = self.description;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("format", FORMAT)?;
+        map.serialize_entry("source", self.source)?;
+        map.serialize_entry("file", &file(description))?;
+        map.serialize_entry("identity", &identity(description))?;
+        map.serialize_entry("device", &device(description))?;
+        map.serialize_entry("commissioning", &commissioning(description))?;
+        let sections: Vec<_> = description.sections.iter().map(section).collect();
+        map.serialize_entry("sections", &sections)?;
+        map.serialize_entry("objects", &Objects(description))?;
+        map.end()
+    }
+}
+
+struct Objects<'a>(&'a Description);
+
+impl Serialize for Objects<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let objects = self.0.objects.iter();
+        serializer.collect_seq(objects.map(|(index, described)| object(*index, described)))
+    }
+}
+
+/// The text of a key; null if it is missing or empty.
+fn text<'a>(section: Option<&'a Section>, key: &str) -> Option<&'a str> {
+    let value = section?.get(key)?.value.trim();
+    (!value.is_empty()).then_some(value)
+}
+
+/// The number of a key; null if it is missing or not a number.
+fn integer(section: Option<&Section>, key: &str) -> serde_json::Value {
+    let found = text(section, key).and_then(number);
+    found.map_or(serde_json::Value::Null, exact)
+}
+
+/// A flag; null if it is missing.
+fn flag(section: Option<&Section>, key: &str) -> Option<bool> {
+    text(section, key).and_then(number).map(|flag| flag != 0)
+}
+
+fn file(description: &Description) -> serde_json::Value {
+    let info = description.section("FileInfo");
+    let made = |what: &str, by: &str| {
+        json!({
+            "date": text(info, &format!("{what}Date")),
+            "time": text(info, &format!("{what}Time")),
+            "by": text(info, by),
+        })
     };
     json!({
-        "sub": entry.address.sub,
-        "name": dictionary.text(entry.name),
-        "dataType": entry.data_type.name(),
-        "bits": entry.data_type.bits(),
-        "access": entry.access.name(),
-        "tpdo": entry.maps_to_tpdo(),
-        "rpdo": entry.maps_to_rpdo(),
-        "default": value(dictionary, entry.default),
-        "low": value(dictionary, entry.low),
-        "high": value(dictionary, entry.high),
-        "storage": group,
+        "name": text(info, "FileName"),
+        "version": text(info, "FileVersion"),
+        "revision": text(info, "FileRevision"),
+        "edsVersion": text(info, "EDSVersion"),
+        "description": text(info, "Description"),
+        "created": made("Creation", "CreatedBy"),
+        "modified": made("Modification", "ModifiedBy"),
     })
 }
 
-/// Numbers as numbers where every JSON reader keeps them exact, else as text.
-fn value(dictionary: Dictionary<'_>, literal: Literal) -> Value {
-    const EXACT: u64 = 1 << 53;
-    match literal {
-        Literal::None => Value::Null,
-        Literal::Unsigned(number) if number <= EXACT => number.into(),
-        Literal::Unsigned(number) => number.to_string().into(),
-        Literal::Signed(number) if number.unsigned_abs() <= EXACT => number.into(),
-        Literal::Signed(number) => number.to_string().into(),
-        Literal::Real(number) if number.is_finite() => number.into(),
-        Literal::Real(number) => number.to_string().into(),
-        Literal::NodeId(offset) => json!({ "nodeIdPlus": offset }),
-        Literal::Text(range) => dictionary.text(range).into(),
-        Literal::Bytes(range) => {
-            let bytes = dictionary.blob(range).iter();
-            let hex: String = bytes.map(|byte| format!("{byte:02X}")).collect();
+fn identity(description: &Description) -> serde_json::Value {
+    let info = description.section("DeviceInfo");
+    json!({
+        "vendorName": text(info, "VendorName"),
+        "vendorNumber": integer(info, "VendorNumber"),
+        "productName": text(info, "ProductName"),
+        "productNumber": integer(info, "ProductNumber"),
+        "revisionNumber": integer(info, "RevisionNumber"),
+        "orderCode": text(info, "OrderCode"),
+    })
+}
+
+fn device(description: &Description) -> serde_json::Value {
+    let info = description.section("DeviceInfo");
+    let rates = info.map_or(&[][..], |info| &info.pairs).iter();
+    let rates = rates.filter_map(|(key, value)| {
+        let (word, rate) = key.split_at_checked("BaudRate_".len())?;
+        let is_rate = word.eq_ignore_ascii_case("BaudRate_") && number(value) == Some(1);
+        rate.parse().ok().filter(|_| is_rate)
+    });
+    let rates: Vec<u32> = rates.collect();
+    json!({
+        "bitRates": rates,
+        "simpleBootUpMaster": flag(info, "SimpleBootUpMaster"),
+        "simpleBootUpSlave": flag(info, "SimpleBootUpSlave"),
+        "granularity": integer(info, "Granularity"),
+        "dynamicChannels": integer(info, "DynamicChannelsSupported"),
+        "groupMessaging": flag(info, "GroupMessaging"),
+        "rpdos": integer(info, "NrOfRXPDO"),
+        "tpdos": integer(info, "NrOfTXPDO"),
+        "lss": flag(info, "LSS_Supported"),
+    })
+}
+
+fn commissioning(description: &Description) -> Option<serde_json::Value> {
+    let found = description.commissioning()?;
+    Some(json!({
+        "nodeId": found.node_id,
+        "nodeName": found.node_name,
+        "bitRate": found.bit_rate,
+        "network": found.network,
+        "networkName": found.network_name,
+        "isManager": found.is_manager,
+        "serialNumber": found.serial_number,
+    }))
+}
+
+/// A section as it is, key by key: the same key may be there twice.
+fn section(section: &Section) -> serde_json::Value {
+    let keys = section.pairs.iter();
+    let keys = keys.map(|(key, value)| json!({ "key": key.value, "value": value.value }));
+    let keys: Vec<_> = keys.collect();
+    json!({ "name": section.name.value, "keys": keys })
+}
+
+fn object(index: u16, object: &ObjectDescription) -> serde_json::Value {
+    let entries = object.entries.iter();
+    let entries = entries.map(|(sub, one)| entry(Address::new(index, *sub), one));
+    let list = match List::of(index) {
+        List::Mandatory => "mandatory",
+        List::Optional => "optional",
+        List::Manufacturer => "manufacturer",
+    };
+    json!({
+        "index": format!("0x{index:04X}"),
+        "name": object.name.value,
+        "type": object.code.name(),
+        "list": list,
+        "subNumber": object.sub_number.map(|number| number.value),
+        "flags": object.flags,
+        "extra": extra(&object.extra),
+        "entries": entries.collect::<Vec<_>>(),
+    })
+}
+
+fn entry(address: Address, entry: &EntryDescription) -> serde_json::Value {
+    let group = match entry.group_at(address) {
+        Group::None => None,
+        Group::Communication => Some("communication"),
+        Group::Application => Some("application"),
+        Group::Manufacturer => Some("manufacturer"),
+    };
+    let data_type = entry.data_type.map(|found| found.value);
+    let mappable = *entry.mappable;
+    json!({
+        "sub": address.sub,
+        "name": entry.name.value,
+        "dataType": data_type.map(|found| found.name()),
+        "bits": data_type.and_then(|found| found.bits()),
+        "access": entry.access.name(),
+        "mappable": mappable,
+        "tpdo": mappable && entry.access.maps_to_tpdo(),
+        "rpdo": mappable && entry.access.maps_to_rpdo(),
+        "default": value(&entry.default),
+        "parameter": value(&entry.parameter),
+        "low": value(&entry.low),
+        "high": value(&entry.high),
+        "maps": maps(address, entry),
+        "storage": group,
+        "flags": entry.flags,
+        "extra": extra(&entry.extra),
+    })
+}
+
+/// The object that a mapping entry maps.
+fn maps(address: Address, entry: &EntryDescription) -> Option<serde_json::Value> {
+    let is_mapping = matches!(address.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+    let Some(Value::Unsigned(mapped @ 1..)) = start_value(entry).map(|value| &value.value) else {
+        return None;
+    };
+    let mapped = u32::try_from(*mapped)
+        .ok()
+        .filter(|_| is_mapping && address.sub > 0)?;
+    Some(json!({
+        "index": format!("0x{:04X}", mapped >> 16),
+        "sub": mapped >> 8 & 0xFF,
+        "bits": mapped & 0xFF,
+    }))
+}
+
+/// Texts of other keys, and those that are not valid, by key.
+fn extra(pairs: &[(String, String)]) -> serde_json::Value {
+    let pairs = pairs.iter();
+    pairs
+        .map(|(key, value)| (key.clone(), serde_json::Value::from(value.as_str())))
+        .collect()
+}
+
+fn value(value: &Option<Spanned<Value>>) -> serde_json::Value {
+    match value.as_deref() {
+        None => serde_json::Value::Null,
+        Some(Value::Unsigned(number)) => exact(i128::from(*number)),
+        Some(Value::Signed(number)) => exact(i128::from(*number)),
+        Some(Value::Real(number)) if number.is_finite() => (*number).into(),
+        Some(Value::Real(number)) => number.to_string().into(),
+        Some(Value::NodeId(offset)) => json!({ "nodeIdPlus": offset }),
+        Some(Value::Text(text)) => text.as_str().into(),
+        Some(Value::Bytes(bytes)) => {
+            let hex: String = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
             json!({ "hex": hex })
         }
+    }
+}
+
+/// A number as one where every JSON reader keeps it exact, else as text.
+fn exact(number: i128) -> serde_json::Value {
+    const EXACT: i128 = 1 << 53;
+    match i64::try_from(number) {
+        Ok(small) if number.abs() <= EXACT => small.into(),
+        _ => number.to_string().into(),
     }
 }

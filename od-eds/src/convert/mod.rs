@@ -4,4 +4,5 @@ pub mod c_header;
 pub mod dcf;
 #[cfg(feature = "json")]
 pub mod json;
+pub mod lost;
 pub mod markdown;

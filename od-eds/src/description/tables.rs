@@ -239,7 +239,7 @@ fn intern(arena: &mut String, text: &str, known: &mut Interned) -> Range {
 }
 
 /// The value, if it is one of the type.
-fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value> {
+pub(crate) fn fitting(value: &Option<Spanned<Value>>, data_type: DataType) -> Option<&Value> {
     value
         .as_ref()
         .map(|value| &value.value)

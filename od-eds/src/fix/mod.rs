@@ -22,7 +22,7 @@ use crate::span::{Span, token_of};
 mod fixed;
 mod plan;
 
-pub use fixed::{Fixed, fix};
+pub use fixed::{Fixed, Held, Why, fix};
 pub use plan::{TextEdit, apply, plan};
 
 /// May a fix be applied without looking at it?

@@ -31,15 +31,41 @@ impl TextEdit {
     }
 }
 
+/// A fix that is to be applied.
+pub(super) struct Choice {
+    /// Which finding it belongs to.
+    pub(super) finding: usize,
+    pub(super) edits: Vec<TextEdit>,
+}
+
 /// The replacements of all fixes that can be applied at once, in the order of the text.
 ///
 /// Of two fixes that meet, the first is applied; the other is for the next round.
 pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextEdit> {
+    let chosen = choose(text, findings, level, |_| true).into_iter();
+    let mut planned: Vec<TextEdit> = chosen.flat_map(|choice| choice.edits).collect();
+    planned.sort_by_key(|edit| (edit.start, edit.end));
+    planned
+}
+
+/// The fixes that can be applied at once, of the findings that `may` be fixed.
+pub(super) fn choose(
+    text: &str,
+    findings: &[Finding],
+    level: Applicability,
+    may: impl Fn(&Finding) -> bool,
+) -> Vec<Choice> {
     let mut planned: Vec<TextEdit> = Vec::new();
-    for fix in findings.iter().filter_map(|d| applies(d, level)) {
-        let Some(edits) = fix.text_edits(text) else {
+    let mut chosen = Vec::new();
+    let fixable = findings
+        .iter()
+        .enumerate()
+        .filter_map(|(at, finding)| Some((at, finding, applies(finding, level)?)));
+    for (finding, _, fix) in fixable.filter(|(_, finding, _)| may(finding)) {
+        let Some(mut edits) = fix.text_edits(text) else {
             continue;
         };
+        edits.retain(|edit| text.get(edit.start as usize..edit.end as usize) != Some(&edit.text));
         // Sorted, and apart from each other: only the neighbours count.
         let near = |edit: &TextEdit| {
             let from = planned.partition_point(|other| other.end < edit.start);
@@ -53,14 +79,15 @@ pub fn plan(text: &str, findings: &[Finding], level: Applicability) -> Vec<TextE
         if edits.iter().all(made) || !edits.iter().all(free) {
             continue;
         }
-        for edit in edits {
+        for edit in &edits {
             // Sorted by place; behind what was put there before.
             let key = (edit.start, edit.end);
             let at = planned.partition_point(|other| (other.start, other.end) <= key);
-            planned.insert(at, edit);
+            planned.insert(at, edit.clone());
         }
+        chosen.push(Choice { finding, edits });
     }
-    planned
+    chosen
 }
 
 impl Fix {

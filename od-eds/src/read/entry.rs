@@ -12,20 +12,30 @@ use crate::read::fields::Fields;
 use crate::read::values;
 use crate::read::words;
 use crate::rules;
+use crate::rules::standard::table;
 use crate::rules::structure::w0315;
 use crate::rules::text::w0109;
-use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416};
+use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416, w0426};
 use crate::scan::number;
 use crate::scan::number::Note;
 use crate::scan::placed;
 use crate::scan::placed::Text;
-use crate::span::Spanned;
+use crate::span::{Span, Spanned};
 use od_model::{Access, Address, DataType, Kind, ObjectCode};
 
 /// Destination of the findings of one section, and the object that it is about.
 pub(crate) struct Reader<'a> {
     pub(crate) address: Address,
     pub(crate) log: &'a mut Log,
+}
+
+/// Where the type of a section comes from that gives none.
+#[derive(Clone, Copy)]
+pub(crate) enum Assumed {
+    /// It is a DOMAIN.
+    Domain,
+    /// The standard's type of a sub-index, or of the one value of a VAR.
+    Standard { sub: u8, is_whole: bool },
 }
 
 /// Values that could not be read, kept as text.
@@ -67,12 +77,11 @@ impl Reader<'_> {
         &mut self,
         fields: &mut Fields<'_>,
         name: Spanned<String>,
-        assumed: Option<DataType>,
+        assumed: Assumed,
     ) -> (EntryDescription, Unread) {
         let mut unread = Vec::new();
         let data_type = match self.data_type(fields, &mut unread) {
-            // An object of code DOMAIN may leave its type out.
-            None if unread.is_empty() => assumed.map(Spanned::from),
+            None if unread.is_empty() => self.assumed(assumed, fields.header).map(Spanned::from),
             given => given,
         };
         let access = self.access(fields, &mut unread);
@@ -98,6 +107,19 @@ impl Reader<'_> {
             span: fields.header,
         };
         (entry, unread)
+    }
+
+    /// The type of a section that gives none.
+    fn assumed(&mut self, assumed: Assumed, header: Span) -> Option<DataType> {
+        match assumed {
+            // An object of code DOMAIN may leave its type out.
+            Assumed::Domain => Some(DataType::Domain),
+            Assumed::Standard { sub, is_whole } => {
+                let found = table::data_type(self.address.index, sub, is_whole)?;
+                self.report(w0426::finding(header, found));
+                Some(found)
+            }
+        }
     }
 
     /// The value of a key, if the section has it; one that cannot be read is reported and
@@ -309,9 +331,13 @@ fn unfit(key: Key, given: &Text<'_>, data_type: Spanned<DataType>) -> Finding {
         Key::ParameterValue => &rules::E0413,
         _ => &rules::W0416,
     };
-    let finding = match formula {
-        true => shared::unfit_formula(rule, key, given, data_type),
-        false => shared::unfit(rule, key, &*given.value, given.span, data_type),
+    let meant = number::meant_node_id(given).filter(|_| data_type.holds_node_id());
+    let finding = match meant {
+        Some(offset) => shared::unfit_formula(rule, key, given, data_type)
+            .form(&shared::MEANT)
+            .fact("offset", offset),
+        None if formula => shared::unfit_formula(rule, key, given, data_type),
+        None => shared::unfit(rule, key, &*given.value, given.span, data_type),
     };
     match key {
         Key::LowLimit | Key::HighLimit => w0416::emptied(finding),

@@ -9,13 +9,13 @@ use crate::fact::Key;
 use crate::log::Log;
 use crate::read::compact;
 use crate::read::compact::CompactSections;
-use crate::read::entry::{Reader, Unread, extra};
+use crate::read::entry::{Assumed, Reader, Unread, extra};
 use crate::read::fields::Fields;
 use crate::rules::lists::e0208;
 use crate::rules::structure::{e0301, e0305, e0353, w0302, w0316, w0317, w0322};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
-use od_model::{Address, DataType, ObjectCode};
+use od_model::{Address, ObjectCode};
 
 /// The sections of one object.
 #[derive(Default)]
@@ -57,7 +57,11 @@ pub(crate) fn object(
     let mut flags = 0;
     let count = count.map(|count| room(&mut reader, count));
     if let Some(count) = &count {
-        let template = reader.entry(&mut fields, name.clone(), None);
+        let members = Assumed::Standard {
+            sub: 1,
+            is_whole: false,
+        };
+        let template = reader.entry(&mut fields, name.clone(), members);
         flags = template.0.flags;
         entries = compact::expand(
             reader.address,
@@ -68,7 +72,11 @@ pub(crate) fn object(
         );
     } else if mistaken && fields.has("DataType") && !members.contains_key(&0) {
         // What was said of the VAR is said of sub-index 0, where a VAR has its value.
-        let (mut entry, more) = reader.entry(&mut fields, name.clone(), None);
+        let whole = Assumed::Standard {
+            sub: 0,
+            is_whole: true,
+        };
+        let (mut entry, more) = reader.entry(&mut fields, name.clone(), whole);
         entry.extra = extra(Vec::new(), more);
         entries.insert(0, entry);
     } else {
@@ -144,7 +152,10 @@ fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescript
     let mut reader = Reader { address, log };
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
-    let mut assumed = None;
+    let mut assumed = Assumed::Standard {
+        sub: address.sub,
+        is_whole: false,
+    };
     if let Some(given) = fields.take("ObjectType") {
         let code = reader.object_code(&given);
         if !matches!(code, Some(ObjectCode::Var | ObjectCode::Domain)) {
@@ -155,7 +166,7 @@ fn member(address: Address, section: Placed<'_>, log: &mut Log) -> EntryDescript
             unread.push(("ObjectType".into(), given.value.into_owned()));
         }
         if code == Some(ObjectCode::Domain) {
-            assumed = Some(DataType::Domain);
+            assumed = Assumed::Domain;
         }
     }
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
@@ -173,8 +184,11 @@ fn var(
     mut unread: Unread,
 ) -> ObjectDescription {
     let assumed = match *code {
-        ObjectCode::Domain => Some(DataType::Domain),
-        _ => None,
+        ObjectCode::Domain => Assumed::Domain,
+        _ => Assumed::Standard {
+            sub: 0,
+            is_whole: true,
+        },
     };
     let (mut entry, mut more) = reader.entry(&mut fields, name, assumed);
     unread.append(&mut more);

@@ -312,15 +312,13 @@ pub fn nearest<'a>(
 
 /// Number of letters that differ; above `most`, any number above it.
 fn distance(a: &str, b: &str, most: usize) -> usize {
-    if a.len().abs_diff(b.len()) > most || a.len() > 40 {
-        return most + 1;
-    }
     // Fast, for texts with millions of keys: a wrong letter changes two bits at most.
     let letters = |text: &str| {
-        let bits = text.bytes().map(|b| 1u64 << (b.to_ascii_lowercase() % 64));
-        bits.fold(0, |all, bit| all | bit)
+        let bytes = text.bytes().map(|b| b.to_ascii_lowercase() % 64);
+        bytes.fold(0u64, |all, bit| all | 1 << bit)
     };
-    if (letters(a) ^ letters(b)).count_ones() as usize > 2 * most {
+    let far = || (letters(a) ^ letters(b)).count_ones() as usize > 2 * most;
+    if a.len().abs_diff(b.len()) > most || a.len() > 40 || far() {
         return most + 1;
     }
     let lower = |text: &str| -> Vec<u8> { text.bytes().map(|b| b.to_ascii_lowercase()).collect() };

@@ -191,6 +191,26 @@ pub(crate) fn node_id(text: &str, notes: &mut Vec<Note>) -> Option<Result<u32, (
     Some(u32::try_from(offset).map_err(|_| ()))
 }
 
+/// The offset in `$MY_NODE_ID+n`, where a name of its own stands for the node ID; `None` for
+/// anything else than one name and numbers.
+pub(crate) fn meant_node_id(text: &str) -> Option<u32> {
+    let is_name = |part: &str| {
+        let own = |b: u8| b.is_ascii_alphanumeric() || b"$_ ".contains(&b);
+        let node = part.to_ascii_uppercase().contains("NODE");
+        part.bytes().all(own) && (part.starts_with('$') || node)
+    };
+    let (names, numbers): (Vec<&str>, Vec<&str>) = text
+        .split('+')
+        .map(str::trim)
+        .partition(|part| is_name(part));
+    let mut offset = 0;
+    for number in &numbers {
+        offset += integer(number, &mut Vec::new())?.value;
+    }
+    let one = names.len() == 1 && !numbers.is_empty();
+    one.then(|| u32::try_from(offset).ok())?
+}
+
 /// A number of a section that describes no object, however it is written.
 pub(crate) fn number(text: &str) -> Option<i128> {
     let mut notes = Vec::new();

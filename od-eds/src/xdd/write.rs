@@ -302,7 +302,7 @@ fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
     let mut attributes = vec_of([
         (
             "dataType",
-            data_type.map_or(String::new(), |t| format!("{:04X}", t.code())),
+            data_type.map_or_else(|| unknown_type(entry), |t| format!("{:04X}", t.code())),
         ),
         ("accessType", access.into()),
         ("PDOmapping", mapping.into()),
@@ -323,6 +323,17 @@ fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
         attributes.push(("uniqueIDRef", id(address)));
     }
     attributes
+}
+
+/// The hexadecimal digits of a type that odkit does not know; empty without one.
+fn unknown_type(entry: &EntryDescription) -> String {
+    let found = entry
+        .extra
+        .iter()
+        .find(|(key, _)| key.eq_ignore_ascii_case("DataType"));
+    let number = found.and_then(|(_, text)| crate::scan::number::number(text));
+    let number = number.and_then(|number| u16::try_from(number).ok());
+    number.map_or(String::new(), |number| format!("{number:04X}"))
 }
 
 fn flags(flags: u32) -> String {

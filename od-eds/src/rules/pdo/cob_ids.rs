@@ -17,7 +17,9 @@ const EXTENDED: u32 = 1 << 29;
 pub(super) struct CobId<'a> {
     pub(super) entry: Entry<'a>,
     pub(super) span: Span,
-    /// Without the flags in bits 29 to 31.
+    /// With the flags in bits 29 to 31.
+    pub(super) value: u32,
+    /// Without them.
     pub(super) identifier: u32,
     pub(super) extended: bool,
     /// Does it depend on the node ID?
@@ -71,6 +73,7 @@ pub(super) fn cob_ids(description: &Description) -> impl Iterator<Item = CobId<'
         valid.then_some(CobId {
             entry,
             span,
+            value: number,
             identifier: number & 0x1FFF_FFFF,
             extended: number & EXTENDED != 0,
             formula,

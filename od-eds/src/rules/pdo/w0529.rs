@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0529",
     severity: Warning,
     title: "PDO waits for SYNC, but 1005h is missing",
-    why: "Transmission types 0 to 240, 252 and 253 depend on SYNC, whose COB-ID is in 1005h.",
+    why: "Transmission types 0 to 240 and 252 depend on SYNC, whose COB-ID is in 1005h. Type 253 does not: its PDO is sent at the request.",
     source: "CiA 301, PDO communication parameter",
     says: "transmission type {given} needs object 1005h (COB-ID SYNC message)",
     help: "add {missing}, or write a transmission type without SYNC, such as 255",
@@ -25,7 +25,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     }
     let address = Address::new(object.index, 2);
     if let Some(given) = start_number(description, address)
-        && matches!(given.value, 0..=240 | 252 | 253)
+        && matches!(given.value, 0..=240 | 252)
     {
         findings.push(
             RULE.on(object, given.span)

@@ -1,7 +1,7 @@
 //! 06: mandatory and standard objects, identity, `[DeviceInfo]`. One file per rule.
 
 mod shared;
-mod table;
+pub(crate) mod table;
 
 catalogue! {
     e0601 E0601

@@ -68,6 +68,43 @@ impl Standard {
     }
 }
 
+/// The type of a value of an object of the standards, or of a member of the records 0020h to
+/// 0023h; `is_whole` if it is the one value of a VAR.
+pub(crate) fn data_type(index: u16, sub: u8, is_whole: bool) -> Option<DataType> {
+    let members = match (index, is_whole) {
+        (0x20, false) => TPDO,
+        (0x22, false) => SDO_CLIENT,
+        (0x23, false) => IDENTITY,
+        (0x21, false) => &[],
+        _ => {
+            let standard = of(index)?;
+            return match (&standard.members, is_whole, sub) {
+                (Members::Var(value), true, _) => Some(value.data_type),
+                (Members::Var(_), false, _) | (_, true, _) => None,
+                (_, _, 0) => Some(Unsigned8),
+                (Members::Record([]), _, _) => mapped(sub),
+                _ => standard.value(sub).map(|value| value.data_type),
+            };
+        }
+    };
+    match (sub, members) {
+        (0, _) => Some(Unsigned8),
+        (_, []) => mapped(sub),
+        _ => {
+            let found = members.iter().find(|(known, _, _)| *known == sub);
+            found.map(|(_, value, _)| value.data_type)
+        }
+    }
+}
+
+/// The type of a mapping entry.
+const fn mapped(sub: u8) -> Option<DataType> {
+    match sub {
+        1..=64 => Some(Unsigned32),
+        _ => None,
+    }
+}
+
 /// The entry of an index.
 pub(super) fn of(index: u16) -> Option<&'static Standard> {
     let at = TABLE.partition_point(|entry| entry.last < index);

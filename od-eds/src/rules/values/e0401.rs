@@ -3,7 +3,8 @@ use alloc::vec::Vec;
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::subject::{Entry, is_definition};
-use od_model::DataType;
+use crate::span::Span;
+use od_model::{Address, DataType};
 
 pub(crate) static RULE: Rule = Rule {
     code: "E0401",
@@ -21,7 +22,12 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     // An unknown DataType was found by the reader.
     let missing = entry.data_type.is_none() && !entry.is_unread(Key::DataType);
     if missing && !is_definition(entry.object) {
-        let finding = RULE.on(entry, entry.span);
-        findings.push(finding.fact("right", DataType::Unsigned32));
+        findings.push(finding(entry.address, entry.span));
     }
+}
+
+/// The finding about a value without a type.
+pub(crate) fn finding(address: Address, section: Span) -> Finding {
+    let finding = RULE.at(section).about(address);
+    finding.fact("right", DataType::Unsigned32)
 }

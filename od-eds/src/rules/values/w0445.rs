@@ -13,17 +13,15 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, AccessType",
     fixability: Fixability::Unsafe,
     says: "{AccessType} `{access}` gives a PDO direction, but the object is not mappable",
-    help: "write `{PDOMapping=1}`{fix}, or `{AccessType=rw}`",
+    help: "write `{AccessType=rw}`{fix}, or `{PDOMapping=1}` if the object is mappable",
     check: Check::Entry(check),
     ..Rule::NEW
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     if matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable {
-        let fix = match entry.mappable.span.line {
-            0 => Fix::unsafe_fix().below(entry.access.span, "PDOMapping=1"),
-            _ => Fix::unsafe_fix().replace(entry.mappable.span, "1"),
-        };
+        // PDOMapping is what the vendor says; the direction is what no tool uses then.
+        let fix = Fix::unsafe_fix().replace(entry.access.span, "rw");
         let finding = RULE
             .on(entry, entry.access.span)
             .fact("access", *entry.access);

@@ -1,0 +1,39 @@
+//! The objects of a file that another form of it lacks.
+
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::Finding;
+use crate::rules::values::e0401;
+use od_model::{Address, Kind};
+
+/// The findings of all objects that were left out while a file was read: what no form has.
+pub fn unread(findings: &[Finding]) -> Vec<Finding> {
+    let lost = findings
+        .iter()
+        .filter(|finding| matches!(finding.code(), "E0113" | "E0114" | "E0353"));
+    lost.cloned().collect()
+}
+
+/// The findings of all values without a usable type, which [`Tables`](crate::Tables) and all that
+/// is made of it leave out; `findings` are those of the description. Each value has one finding.
+pub fn untyped(description: &Description, findings: &[Finding]) -> Vec<Finding> {
+    let is_lost = |address: Address| {
+        let data_type = description.entry(address)?.data_type;
+        Some(data_type.is_none_or(|data_type| data_type.kind() == Kind::Record))
+    };
+    let mut lost: Vec<Finding> = Vec::new();
+    let about = findings
+        .iter()
+        .filter(|finding| matches!(finding.code(), "E0401" | "E0402" | "E0403"))
+        .filter(|finding| finding.object.and_then(is_lost) == Some(true));
+    lost.extend(about.cloned());
+    let known: alloc::collections::BTreeSet<_> = lost.iter().map(|one| one.object).collect();
+    // The description of a type needs no type, and has no finding.
+    let others = description
+        .entries()
+        .filter(|(address, _)| is_lost(*address) == Some(true) && !known.contains(&Some(*address)));
+    lost.extend(others.map(|(address, entry)| e0401::finding(address, entry.span)));
+    crate::finding::sort(&mut lost);
+    lost
+}
