@@ -187,7 +187,7 @@ mod tests {
             [DeviceComissioning]\nNodeID=5\n\n\
             [Mine]\nOwn=kept\n\n\
             [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n\n\
-            [1000]\nParameterName=\nObjectType=0x7\nAccessType=ro\nPDOMapping=0\n\n\
+            [1000]\nParameterName=\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nPDOMapping=0\n\n\
             [OptionalObjects]\nSupportedObjects=0\n\n\
             [ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\n\
             [2000]\nParameterName=Gain\nObjectType=0x8\nSubNumber=2\n\n\
