@@ -23,10 +23,9 @@ impl Document {
     /// use od_eds::Document;
     ///
     /// let file = Document::new(&b"[a]\nx=\xB5\nfoo\n"[..]);
-    /// let foo = file.load().findings[1].span().unwrap();
-    /// assert_eq!((foo.start, foo.end), (9, 12));
-    /// let foo = file.offsets().span(foo);
-    /// assert_eq!(&file.bytes()[foo.start as usize..foo.end as usize], b"foo");
+    /// let foo = file.text().find("foo").unwrap();
+    /// assert_eq!((foo, file.offsets().byte(foo)), (9, 8));
+    /// assert_eq!(&file.bytes()[8..11], b"foo");
     /// ```
     pub fn offsets(&self) -> Offsets<'_> {
         let mut known = Vec::new();
