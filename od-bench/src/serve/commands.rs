@@ -52,6 +52,7 @@ impl Live {
                 name: &client.name,
                 protocol: client.protocol.name(),
                 dropped: client.lost,
+                missed: client.port.missed(),
             })
             .collect();
         if json {

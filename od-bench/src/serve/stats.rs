@@ -30,6 +30,8 @@ pub(super) struct Guest<'c> {
     pub(super) protocol: &'static str,
     /// Messages that odkit dropped since it does not read.
     pub(super) dropped: u64,
+    /// Frames of its link that the system dropped before odkit read them.
+    pub(super) missed: u64,
 }
 
 /// The figures.
@@ -114,6 +116,7 @@ impl Stats {
                 ("protocol", guest.protocol.into()),
                 ("frames", sent.frames.into()),
                 ("dropped", guest.dropped.into()),
+                ("missed", guest.missed.into()),
                 ("sdo_requests", sent.requests.into()),
                 ("sdo_aborts", sent.aborts.into()),
             ])
@@ -154,11 +157,12 @@ impl Stats {
             let sent = self.of(guest);
             let _ = writeln!(
                 text,
-                "{} ({}): {} sent, {} dropped, {}, {}",
+                "{} ({}): {} sent, {} dropped, {} missed, {}, {}",
                 guest.name,
                 guest.protocol,
                 plural(sent.frames as usize, "frame"),
                 guest.dropped,
+                guest.missed,
                 plural(sent.requests as usize, "SDO request"),
                 plural(sent.aborts as usize, "abort"),
             );

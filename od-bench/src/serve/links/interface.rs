@@ -125,6 +125,10 @@ impl Interface {
 }
 
 impl Port for Interface {
+    fn missed(&self) -> u64 {
+        self.dropped.into()
+    }
+
     fn register(&mut self, events: &Registry, token: Token, _: &Arc<Waker>) -> io::Result<()> {
         events.register(&mut SourceFd(&self.socket.as_raw_fd()), token, BOTH)
     }

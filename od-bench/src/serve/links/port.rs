@@ -23,6 +23,11 @@ pub(in crate::serve) trait Port {
     /// Writes what it can of `bytes`.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize>;
 
+    /// Returns how many frames the system dropped because odkit did not read them in time.
+    fn missed(&self) -> u64 {
+        0
+    }
+
     /// Can another one come after the other end has left?
     fn outlives_hosts(&self) -> bool {
         false
