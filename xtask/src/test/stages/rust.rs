@@ -137,7 +137,7 @@ pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
 
 /// The profile for tests is enough to see that they work.
 pub(super) fn bench(context: &Context<'_>) -> Result<()> {
-    let args = ["test", "--package", BENCHES, "--benches"];
+    let args = ["test", "--package", BENCHES, "--tests", "--benches"];
     run(context, "benchmarks", &args)
 }
 
