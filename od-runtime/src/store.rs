@@ -200,6 +200,11 @@ impl<'a> Store<'a> {
         put(self.values, entry, bytes)
     }
 
+    /// The place for a value of this length, to be filled at once.
+    pub(crate) fn room(&mut self, entry: &Entry, len: usize) -> Option<&mut [u8]> {
+        room(self.values, entry, len).ok()
+    }
+
     /// The number at an address: 0 where the object is missing or no integer.
     pub fn unsigned(&self, index: u16, sub: u8) -> u64 {
         self.try_unsigned(index, sub).unwrap_or(0)
@@ -298,26 +303,27 @@ fn default_bytes<'b>(
 }
 
 fn put(values: &mut [u8], entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
+    room(values, entry, bytes.len())?.copy_from_slice(bytes);
+    Ok(())
+}
+
+/// The place for a value of this length, which a string has from now on.
+fn room<'v>(values: &'v mut [u8], entry: &Entry, len: usize) -> Result<&'v mut [u8], AbortCode> {
     let to = slot_mut(values, entry.slot)
         .filter(|to| !to.is_empty())
         .ok_or(AbortCode::ReadOnly)?;
-    let room = if entry.is_variable() {
+    if entry.is_variable() {
         let [low, high, room @ ..] = to else {
             return Err(AbortCode::TooLong);
         };
-        if bytes.len() > room.len() {
-            return Err(AbortCode::TooLong);
-        }
+        let room = room.get_mut(..len).ok_or(AbortCode::TooLong)?;
         // The room is shorter than 64 KiB, so the length fits.
-        [*low, *high] = (bytes.len() as u16).to_le_bytes();
-        &mut room[..bytes.len()]
-    } else {
-        match bytes.len().cmp(&to.len()) {
-            core::cmp::Ordering::Less => return Err(AbortCode::TooShort),
-            core::cmp::Ordering::Greater => return Err(AbortCode::TooLong),
-            core::cmp::Ordering::Equal => to,
-        }
-    };
-    room.copy_from_slice(bytes);
-    Ok(())
+        [*low, *high] = (len as u16).to_le_bytes();
+        return Ok(room);
+    }
+    match len.cmp(&to.len()) {
+        core::cmp::Ordering::Less => Err(AbortCode::TooShort),
+        core::cmp::Ordering::Greater => Err(AbortCode::TooLong),
+        core::cmp::Ordering::Equal => Ok(to),
+    }
 }

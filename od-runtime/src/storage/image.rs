@@ -104,7 +104,7 @@ pub fn load(
 ) -> Result<Loaded, StorageError> {
     let banks = Banks::survey(storage)?;
     let mut skipped = 0u16;
-    let mut value = [0; MAX_VALUE];
+    let mut number = [0; 8];
     let mut records = banks.records();
     while let Some(record) = records.next(storage)? {
         if record.address.index == OWN {
@@ -113,8 +113,22 @@ pub fn load(
         let entry = store.dictionary().find(record.address).ok();
         match entry.as_ref().filter(|entry| is_saved(entry)) {
             Some(entry) if !which(entry) || banks.is_cut() && !is_life_record(entry) => {}
-            Some(entry) if record.len <= MAX_VALUE => {
-                let value = &mut value[..record.len];
+            // A string goes straight to its place: there is no room for it on a small stack.
+            Some(entry) if entry.is_variable() && record.len <= MAX_VALUE => {
+                let read = store
+                    .room(entry, record.len)
+                    .map(|room| storage.read(record.at, room));
+                match read {
+                    Some(Ok(())) => {}
+                    Some(Err(error)) => {
+                        store.reset_entry(entry);
+                        return Err(error);
+                    }
+                    None => skipped = skipped.saturating_add(1),
+                }
+            }
+            Some(entry) if record.len <= number.len() => {
+                let value = &mut number[..record.len];
                 storage.read(record.at, value)?;
                 if !cob_id::restore(store, entry, profile.cob_ids, value)
                     || limits::check(store, entry, value).is_err()
