@@ -66,9 +66,6 @@ impl Entry {
     /// Bytes of the longest value that the entry can have, without the two of a string's length
     /// in the store; the seven of a segment where the value is streamed.
     pub const fn longest(&self) -> usize {
-        if self.is_streamed() {
-            return 7;
-        }
         if let Some(size) = self.data_type.size() {
             return size;
         }
@@ -77,6 +74,7 @@ impl Entry {
             Literal::Text(range) | Literal::Bytes(range) if range.len as usize > capacity => {
                 range.len as usize
             }
+            _ if self.is_streamed() => 7,
             _ => capacity,
         }
     }

@@ -122,7 +122,8 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.begin(address);
                 match self.upload(objects, address) {
                     Ok(answer) => Some(answer),
-                    Err(why) => self.handle_unread(objects, why, data, dlc),
+                    Err(Unread::Abort(code)) => Some(self.abort(objects, code)),
+                    Err(Unread::Streamed) => self.handle_streamed(objects, data, dlc),
                 }
             }
             _ => self.handle_other(objects, data, dlc),
@@ -145,11 +146,11 @@ impl<D: Device, const N: usize> Server<D, N> {
             }
             return None;
         }
-        let answer = match self.transfer {
+        let answer = match &self.transfer {
             Transfer::BlockDownload(block)
                 if D::BLOCK && block.wants_segments() && data[0] != ABORT =>
             {
-                self.block_segment(objects, block, data)
+                self.block_segment(objects, data)
             }
             _ if D::STREAMS && data[0] >> 5 == 2 => {
                 self.close(objects, StreamEnd::Replaced);
@@ -179,7 +180,9 @@ impl<D: Device, const N: usize> Server<D, N> {
             Ok(response) => response.map(Response::emit),
             Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
             Err(Halt::Until(at)) => {
-                self.await_stream(at, Some((*data, dlc)));
+                if D::STREAMS {
+                    self.await_stream(at, Some((*data, dlc)));
+                }
                 None
             }
         };
@@ -199,8 +202,8 @@ impl<D: Device, const N: usize> Server<D, N> {
     /// Finds out whether the next frame needs a closer look.
     fn look(&mut self) {
         self.is_busy = self.late.is_awaited()
-            || self.is_streaming
-            || matches!(self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
+            || self.streams()
+            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
     }
 
     /// A new transfer takes the place of one that was not finished.
@@ -255,21 +258,19 @@ impl<D: Device, const N: usize> Server<D, N> {
         .emit())
     }
 
+    /// An upload of a value that the application streams.
     #[cold]
-    fn handle_unread(
+    fn handle_streamed(
         &mut self,
         objects: &mut Objects<'_, D>,
-        why: Unread,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        match why {
-            Unread::Abort(code) => Some(self.abort(objects, code)),
-            Unread::Streamed => {
-                let answer = self.stream_upload(objects);
-                self.settle(objects, answer, data, dlc)
-            }
+        if !D::STREAMS {
+            return None;
         }
+        let answer = self.stream_upload(objects);
+        self.settle(objects, answer, data, dlc)
     }
 
     #[cold]
@@ -290,24 +291,22 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// The next segment of a block upload, if one is due, or an abort.
     pub(crate) fn poll(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        let Transfer::BlockUpload(mut block) = self.transfer else {
+        let Transfer::BlockUpload(block) = &self.transfer else {
             return None;
         };
-        let at = block.due()?;
+        let (at, len) = (block.due()?, block.len());
         if self.late.is_awaited() {
             return None;
         }
-        let answer = match self.part(objects, at, block.len()) {
-            Ok(rest) => Some(block.segment(rest)),
-            Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
-            Err(Halt::Until(at)) => {
+        let answer = match (self.fetch(objects, at, len), &mut self.transfer) {
+            (Ok(()), Transfer::BlockUpload(block)) => Some(block.segment(self.window.from(at))),
+            (Err(Halt::Abort(code)), _) => Some(self.abort(objects, code)),
+            (Err(Halt::Until(at)), _) if D::STREAMS => {
                 self.await_stream(at, None);
                 None
             }
+            _ => None,
         };
-        if let Transfer::BlockUpload(sending) = &mut self.transfer {
-            *sending = block;
-        }
         self.look();
         answer
     }

@@ -21,7 +21,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         dlc: u8,
     ) -> Answer {
         let profile = objects.profile().sdo;
-        match (request, self.transfer) {
+        match (request, &mut self.transfer) {
             (
                 Request::InitiateDownload {
                     address,
@@ -39,21 +39,24 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.transfer = Transfer::Download(Download::new(size));
                 Ok(Some(Response::InitiateDownload { address }))
             }
-            (Request::UploadSegment { toggle }, Transfer::Upload(mut upload)) if D::SEGMENTED => {
+            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) if D::SEGMENTED => {
                 upload.check(toggle)?;
-                let segment = upload.segment(self.part(objects, upload.sent(), upload.len())?);
-                self.transfer = Transfer::Upload(upload);
+                let (at, len) = (upload.sent(), upload.len());
+                self.fetch(objects, at, len)?;
+                let Transfer::Upload(upload) = &mut self.transfer else {
+                    return Ok(None);
+                };
+                let segment = upload.segment(self.window.from(at));
                 if upload.is_over() {
                     self.close(objects, StreamEnd::Complete);
                 }
                 Ok(Some(segment))
             }
-            (Request::DownloadSegment(segment), Transfer::Download(mut download))
-                if D::SEGMENTED =>
-            {
+            (Request::DownloadSegment(segment), Transfer::Download(download)) if D::SEGMENTED => {
+                let mut download = *download;
                 let bytes = segment.bytes();
                 download.check(&segment, self.window.end() + bytes.len())?;
-                if self.is_streaming && bytes.len() > self.window.room() {
+                if self.streams() && bytes.len() > self.window.room() {
                     self.pass_on(objects)?;
                 }
                 self.window.put(bytes)?;
@@ -91,18 +94,14 @@ impl<D: Device, const N: usize> Server<D, N> {
                     size: Some(len as u32),
                 }))
             }
-            (Request::StartBlockUpload, Transfer::BlockUpload(mut block)) if D::BLOCK => {
+            (Request::StartBlockUpload, Transfer::BlockUpload(block)) if D::BLOCK => {
                 block.start()?;
-                self.transfer = Transfer::BlockUpload(block);
                 Ok(None)
             }
-            (
-                Request::BlockUploadResponse { ack, block_size },
-                Transfer::BlockUpload(mut block),
-            ) if D::BLOCK => {
-                let end = block.acknowledged(ack, block_size)?;
-                self.transfer = Transfer::BlockUpload(block);
-                Ok(end)
+            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block))
+                if D::BLOCK =>
+            {
+                Ok(block.acknowledged(ack, block_size)?)
             }
             (Request::EndBlockUpload, Transfer::BlockUpload(block))
                 if D::BLOCK && block.is_complete() =>
@@ -149,7 +148,9 @@ impl<D: Device, const N: usize> Server<D, N> {
         dlc: u8,
     ) -> Answer {
         let had_begun = match self.transfer {
-            Transfer::Expedited(len) if address == self.address => Some(usize::from(len)),
+            Transfer::Expedited(len) if D::STREAMS && address == self.address => {
+                Some(usize::from(len))
+            }
             _ => None,
         };
         if had_begun.is_none() {
@@ -208,33 +209,31 @@ impl<D: Device, const N: usize> Server<D, N> {
     }
 
     /// A segment of a block download.
-    pub(super) fn block_segment(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        mut block: BlockDownload,
-        data: &[u8; 8],
-    ) -> Answer {
-        let is_over = block.segment(&mut self.window, data)?;
-        self.transfer = Transfer::BlockDownload(block);
-        if !is_over {
+    pub(super) fn block_segment(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
+        let Transfer::BlockDownload(block) = &mut self.transfer else {
+            return Ok(None);
+        };
+        if !block.segment(&mut self.window, data)? {
             return Ok(None);
         }
         // What is last waits for its length and the checksum.
-        if self.is_streaming && block.wants_segments() {
+        if D::STREAMS && self.is_streaming && block.wants_segments() {
+            let mut block = *block;
             block.check_size(&self.window)?;
-            let crc = crc16_after(block.crc_before, self.window.first(self.window.len));
+            block.crc_before = crc16_after(block.crc_before, self.window.first(self.window.len));
             self.pass_on(objects)?;
-            block.crc_before = crc;
+            self.transfer = Transfer::BlockDownload(block);
         }
-        let response = block.confirm(self.window.room());
-        self.transfer = Transfer::BlockDownload(block);
-        Ok(Some(response))
+        let Transfer::BlockDownload(block) = &mut self.transfer else {
+            return Ok(None);
+        };
+        Ok(Some(block.confirm(self.window.room())))
     }
 
     /// A download is complete with the first `len` bytes of the buffer: they are written, and
     /// the transfer ends.
     fn complete(&mut self, objects: &mut Objects<'_, D>, len: usize) -> Result<(), Halt> {
-        if self.is_streaming {
+        if self.streams() {
             self.give(objects, len, true)?;
             objects.streamed(self.address);
         } else {

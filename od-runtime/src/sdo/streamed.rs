@@ -12,6 +12,11 @@ use crate::objects::Objects;
 use crate::store::little_endian;
 
 impl<D: Device, const N: usize> Server<D, N> {
+    /// Whether the application streams the value of the transfer.
+    pub(super) fn streams(&self) -> bool {
+        D::STREAMS && self.is_streaming
+    }
+
     /// Begins to read from the stream. Returns the length of the value.
     pub(super) fn open_stream(&mut self, objects: &mut Objects<'_, D>) -> Result<usize, Halt> {
         if !D::STREAMS {
@@ -31,8 +36,11 @@ impl<D: Device, const N: usize> Server<D, N> {
         let mut expedited = None;
         if (1..=4).contains(&len) {
             // One that cannot be had now goes in a segment.
-            match self.part(objects, 0, len) {
-                Ok(bytes) => expedited = Some((little_endian(bytes) as u32).to_le_bytes()),
+            match self.fetch(objects, 0, len) {
+                Ok(()) => {
+                    let value = little_endian(self.window.from(0)) as u32;
+                    expedited = Some(value.to_le_bytes());
+                }
                 Err(Halt::Until(_)) => {}
                 Err(halt) => return Err(halt),
             }
@@ -52,14 +60,15 @@ impl<D: Device, const N: usize> Server<D, N> {
         }))
     }
 
-    /// The value from `at` on: seven bytes or more, or all that is left of its `len` bytes.
-    pub(super) fn part(
+    /// Has the value from `at` on in the buffer: seven bytes or more, or all that is left of its `len`
+    /// bytes.
+    pub(super) fn fetch(
         &mut self,
         objects: &mut Objects<'_, D>,
         at: usize,
         len: usize,
-    ) -> Result<&[u8], Halt> {
-        if D::STREAMS && self.is_streaming {
+    ) -> Result<(), Halt> {
+        if self.streams() {
             let left = len.saturating_sub(at);
             let end = at + left.min(7);
             let window = &mut self.window;
@@ -76,7 +85,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 window.len = left.min(N);
             }
         }
-        Ok(self.window.from(at))
+        Ok(())
     }
 
     /// Gives the first `len` bytes of the buffer to the stream.
