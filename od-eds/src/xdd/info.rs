@@ -12,7 +12,12 @@ use crate::span::{Span, Spanned};
 use crate::xdd::made::Made;
 use crate::xdd::source::{Reader, below, children};
 
-/// FileInfo, DeviceInfo, DummyUsage and DeviceComissioning, as far as the file gives them.
+/// Name of the characteristic that holds the lines of `[Comments]`.
+pub(super) const COMMENTS: &str = "Comments";
+/// Name of the characteristic that holds FileRevision.
+pub(super) const REVISION: &str = "File revision";
+
+/// FileInfo, DeviceInfo, DummyUsage, Comments and DeviceComissioning, as far as the file gives them.
 pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Placed<'static>> {
     let mut made = Vec::new();
     let mut bodies = below(root, "ProfileBody");
@@ -21,6 +26,7 @@ pub(super) fn sections(root: Node<'_, '_>, reader: &mut Reader<'_>) -> Vec<Place
     }
     made.extend(device_info(root, reader));
     made.extend(dummies(root, reader));
+    made.extend(comments(root, reader));
     made.extend(commissioning(root, reader));
     made
 }
@@ -39,6 +45,11 @@ fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Pla
         "FileVersion",
         version.filter(|text| text.parse::<u8>().is_ok()),
     );
+    let revision = characteristic(root, REVISION, reader);
+    made.put(
+        "FileRevision",
+        revision.and_then(|found| found.1.into_iter().next()),
+    );
     made.put(
         "EDSVersion",
         Some(Spanned::new("4.0".into(), reader.tag(body))),
@@ -54,6 +65,33 @@ fn file_info(root: Node<'_, '_>, body: Node<'_, '_>, reader: &Reader<'_>) -> Pla
     made.put("ModificationDate", take("fileModificationDate").map(date));
     made.put("ModifiedBy", take("fileModifiedBy"));
     made.placed
+}
+
+/// The place of a characteristic of this name, and its contents.
+fn characteristic(
+    root: Node<'_, '_>,
+    name: &str,
+    reader: &Reader<'_>,
+) -> Option<(Span, Vec<Spanned<String>>)> {
+    let label = |node| children(node, "label").find_map(|label| reader.text(label));
+    let mut all = below(root, "characteristic");
+    let found = all.find(|one| {
+        let mut names = children(*one, "characteristicName").filter_map(label);
+        names.any(|own| own.value == name)
+    })?;
+    let contents = children(found, "characteristicContent").filter_map(label);
+    Some((reader.tag(found), contents.collect()))
+}
+
+fn comments(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
+    let (header, lines) = characteristic(root, COMMENTS, reader)?;
+    let mut made = Made::new("Comments", header);
+    let count = lines.len().to_string();
+    made.put("Lines", Some(Spanned::new(count, header)));
+    for (number, line) in (1..).zip(lines) {
+        made.put(&format!("Line{number}"), Some(line));
+    }
+    Some(made.placed)
 }
 
 fn date(given: Spanned<String>) -> Spanned<String> {

@@ -1,17 +1,20 @@
 //! From a description to XDD or XDC text (CiA 311 1.1).
 
+mod data_types;
+mod function;
 mod xml;
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use data_types::elementary;
 use xml::{Attributes, Xml, escape, vec_of};
 
 use crate::description::{Description, EntryDescription, ObjectDescription, Section, Value};
 use crate::read::values::text as value_text;
 use crate::span::Spanned;
-use od_model::{Access, Address, DataType};
+use od_model::{Access, Address};
 
 /// The head of the text.
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745ProfileContainer \
@@ -39,8 +42,16 @@ pub fn write(description: &Description) -> String {
                 date("CreationDate").unwrap_or_else(|| "1970-01-01".into()),
             ),
             (
+                "fileCreationTime",
+                time(&info("CreationTime")).unwrap_or_default(),
+            ),
+            (
                 "fileModificationDate",
                 date("ModificationDate").unwrap_or_default(),
+            ),
+            (
+                "fileModificationTime",
+                time(&info("ModificationTime")).unwrap_or_default(),
             ),
             ("fileModifiedBy", info("ModifiedBy")),
             (
@@ -100,16 +111,22 @@ fn device(out: &mut Xml, description: &Description) {
                 out.text(name, &text);
             }
         }
+        function::versions(out, description);
     });
+    function::function(out, description);
     let saved: Vec<_> = description
         .entries()
         .filter(|(_, entry)| has_parameter(entry))
         .collect();
-    if saved.is_empty() {
+    let mut objects = description.objects.iter();
+    let has_types = objects.any(|(index, object)| data_types::parameter(*index, object).is_some());
+    if saved.is_empty() && !has_types {
         return;
     }
     out.element("ApplicationProcess", &[], |out| {
+        data_types::list(out, description);
         out.element("parameterList", &[], |out| {
+            data_types::parameters(out, description);
             for (address, entry) in saved {
                 parameter(out, address, entry);
             }
@@ -147,27 +164,6 @@ fn parameter(out: &mut Xml, address: Address, entry: &EntryDescription) {
             out.empty("property", &vec_of(property));
         }
     });
-}
-
-/// IEC 61131-3's name of a type; the object's own attribute says which it is exactly.
-fn elementary(data_type: Option<DataType>) -> &'static str {
-    use DataType::*;
-    match data_type {
-        Some(Boolean) => "BOOL",
-        Some(Integer8) => "SINT",
-        Some(Integer16) => "INT",
-        Some(Integer32) => "DINT",
-        Some(Integer64) => "LINT",
-        Some(Unsigned8) => "USINT",
-        Some(Unsigned16) => "UINT",
-        Some(Unsigned32) => "UDINT",
-        Some(Unsigned64) => "ULINT",
-        Some(Real32) => "REAL",
-        Some(Real64) => "LREAL",
-        Some(VisibleString) => "STRING",
-        Some(UnicodeString) => "WSTRING",
-        _ => "BITSTRING",
-    }
 }
 
 fn network(out: &mut Xml, description: &Description) {
@@ -269,6 +265,8 @@ fn object(out: &mut Xml, index: u16, object: &ObjectDescription) {
     }
     attributes.push(("subNumber", object.entries.len().to_string()));
     attributes.push(("objFlags", flags(object.flags)));
+    let parameter = data_types::parameter(index, object);
+    attributes.push(("uniqueIDRef", parameter.unwrap_or_default()));
     out.element("CANopenObject", &attributes, |out| {
         for (sub, entry) in &object.entries {
             let mut attributes = vec_of([
@@ -370,6 +368,22 @@ fn date(text: &str) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// `02:05PM` as `14:05:00`; `None` for other texts.
+fn time(text: &str) -> Option<String> {
+    let (time, half) = text
+        .trim()
+        .split_at_checked(text.trim().len().checked_sub(2)?)?;
+    let (hour, minute) = time.trim_end().split_once(':')?;
+    let (hour, minute): (u8, u8) = (hour.parse().ok()?, minute.parse().ok()?);
+    let noon = match half.to_ascii_uppercase().as_str() {
+        "AM" => 0,
+        "PM" => 12,
+        _ => return None,
+    };
+    let fits = (1..=12).contains(&hour) && minute < 60;
+    fits.then(|| format!("{:02}:{minute:02}:00", hour % 12 + noon))
 }
 
 #[cfg(test)]

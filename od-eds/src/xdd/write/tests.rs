@@ -56,3 +56,50 @@ fn what_is_written_is_read_again() {
         assert!(written.contains(part), "{part}\n{written}");
     }
 }
+
+#[test]
+fn a_file_says_what_it_is() {
+    let text = "[FileInfo]\nFileName=a.eds\nFileVersion=1\nFileRevision=7\nCreationTime=02:05PM\nCreationDate=07-14-2026\n\
+        ModificationTime=12:30AM\nModificationDate=07-15-2026\n[Comments]\nLines=2\nLine1=one <1>\nLine2=two\n\
+        [1000]\nParameterName=t\nDataType=7\nAccessType=ro\nDefaultValue=0x20196\n\
+        [1009]\nParameterName=h\nDataType=9\nAccessType=const\nDefaultValue=1.0\n\
+        [100A]\nParameterName=s\nDataType=9\nAccessType=const\nDefaultValue=2.1 & more\n\
+        [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+        [1018sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+        [1018sub1]\nParameterName=Vendor\nDataType=7\nAccessType=ro\nDefaultValue=5\n\
+        [2000]\nParameterName=Gains\nObjectType=8\nDataType=8\nAccessType=rw\nCompactSubObj=3\n\
+        [2001]\nParameterName=Odd\nObjectType=9\nSubNumber=2\n\
+        [2001sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+        [2001sub1]\nParameterName=x\nDataType=0x0099\nAccessType=ro\n";
+    let description = crate::parse(text).description;
+    let written = write(&description);
+    for part in [
+        "fileCreationTime=\"14:05:00\"",
+        "fileModificationTime=\"00:30:00\"",
+        "<version versionType=\"HW\">1.0</version>",
+        "<version versionType=\"SW\">2.1 &amp; more</version>",
+        "<label lang=\"en\">CiA 406</label>",
+        "<label lang=\"en\">one &lt;1&gt;</label>",
+        "<array name=\"Gains\" uniqueID=\"UID_TYPE_2000\">",
+        "<subrange lowerLimit=\"0\" upperLimit=\"3\"/>",
+        "<varDeclaration name=\"Vendor\" uniqueID=\"UID_SUB_101801\">",
+        "<dataTypeIDRef uniqueIDRef=\"UID_TYPE_1018\"/>",
+        "dataType=\"0099\"",
+    ] {
+        assert!(written.contains(part), "{part}\n{written}");
+    }
+    // No type of the list holds a member of an unknown type.
+    assert!(!written.contains("UID_TYPE_2001"));
+    let again = crate::parse(&written).description;
+    assert_eq!(again.objects, description.objects);
+    for (section, key) in [
+        ("FileInfo", "FileRevision"),
+        ("FileInfo", "CreationTime"),
+        ("FileInfo", "ModificationTime"),
+        ("Comments", "Lines"),
+        ("Comments", "Line1"),
+    ] {
+        let [before, after] = [&description, &again].map(|one| value(one, section, key));
+        assert_eq!(before, after, "{key}");
+    }
+}
