@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_runtime::storage::{Memory, Storage, StorageError};
+use od_runtime::storage::{Geometry, Memory, Storage, StorageError};
 
 /// A storage that takes no byte while it is broken; what it holds can still be read.
 pub(super) struct Eeprom {
@@ -60,9 +60,13 @@ impl Eeprom {
 
 impl Storage for Eeprom {
     fn capacity(&self) -> usize {
+        self.geometry().capacity
+    }
+
+    fn geometry(&self) -> Geometry {
         match &self.storage {
-            Keeper::Own(memory) => memory.capacity(),
-            Keeper::Lent(storage) => storage.capacity(),
+            Keeper::Own(memory) => memory.geometry(),
+            Keeper::Lent(storage) => storage.geometry(),
         }
     }
 
@@ -75,6 +79,13 @@ impl Storage for Eeprom {
             return Err(StorageError::Device);
         }
         self.storage.storage().write(offset, bytes)
+    }
+
+    fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
+        if self.broken {
+            return Err(StorageError::Device);
+        }
+        self.storage.storage().erase(offset)
     }
 
     fn flush(&mut self) -> Result<(), StorageError> {

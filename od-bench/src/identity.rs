@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_model::Entry;
+use od_model::{Entry, Group};
 use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
@@ -75,6 +75,28 @@ impl VirtualDevice {
             }
         }
         self.delivered()
+    }
+
+    /// Identity and layout in words: title, vendor-ID and product code (1018h), and a number for
+    /// addresses and types of the objects that it saves.
+    pub fn identity(&self) -> String {
+        let [vendor, product, ..] = self.lss_address();
+        // FNV-1a; lengths of strings are no part of it, they depend on options.
+        let mut layout = 0x811C_9DC5_u32;
+        let entries = self.dictionary().entries().iter();
+        for entry in entries.filter(|entry| entry.group != Group::None && entry.slot.len > 0) {
+            let ([a, b], [c, d]) = (
+                entry.address.index.to_le_bytes(),
+                entry.data_type.code().to_le_bytes(),
+            );
+            for byte in [a, b, entry.address.sub, c, d] {
+                layout = (layout ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+            }
+        }
+        let title = self.title();
+        format!(
+            "{title}, vendor-ID {vendor:08X}h, product code {product:08X}h, saved objects {layout:08X}h"
+        )
     }
 
     /// Whether it has a node ID; without one there is LSS alone (CiA 305).

@@ -28,6 +28,7 @@ mod loaded;
 pub mod logs;
 #[cfg(feature = "eds")]
 mod long;
+pub mod notice;
 mod own;
 pub mod pdos;
 mod plain;

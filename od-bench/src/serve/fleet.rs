@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use od_runtime::storage::File;
+use od_runtime::storage::{File, Owner, image};
 use od_runtime::{Instant, NodeId};
 
 use super::failure::Failure;
 use super::maker::Maker;
 use super::options::Options;
+use super::terminal::note;
 use crate::device::VirtualDevice;
 use crate::words::plural;
 
@@ -41,6 +42,10 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
             )));
         }
     }
+    if args.eeprom_reset && args.eeproms.is_empty() {
+        let why = "`--eeprom-reset` needs `--eeprom FILE`";
+        return Err(Failure::Usage(why.into()));
+    }
     let mut places: Vec<Place> = Vec::new();
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
         let device = one(maker, args, at, &places)?;
@@ -59,8 +64,7 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
         device.set_domain_size(args.domain_size);
         if let Some(path) = args.eeproms.get(at) {
             regular(path)?;
-            let file = File::open(path, device.storage_needed());
-            let file = file.map_err(|error| Failure::Failed(error.to_string()))?;
+            let file = eeprom(path, maker.name, &device, args.eeprom_reset)?;
             device = device.with_storage(Box::new(file));
         }
         let beside = match channel {
@@ -95,6 +99,30 @@ fn regular(path: &Path) -> Result<(), Failure> {
         // What does not exist is created; what cannot be read says so when it is opened.
         _ => Ok(()),
     }
+}
+
+/// Opens the file with the EEPROM of a device.
+fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Result<File, Failure> {
+    let owner = Owner {
+        name,
+        identity: &device.identity(),
+        device: image::device(&device.dictionary()),
+    };
+    let open = match reset {
+        true => File::open_erased,
+        false => File::open,
+    };
+    let file = open(path, device.storage_needed(), &owner).map_err(|error| {
+        let help = match error.can_be_erased() {
+            true => "; give the device another file, or add `--eeprom-reset` to erase this one",
+            false => "",
+        };
+        Failure::Failed(format!("{error}{help}"))
+    })?;
+    if let Some(repaired) = file.repaired() {
+        note(&format!("{}: {repaired}", path.display()));
+    }
+    Ok(file)
 }
 
 /// A device with the node ID that it is given, else its own, else the next one that is free.

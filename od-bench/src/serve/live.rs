@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant as Clock};
 
-use od_runtime::{Event, Frame, Instant};
+use od_runtime::{Frame, Instant};
 
 use super::clients::Clients;
 use super::control::Control;
@@ -23,6 +23,7 @@ use crate::bench::Bench;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::links::Step;
+use crate::notice;
 use crate::script::Console;
 use crate::words::plural;
 
@@ -80,9 +81,7 @@ impl Live {
             links: 0,
             lost: None,
         };
-        events(&mut live.bench, |event| {
-            matches!(event, Event::StorageDamaged | Event::SaveCut { .. })
-        });
+        events(&mut live.bench, |event| notice::of_storage(event).is_some());
         live
     }
 

@@ -23,6 +23,8 @@ pub struct Options {
     pub domain_size: u32,
     /// File with the EEPROM of each device, in their order; in memory if there is none.
     pub eeproms: Vec<PathBuf>,
+    /// Those files start erased.
+    pub eeprom_reset: bool,
     /// Raw position of the shaft at the start, in steps.
     pub position: Option<u64>,
     /// Speed of the shaft in revolutions per minute.
@@ -51,6 +53,7 @@ impl Default for Options {
             links: Vec::new(),
             domain_size: 1 << 20,
             eeproms: Vec::new(),
+            eeprom_reset: false,
             position: None,
             rpm: None,
             seed: None,
@@ -64,7 +67,7 @@ impl Default for Options {
     }
 }
 
-/// One option as it is written: `--name VALUE`.
+/// One option as it is written: `--name VALUE`, or `--name` if its value is "".
 #[derive(Debug)]
 pub struct Choice {
     /// Without the two dashes.
@@ -103,7 +106,7 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 15] = [
+pub const CHOICES: [Choice; 16] = [
     Choice {
         name: "node-id",
         value: "N",
@@ -157,7 +160,8 @@ pub const CHOICES: [Choice; 15] = [
     Choice {
         name: "eeprom",
         value: "FILE",
-        help: "File for the values saved with 1010h; repeat it for the next node [default: in memory]",
+        help: "File for the values saved with 1010h, of this device only; repeat it for the next node \
+               [default: in memory]",
         repeats: true,
         set: |options, text| {
             options.eeproms.push(PathBuf::from(text));
@@ -175,6 +179,15 @@ pub const CHOICES: [Choice; 15] = [
             let bytes = size::parse(text);
             let bytes = bytes.ok_or("write a number of bytes, such as 1025, 64KiB or 1MiB")?;
             options.domain_size = bytes;
+            Ok(())
+        },
+        ..PLAIN
+    },
+    Choice {
+        name: "eeprom-reset",
+        help: "Erase these files at the start, whichever devices they were of",
+        set: |options, _| {
+            options.eeprom_reset = true;
             Ok(())
         },
         ..PLAIN
@@ -354,7 +367,7 @@ mod tests {
     fn arguments_are_read_with_a_blank_or_an_equals_sign() {
         let options = parsed(
             "--node-id 5 --node-id=0x06 --node-id none --serial 0x1268 --link slcan:pty --slcan 127.0.0.1:0 --rpm -60 \
-             --position=79592h --domain-size 64KiB --bitrate 125000 --eeprom a.bin --quiet --control unix:a \
+             --position=79592h --domain-size 64KiB --bitrate 125000 --eeprom a.bin --eeprom-reset --quiet --control unix:a \
              --log b.log",
         )
         .expect("options");
@@ -368,6 +381,7 @@ mod tests {
         assert_eq!(options.eeproms, [PathBuf::from("a.bin")]);
         assert_eq!(options.control, Place::parse("unix:a").ok());
         assert!(options.quiet && !Options::default().quiet);
+        assert!(options.eeprom_reset);
         assert_eq!(parsed(""), Ok(Options::default()));
     }
 

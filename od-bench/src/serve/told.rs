@@ -4,6 +4,7 @@ use od_runtime::Event;
 
 use super::terminal::{news, note};
 use crate::bench::Bench;
+use crate::notice;
 
 /// Tells the events of all devices since the last call, of those that are `wanted`.
 pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
@@ -16,12 +17,10 @@ pub(super) fn events(bench: &mut Bench, wanted: impl Fn(&Event) -> bool) {
         });
         let (name, events) = events.unwrap_or_default();
         for event in events.into_iter().filter(&wanted) {
-            let tell = match event {
-                Event::StorageDamaged | Event::SaveCut { .. } => note,
-                _ => news,
-            };
-            if let Some(text) = words(event) {
-                tell(&format!("{name}{text}"));
+            if let Some(text) = notice::of_storage(&event) {
+                note(&format!("{name}{text}"));
+            } else if let Some(text) = words(event) {
+                news(&format!("{name}{text}"));
             }
         }
     }
@@ -34,16 +33,6 @@ fn words(event: Event) -> Option<String> {
         Event::Reset(_, node) => format!("reset, node {node}"),
         Event::Saved(_) => "parameters saved".into(),
         Event::Restored(_) => "defaults restored".into(),
-        Event::StorageDamaged => {
-            "the EEPROM is damaged or of another version; the device loaded defaults or an older set"
-                .into()
-        }
-        Event::SaveCut { factory: true } => {
-            "a save was interrupted; the device loaded its factory values".into()
-        }
-        Event::SaveCut { factory: false } => {
-            "a save was interrupted; the values saved before it remain".into()
-        }
         Event::BusOff { .. } => "bus-off".into(),
         Event::BusOn => "back from bus-off".into(),
         Event::Error(error) => format!("error {:04X}h", error.code),

@@ -24,7 +24,6 @@ pub(crate) use control::command_text as command;
 pub use emcy::code_text;
 pub use fields::{Field, fields};
 pub use pdo::layout;
-#[cfg(feature = "serve")]
 pub(crate) use said::plural;
 pub use said::{Service, Words};
 pub use tag::{TAGS, Tag, tag};

@@ -241,5 +241,5 @@ impl Slave {
 /// Returns the node ID and the bit rate that a device without objects for them stored. A storage
 /// that cannot be read holds none.
 pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
-    image::own(objects.storage).unwrap_or_default()
+    image::own(objects.storage, &objects.store).unwrap_or_default()
 }

@@ -8,7 +8,7 @@ use crate::application::Reset;
 use crate::device::Device;
 use crate::lent::Lent;
 use crate::objects::Objects;
-use crate::profile::{CommunicationReset, CutSave, LssProfile};
+use crate::profile::{CommunicationReset, LssProfile};
 use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
@@ -108,12 +108,8 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             // Nothing of the device is reset, and a save goes on.
             self.forget_bus_errors(objects);
         } else {
-            // A save that was not complete will not be; where that leaves the factory values,
-            // `load` finds out.
-            let saving = objects.outbox.saving.take();
-            if D::STORAGE && saving.is_some() && objects.profile().store.cut == CutSave::LastSet {
-                self.event(Event::SaveCut { factory: false });
-            }
+            // A save that was not complete will not be; `load` finds out.
+            objects.outbox.saving = None;
             self.save_at = None;
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
@@ -193,15 +189,16 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 false => Ok(Loaded::Blank),
             };
             let news = match loaded {
-                Ok(Loaded::Blank | Loaded::Complete | Loaded::Partial { .. }) => None,
-                Ok(Loaded::Cut) => Some(Event::SaveCut { factory: true }),
-                Ok(Loaded::Older | Loaded::Damaged) | Err(_) => Some(Event::StorageDamaged),
+                Ok(Loaded::Blank | Loaded::Complete) => None,
+                Ok(Loaded::Cut { factory }) => Some(Event::SaveCut { factory }),
+                Ok(other) => Some(Event::Loaded(other)),
+                Err(_) => Some(Event::Loaded(Loaded::Damaged)),
             };
             if let Some(event) = news.filter(|_| pass == 0) {
                 self.event(event);
             }
             // A cut save is what power does to a memory that is sound.
-            let sound = !matches!(loaded, Ok(Loaded::Damaged) | Err(_));
+            let sound = !matches!(loaded, Ok(Loaded::Damaged | Loaded::Foreign) | Err(_));
             objects.application.storage_is(sound);
             match objects.application.node_id(&objects.store) {
                 Some(node_id) if node_id != self.node_id && pass == 0 => {

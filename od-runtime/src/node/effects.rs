@@ -36,7 +36,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             objects.refresh_life_record();
             let profile = &objects.profile().store;
             if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
-                self.event(Event::StorageDamaged);
+                self.event(Event::NotSaved);
             }
         }
         self.take_errors(objects);
@@ -74,7 +74,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 }
                 _ if !D::STORAGE => continue,
                 Effect::Saved(sub) => Event::Saved(sub),
-                Effect::NotSaved => Event::StorageDamaged,
+                Effect::NotSaved => Event::NotSaved,
                 Effect::Saving => {
                     self.save_at = objects.outbox.saving.map(|saving| saving.due);
                     continue;

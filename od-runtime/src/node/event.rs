@@ -3,6 +3,7 @@
 use od_model::Address;
 
 use crate::application::Reset;
+use crate::storage::image::Loaded;
 use od_wire::NodeId;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
@@ -23,9 +24,11 @@ pub enum Event {
     Restored(u8),
     /// LSS activated this bit rate; the number is the device's own (2100h).
     BitRate(u8),
-    /// The stored values are damaged or of another version, and the node loaded defaults or an
-    /// older set; or a save in the background failed.
-    StorageDamaged,
+    /// The storage is not as the last save left it; this is what the node loaded at a reset. Neither
+    /// blank nor complete, and not cut.
+    Loaded(Loaded),
+    /// A save failed, that of a master or the device's own. The values saved before it remain.
+    NotSaved,
     /// Power loss or an NMT reset interrupted a save.
     SaveCut {
         /// The node loaded the factory values; else the values that were saved before it.

@@ -266,7 +266,10 @@ impl<'c, D: Device> Objects<'c, D> {
         self.application(|application, context| application.saving(context, true));
         let pending = image::begin(self.storage, &self.store, profile, sub);
         self.application(|application, context| application.saving(context, false));
-        let pending = pending.map_err(|_| profile.failed)?;
+        let Ok(pending) = pending else {
+            self.outbox.effect(Effect::NotSaved);
+            return Err(profile.failed);
+        };
         self.outbox.saving = Some(Saving {
             pending,
             sub,

@@ -1,118 +1,166 @@
-//! Storage in a file of fixed size.
+//! Storage in a file: a header that says whose it is, and the bytes of an EEPROM.
 
-use core::fmt;
-use std::fs::OpenOptions;
-use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::fs::{OpenOptions, TryLockError};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+use std::process;
+use std::string::String;
+use std::vec;
 use std::vec::Vec;
 
+use self::header::{Header, LEN, SIGNATURE, Seen};
+use super::image;
 use super::{Storage, StorageError};
 
-/// The first bytes of such a file, so that no other is ever taken for one.
-const SIGNATURE: &[u8; 16] = b"odkit EEPROM 1\r\n";
+mod error;
+mod header;
+
+pub use error::OpenError;
+pub use header::Owner;
 
 /// Value of an erased byte.
 const ERASED: u8 = 0xFF;
 
-/// Storage in a file: [`Storage::flush`] puts it on the disk.
+/// Value of a byte that a file lost: neither erased nor written.
+const LOST: u8 = 0x03;
+
+/// Storage in a file: [`Storage::flush`] puts it on the disk. As long as it is open no other process
+/// opens it as such, and no other device of this one.
 #[derive(Debug)]
 pub struct File {
     file: std::fs::File,
     capacity: usize,
+    repaired: Option<String>,
 }
-
-/// Why a file is not used.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum OpenError {
-    /// The operating system says no.
-    Io(PathBuf, io::Error),
-    /// The file is something else.
-    Foreign(PathBuf),
-    /// The file is too small for this device.
-    TooSmall {
-        /// The file.
-        path: PathBuf,
-        /// Bytes that it holds.
-        has: usize,
-        /// Bytes that the device needs.
-        needs: usize,
-    },
-}
-
-impl fmt::Display for OpenError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Io(path, error) => write!(
-                f,
-                "{}: {error}; check the path and its permissions",
-                path.display()
-            ),
-            Self::Foreign(path) => write!(
-                f,
-                "{}: not an EEPROM file of odkit, so it is left as it is; \
-                 give another path, or remove the file to start with an empty EEPROM",
-                path.display()
-            ),
-            Self::TooSmall { path, has, needs } => write!(
-                f,
-                "{}: an EEPROM of {has} bytes, and this device needs {needs}; \
-                 give another path, or remove the file to start with an empty EEPROM",
-                path.display()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for OpenError {}
 
 impl File {
     /// Opens the file at `path`, or makes it, erased, with `capacity` bytes.
     ///
-    /// A file that is larger keeps its size. What is in the file stays.
+    /// The values in the file stay. The file belongs to the device that it was made for; others are
+    /// refused ([`OpenError::Foreign`]).
     ///
     /// # Errors
-    /// [`OpenError`]; a file that is something else is never written to.
-    pub fn open(path: impl AsRef<Path>, capacity: usize) -> Result<Self, OpenError> {
-        let path = path.as_ref();
+    /// [`OpenError`]; the file is as it was then.
+    pub fn open(
+        path: impl AsRef<Path>,
+        capacity: usize,
+        owner: &Owner<'_>,
+    ) -> Result<Self, OpenError> {
+        Self::start(path.as_ref(), capacity, owner, false)
+    }
+
+    /// As [`open`](Self::open), and erases the file, whichever device of odkit it was of.
+    ///
+    /// # Errors
+    /// [`OpenError`], if the file is not an EEPROM file of odkit or is in use; it is as it was then.
+    pub fn open_erased(
+        path: impl AsRef<Path>,
+        capacity: usize,
+        owner: &Owner<'_>,
+    ) -> Result<Self, OpenError> {
+        Self::start(path.as_ref(), capacity, owner, true)
+    }
+
+    /// Returns what was wrong with the file and is put right, in a sentence.
+    pub fn repaired(&self) -> Option<&str> {
+        self.repaired.as_deref()
+    }
+
+    fn start(
+        path: &Path,
+        capacity: usize,
+        owner: &Owner<'_>,
+        erased: bool,
+    ) -> Result<Self, OpenError> {
         let fail = |error| OpenError::Io(path.into(), error);
-        let mut file = OpenOptions::new()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(fail)?;
-        // Only as much of a foreign file as tells that it is one.
-        let mut start = Vec::new();
-        let fresh = (SIGNATURE.len() + capacity) as u64;
-        (&mut file)
-            .take(fresh)
-            .read_to_end(&mut start)
-            .map_err(fail)?;
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        let mut file = options.open(path).map_err(fail)?;
         let metadata = file.metadata().map_err(fail)?;
-        let len = metadata.len();
-        let (signature, rest) = start.split_at(start.len().min(SIGNATURE.len()));
-        if !SIGNATURE.starts_with(signature) || !metadata.is_file() {
-            return Err(OpenError::Foreign(path.into()));
+        if !metadata.is_file() {
+            return Err(OpenError::NotEeprom(path.into()));
         }
-        if len < fresh {
-            // New, or power went while it was made: nothing but erased bytes so far.
-            if rest.iter().any(|byte| *byte != ERASED) {
-                return Err(OpenError::TooSmall {
-                    path: path.into(),
-                    has: rest.len(),
-                    needs: capacity,
-                });
+        lock(&mut file, path)?;
+        // Only as much of another's file as tells that it is one.
+        let mut header = Vec::new();
+        let read = (&mut file).take(LEN as u64).read_to_end(&mut header);
+        read.map_err(fail)?;
+        let seen = Header::read(&header);
+        if seen == Seen::Other {
+            return Err(OpenError::NotEeprom(path.into()));
+        }
+        let mut rest = Vec::new();
+        file.read_to_end(&mut rest).map_err(fail)?;
+        let mut opened = Self {
+            file,
+            capacity: rest.len(),
+            repaired: None,
+        };
+        let identity = header::line(owner.identity);
+        let foreign = |of| OpenError::Foreign {
+            path: path.into(),
+            of,
+            device: [owner.name.into(), identity.clone()],
+        };
+        let is_blank = |bytes: &[u8]| bytes.iter().all(|byte| *byte == ERASED);
+        let is_fresh = match seen {
+            Seen::Other | Seen::Unfinished => true,
+            _ if erased => true,
+            // Nothing is lost of a file without values.
+            Seen::Version('1') if is_blank(&header[SIGNATURE.len()..]) && is_blank(&rest) => true,
+            Seen::Version(version) => return Err(OpenError::Version(path.into(), version)),
+            Seen::Whole(header) if header.identity != identity => {
+                return Err(foreign([header.name, header.identity]));
             }
-            let mut bytes = SIGNATURE.to_vec();
-            bytes.resize(SIGNATURE.len() + capacity, ERASED);
-            file.seek(SeekFrom::Start(0)).map_err(fail)?;
-            file.write_all(&bytes).map_err(fail)?;
-            file.sync_all().map_err(fail)?;
+            Seen::Whole(_) | Seen::Damaged if is_blank(&rest) => true,
+            Seen::Whole(header) => {
+                opened.capacity = header.capacity;
+                false
+            }
+            Seen::Damaged => {
+                // The values themselves say whose they are.
+                let writer = image::writer(&mut opened);
+                if writer.is_ok_and(|writer| writer.is_some_and(|one| one != owner.device)) {
+                    let why = "the header of the file is damaged".into();
+                    return Err(foreign(["another device".into(), why]));
+                }
+                opened.repaired = Some("the header was damaged; odkit wrote a new one".into());
+                false
+            }
+        };
+        if is_fresh {
+            opened.capacity = capacity;
+        } else if opened.capacity < capacity {
+            return Err(OpenError::TooSmall {
+                path: path.into(),
+                has: opened.capacity,
+                needs: capacity,
+            });
         }
-        let capacity = (len.max(fresh) - SIGNATURE.len() as u64) as usize;
-        Ok(Self { file, capacity })
+        let mut bytes = Header::write(owner, opened.capacity, process::id());
+        let missing = opened.capacity.saturating_sub(rest.len());
+        if is_fresh {
+            bytes.resize(LEN + capacity, ERASED);
+            opened.file.set_len(bytes.len() as u64).map_err(fail)?;
+        } else if missing > 0 {
+            let all = LEN + opened.capacity;
+            let why = std::format!("the last {missing} of {all} bytes were missing");
+            opened.repaired = Some(why);
+            opened
+                .put(LEN + rest.len(), &vec![LOST; missing])
+                .map_err(fail)?;
+        }
+        opened.put(0, &bytes).map_err(fail)?;
+        // A header that power cuts short is damaged, and no loss.
+        if is_fresh || missing > 0 {
+            opened.file.sync_all().map_err(fail)?;
+        }
+        Ok(opened)
+    }
+
+    fn put(&mut self, at: usize, bytes: &[u8]) -> io::Result<()> {
+        self.file.seek(SeekFrom::Start(at as u64))?;
+        self.file.write_all(bytes)
     }
 
     fn seek(&mut self, offset: usize, len: usize) -> Result<(), StorageError> {
@@ -120,10 +168,34 @@ impl File {
             Some(end) if end <= self.capacity => {}
             _ => return Err(StorageError::OutOfRange),
         }
-        let at = (SIGNATURE.len() + offset) as u64;
-        match self.file.seek(SeekFrom::Start(at)) {
+        match self.file.seek(SeekFrom::Start((LEN + offset) as u64)) {
             Ok(_) => Ok(()),
             Err(_) => Err(StorageError::Device),
+        }
+    }
+}
+
+/// Locks a file until it is closed.
+fn lock(file: &mut std::fs::File, path: &Path) -> Result<(), OpenError> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        // A file system without locks.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Ok(()),
+        Err(TryLockError::Error(error)) => Err(OpenError::Io(path.into(), error)),
+        Err(TryLockError::WouldBlock) => {
+            // Windows lets nobody read a locked file.
+            let mut start = [0; LEN];
+            let seen = match file.read_exact(&mut start) {
+                Ok(()) => Header::read(&start),
+                Err(_) => Seen::Other,
+            };
+            Err(OpenError::InUse {
+                path: path.into(),
+                process: match seen {
+                    Seen::Whole(header) => Some(header.process),
+                    _ => None,
+                },
+            })
         }
     }
 }
@@ -149,72 +221,4 @@ impl Storage for File {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::string::ToString;
-    use std::{env, fs, process};
-
-    fn path(name: &str) -> PathBuf {
-        env::temp_dir().join(std::format!("odkit-{}-{name}", process::id()))
-    }
-
-    #[test]
-    fn what_is_written_is_there_when_it_is_opened_again() {
-        let path = path("again");
-        let mut file = File::open(&path, 64).unwrap();
-        let mut byte = [0];
-        file.read(63, &mut byte).unwrap();
-        assert_eq!(byte, [ERASED]);
-        file.write(60, b"last").unwrap();
-        file.flush().unwrap();
-        assert_eq!(file.write(61, b"last"), Err(StorageError::OutOfRange));
-        assert_eq!(
-            file.read(usize::MAX, &mut byte),
-            Err(StorageError::OutOfRange)
-        );
-        drop(file);
-
-        let mut file = File::open(&path, 32).unwrap();
-        assert_eq!(file.capacity(), 64, "a larger file keeps its size");
-        let mut bytes = [0; 4];
-        file.read(60, &mut bytes).unwrap();
-        assert_eq!(&bytes, b"last");
-        let error = File::open(&path, 65).unwrap_err().to_string();
-        assert!(
-            error.contains("64 bytes") && error.contains("needs 65"),
-            "{error}"
-        );
-        fs::remove_file(path).unwrap();
-    }
-
-    #[test]
-    fn a_file_of_somebody_else_is_left_alone() {
-        let path = path("foreign");
-        for content in [
-            "a letter to somebody, and longer than an EEPROM",
-            "short",
-            "odkit EEPROM 2\r\n",
-        ] {
-            fs::write(&path, content).unwrap();
-            let error = File::open(&path, 16).unwrap_err().to_string();
-            assert!(error.contains("left as it is"), "{error}");
-            assert_eq!(fs::read_to_string(&path).unwrap(), content);
-        }
-        let error = File::open(env::temp_dir(), 16).unwrap_err();
-        assert!(matches!(error, OpenError::Io(..)), "{error}");
-        fs::remove_file(path).unwrap();
-    }
-
-    #[test]
-    fn a_file_that_was_not_finished_is_new() {
-        let path = path("unfinished");
-        for len in 0..SIGNATURE.len() + 8 {
-            let mut bytes = SIGNATURE.to_vec();
-            bytes.resize(SIGNATURE.len() + 8, ERASED);
-            fs::write(&path, &bytes[..len]).unwrap();
-            assert_eq!(File::open(&path, 8).unwrap().capacity(), 8);
-            assert_eq!(fs::read(&path).unwrap(), bytes);
-        }
-        fs::remove_file(path).unwrap();
-    }
-}
+mod tests;

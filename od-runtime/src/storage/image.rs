@@ -1,22 +1,30 @@
 //! The saved values: what 1010h writes, 1011h takes away, and power-on reads.
 //!
-//! The storage is two banks, and a save writes the older one. A bank:
+//! The storage is two banks of whole pages, and a save writes the older one. A bank, in words of the
+//! storage ([`Geometry::word`](super::Geometry::word), w bytes, 1 in an EEPROM):
 //!
 //! | bytes | content |
 //! |---|---|
-//! | 0–3 | magic, `0x69 'o' 'd' 'k'` |
-//! | 4–5 | version of this layout, 1 |
-//! | 6–7 | 0 |
-//! | 8–11 | sequence number, one more with each save |
-//! | 12–15 | length of the records |
-//! | 16–19 | CRC-32 of bytes 4–15 and the records |
-//! | 20… | records, by ascending address: index (2), sub-index (1), length (2), value |
+//! | w | commit word, written last: one of five codes, each of which is newer than the one before it |
+//! | w | mark: a save began that replaces this set |
+//! | 4 | device: CRC-32 of the version of this layout (2), vendor-ID and product code (1018h) |
+//! | 4 | length of the records |
+//! | 4 | CRC-32 of the two numbers and the records |
+//! | … | FFh to the end of the word |
+//! | … | records, by ascending address: index (2), sub-index (1), length (2), value |
+//! | … | FFh to the end of the bank |
 //!
-//! Numbers are little-endian. A save takes the old magic away, writes the records,
-//! then the header, and the magic last of all; so power can go between any two bytes
-//! and leaves the last complete set, never a mixture. Where a family wants the factory
-//! values then ([`CutSave::Factory`]), the first byte of the last set's magic is 96h while the
-//! save goes on.
+//! Numbers are little-endian. A save marks the newest set, clears the other bank (flash: erases it),
+//! writes records and numbers, reads them back, and writes the commit word. So power can go at any
+//! moment and leaves the last complete set, never a mixture; where a family wants the factory values
+//! then ([`CutSave::Factory`]), the mark says so. Each word is written once after it was erased, and a
+//! bank of one page is erased once for each save.
+//!
+//! Codes and marks differ in four bits at least, and every other byte is covered by the CRC or is FFh:
+//! any bit that flips is noticed ([`Loaded`]), and which of two sets was the newer one is never in doubt.
+//!
+//! A set of another device, or of another version of this layout, is [`Loaded::Foreign`]. It stays
+//! until a master saves or restores; the device itself saves nothing over it.
 //!
 //! A value has the bytes of an SDO transfer; where a family keeps COB-IDs as differences
 //! ([`SavedCobIds::Difference`](crate::profile::SavedCobIds)), one whose default has `$NODEID` in it is
@@ -36,53 +44,53 @@ mod bank;
 mod cob_id;
 mod covered;
 mod layout;
+mod loaded;
 mod merge;
 
 use bank::Banks;
 use covered::{is_covered, is_saved};
-use layout::{HEADER, OWN, RECORD};
+use layout::{OWN, RECORD};
 use merge::{Fate, Next};
 
 pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
+pub use loaded::Loaded;
 pub(crate) use merge::{Pending, commit};
 
-/// Content of the storage at the time of a load.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[non_exhaustive]
-pub enum Loaded {
-    /// Nothing yet, or nothing of this device: the values keep their defaults.
-    Blank,
-    /// The last set that was saved.
-    Complete,
-    /// The last set that was saved; these many of its records fit no object of this
-    /// dictionary and were left out.
-    Partial {
-        /// Records left out.
-        skipped: u16,
-    },
-    /// The last set is damaged, and the one before it was taken.
-    Older,
-    /// A save was cut, on a device that loads the factory values then: the values keep their defaults,
-    /// but for the record of its life.
-    Cut,
-    /// The content cannot be read, or another version wrote it: the values keep their defaults.
-    Damaged,
+/// Bytes of an EEPROM that `dictionary` needs to save every value at its longest, twice.
+pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
+    capacity_on(dictionary, 0, 1)
 }
 
-/// Bytes of storage that `dictionary` needs to save every value at its longest, twice.
-pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
-    let mut bytes = HEADER;
+/// As [`capacity_needed`], on a storage with pages and words of these sizes
+/// ([`Geometry`](super::Geometry)).
+pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) -> usize {
+    let mut bytes = layout::header(word);
     let mut i = 0;
     while i < dictionary.len() {
         let entry = dictionary.at(i);
         if is_saved(&entry) {
-            bytes += RECORD + entry.slot.len as usize;
+            let len = entry.slot.len as usize;
+            bytes += RECORD + if len < MAX_VALUE { len } else { MAX_VALUE };
         }
         i += 1;
     }
-    2 * bytes
+    2 * bytes.next_multiple_of(if page > word { page } else { word })
+}
+
+/// Number by which a saved set knows the device that wrote it: vendor-ID and product code (1018h).
+/// The revision may change, as that of a newer firmware does.
+pub fn device(dictionary: &Dictionary<'_>) -> u32 {
+    bank::device(dictionary)
+}
+
+/// Returns the [`device`] that wrote the newest set; `None` if there is no whole set.
+///
+/// # Errors
+/// [`StorageError`] if the storage cannot be read.
+pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
+    Ok(Banks::survey(storage, 0)?.writer)
 }
 
 /// Bytes of storage that a device needs beyond [`capacity_needed`] where LSS stores node ID and
@@ -102,7 +110,7 @@ pub fn load(
     profile: &StoreProfile,
     which: &dyn Fn(&Entry) -> bool,
 ) -> Result<Loaded, StorageError> {
-    let banks = Banks::survey(storage)?;
+    let banks = survey(storage, store)?;
     let mut skipped = 0u16;
     let mut number = [0; 8];
     let mut records = banks.records();
@@ -112,7 +120,7 @@ pub fn load(
         }
         let entry = store.dictionary().find(record.address).ok();
         match entry.as_ref().filter(|entry| is_saved(entry)) {
-            Some(entry) if !which(entry) || banks.is_cut() && !is_life_record(entry) => {}
+            Some(entry) if !which(entry) || banks.is_withdrawn && !is_life_record(entry) => {}
             // A string goes straight to its place: there is no room for it on a small stack.
             Some(entry) if entry.is_variable() && record.len <= MAX_VALUE => {
                 let read = store
@@ -140,14 +148,14 @@ pub fn load(
             _ => skipped = skipped.saturating_add(1),
         }
     }
-    Ok(match skipped {
-        _ if banks.newest.is_none() && banks.damaged => Loaded::Damaged,
-        _ if banks.newest.is_none() => Loaded::Blank,
-        _ if banks.is_cut() => Loaded::Cut,
-        _ if banks.lost_newer => Loaded::Older,
-        0 => Loaded::Complete,
-        skipped => Loaded::Partial { skipped },
+    Ok(match banks.state {
+        Loaded::Complete if skipped > 0 => Loaded::Partial { skipped },
+        state => state,
     })
+}
+
+fn survey(storage: &mut dyn Storage, store: &Store<'_>) -> Result<Banks, StorageError> {
+    Banks::survey(storage, device(&store.dictionary()))
 }
 
 /// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
@@ -159,6 +167,7 @@ pub fn load(
 ///
 /// # Errors
 /// [`StorageError::Full`] where there is not enough room, before anything is written;
+/// [`StorageError::NotWritten`] if the storage does not hold what was written;
 /// others where the storage fails. The last complete set is still there then.
 pub fn save(
     storage: &mut dyn Storage,
@@ -178,7 +187,10 @@ pub(crate) fn begin(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<Pending, StorageError> {
-    let banks = Banks::survey(storage)?;
+    let banks = survey(storage, store)?;
+    if sub == 0 && banks.state == Loaded::Foreign {
+        return Err(StorageError::Foreign);
+    }
     let next = Next {
         plan: &|_, entry| match entry {
             Some(entry) if is_covered(profile, entry, sub) || is_life_record(entry) => {
@@ -210,7 +222,7 @@ pub fn save_only(
     profile: &StoreProfile,
     which: &dyn Fn(&Entry) -> bool,
 ) -> Result<(), StorageError> {
-    let banks = Banks::survey(storage)?;
+    let banks = survey(storage, store)?;
     let next = Next {
         plan: &|_, entry| match entry {
             Some(entry) if which(entry) => Fate::Store,
@@ -235,7 +247,7 @@ pub(crate) fn save_own(
     profile: &StoreProfile,
     own: [Option<u8>; 2],
 ) -> Result<(), StorageError> {
-    let banks = Banks::survey(storage)?;
+    let banks = survey(storage, store)?;
     let next = Next {
         plan: &|address, _| match address.index {
             OWN => Fate::Drop,
@@ -253,8 +265,11 @@ pub(crate) fn save_own(
 ///
 /// # Errors
 /// [`StorageError`] where the storage cannot be read.
-pub(crate) fn own(storage: &mut dyn Storage) -> Result<[Option<u8>; 2], StorageError> {
-    let banks = Banks::survey(storage)?;
+pub(crate) fn own(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+) -> Result<[Option<u8>; 2], StorageError> {
+    let banks = survey(storage, store)?;
     let mut own = [None; 2];
     let mut records = banks.records();
     while let Some(record) = records.next(storage)? {
@@ -284,8 +299,8 @@ pub fn erase(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    let banks = Banks::survey(storage)?;
-    if banks.newest.is_none() && !banks.damaged {
+    let banks = survey(storage, store)?;
+    if banks.state == Loaded::Blank {
         return Ok(());
     }
     let next = Next {

@@ -1,6 +1,6 @@
 //! Non-volatile memory: bytes behind a small trait, and the image of the saved values.
 //!
-//! [`Storage`] is an EEPROM as a host provides it. [`NoStorage`] is a device without
+//! [`Storage`] is an EEPROM or NOR flash as a host provides it. [`NoStorage`] is a device without
 //! one, [`Memory`] lives as long as its bytes, `File` (feature `std`) longer.
 //! [`image`] is what 1010h and 1011h write there.
 
@@ -13,7 +13,7 @@ mod memory;
 use core::fmt;
 
 #[cfg(feature = "std")]
-pub use file::{File, OpenError};
+pub use file::{File, OpenError, Owner};
 pub use memory::Memory;
 
 /// Reason why bytes could not be read or written.
@@ -29,6 +29,10 @@ pub enum StorageError {
     PowerCut,
     /// The memory itself failed.
     Device,
+    /// The memory does not hold what was written to it.
+    NotWritten,
+    /// The saved values are of another device, and only a master may replace them.
+    Foreign,
 }
 
 impl fmt::Display for StorageError {
@@ -38,32 +42,75 @@ impl fmt::Display for StorageError {
             Self::Full => "the storage is too small for the values",
             Self::PowerCut => "power went while the storage was written",
             Self::Device => "the storage device failed",
+            Self::NotWritten => "the storage does not hold what was written to it",
+            Self::Foreign => "another device wrote the saved values",
         })
     }
 }
 
 impl core::error::Error for StorageError {}
 
-/// Bytes that survive power-off.
+/// Sizes of a storage, in bytes.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Geometry {
+    /// Size of the whole storage. Of flash: whole pages.
+    pub capacity: usize,
+    /// Size of what [`Storage::erase`] erases at once; 0: nothing has to be erased before it is
+    /// written (EEPROM, FRAM).
+    pub page: usize,
+    /// Size of what is written at once, a power of two up to 32; 1 for an EEPROM.
+    pub word: usize,
+}
+
+impl Geometry {
+    /// An EEPROM or FRAM: every byte can be written at any time.
+    pub const fn eeprom(capacity: usize) -> Self {
+        Self {
+            capacity,
+            page: 0,
+            word: 1,
+        }
+    }
+}
+
+/// Memory that survives power-off: an EEPROM, or NOR flash.
 ///
-/// A byte is written wholly or not at all. Nothing else is asked of the device:
-/// power may go between any two bytes.
+/// Power may go at any moment. A byte of an EEPROM is written wholly or not at all; a word of flash
+/// that is being written, or a page that is being erased, may have any content after it.
+///
+/// Flash ([`Geometry::page`] is not 0) sees whole words at multiples of [`Geometry::word`], each
+/// written once after its page was erased, so a write only clears bits. No call takes longer than to
+/// erase one page, or to write 64 bytes.
 pub trait Storage {
     /// Number of bytes.
     fn capacity(&self) -> usize;
 
+    /// Returns the sizes of the storage; those of an EEPROM if it does not say otherwise.
+    fn geometry(&self) -> Geometry {
+        Geometry::eeprom(self.capacity())
+    }
+
     /// Fills `to` from `offset` on.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`], and what the device has to say.
+    /// [`StorageError::OutOfRange`], and those of the device.
     fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError>;
 
     /// Writes `bytes` from `offset` on.
     ///
     /// # Errors
-    /// [`StorageError::OutOfRange`], and what the device has to say; some of the
-    /// bytes may be written then.
+    /// [`StorageError::OutOfRange`], and those of the device; some of the bytes may be written
+    /// then.
     fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError>;
+
+    /// Sets all bytes of the page at `offset` to FFh. Never called for an EEPROM.
+    ///
+    /// # Errors
+    /// [`StorageError::OutOfRange`], and those of the device.
+    fn erase(&mut self, offset: usize) -> Result<(), StorageError> {
+        let _ = offset;
+        Err(StorageError::Device)
+    }
 
     /// Makes sure that everything written before this call survives a loss of power after it.
     ///

@@ -1,166 +1,203 @@
 //! Reading: which banks are whole, which is the newest, and what is in it.
 
-use od_model::Address;
+use od_model::{Address, Dictionary};
 
-use super::layout::{HEADER, MAGIC, RECORD, REPLACED, VERSION};
+use super::layout::{
+    Code, ERASED, FIELDS, Layout, MAGIC_1, MAX_HEADER, RECORD, VERSION, decode, in_chunks, is_blank,
+};
+use super::loaded::Loaded;
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 
-/// A whole bank.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bank {
+/// Content of a bank.
+struct Bank {
     /// Offset of its header.
-    pub(super) start: usize,
+    start: usize,
+    /// Commit word.
+    code: Code,
+    /// The word after it: a save that replaces the set began.
+    mark: Code,
+    /// Its set, if it is whole.
+    set: Option<Set>,
+    /// Every bit is as a save left it.
+    is_clean: bool,
+    /// Version 1 of this layout.
+    is_old: bool,
+}
+
+/// A whole set.
+#[derive(Clone, Copy)]
+pub(super) struct Set {
+    /// [`device`] that wrote it.
+    device: u32,
     /// Bytes of records.
-    len: usize,
-    pub(super) sequence: u32,
-    /// A save was to replace it. As the newest set it means that the save was cut.
-    pub(super) replaced: bool,
+    pub(super) len: usize,
 }
 
 /// State of both banks.
-#[derive(Clone, Copy, Debug)]
 pub(super) struct Banks {
-    pub(super) newest: Option<Bank>,
-    /// Offset of the bank for the next set.
+    pub(super) layout: Layout,
+    /// The bank that stays with the next save: that of the newest set, if there is one.
+    pub(super) stays: usize,
+    /// Bytes of records in it; none if it is another device's.
+    len: usize,
+    /// The bank of the next set.
     pub(super) target: usize,
-    /// Bytes of a bank.
-    pub(super) size: usize,
-    /// A bank holds something other than a set.
-    pub(super) damaged: bool,
-    /// The damaged one was written after the newest whole one, or may have been.
-    pub(super) lost_newer: bool,
-}
-
-enum Found {
-    /// Nothing, or the remains of a save that was cut.
-    Empty,
-    Damaged {
-        sequence: u32,
-    },
-    Whole(Bank),
+    /// The commit word of the next set.
+    pub(super) next: Code,
+    /// The device.
+    pub(super) device: u32,
+    /// The device that wrote the newest set.
+    pub(super) writer: Option<u32>,
+    /// The set that a start loads, whether or not its records fit.
+    pub(super) state: Loaded,
+    /// The newest set does not count, because a later save was interrupted on a device that loads
+    /// the factory values then; the operating records in it do.
+    pub(super) is_withdrawn: bool,
 }
 
 impl Banks {
     /// Reads both banks to their end.
-    pub(super) fn survey(storage: &mut dyn Storage) -> Result<Self, StorageError> {
-        let size = storage.capacity() / 2;
-        let mut banks = Self {
-            newest: None,
-            target: 0,
-            size,
-            damaged: false,
-            lost_newer: false,
+    pub(super) fn survey(storage: &mut dyn Storage, device: u32) -> Result<Self, StorageError> {
+        let layout = Layout::of(storage);
+        let first = look(storage, &layout, 0)?;
+        let second = look(storage, &layout, layout.size)?;
+        let first_stays = match (first.set, second.set) {
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            _ => first.code.is_complete() && second.code.later_than(first.code) == 0,
         };
-        if size < HEADER {
-            return Ok(banks);
-        }
-        let found = [look(storage, 0, size)?, look(storage, size, size)?];
-        for found in &found {
-            if let Found::Whole(bank) = found {
-                let newer = |than: Bank| bank.sequence.wrapping_sub(than.sequence) as i32 > 0;
-                if banks.newest.is_none_or(newer) {
-                    banks.newest = Some(*bank);
-                }
-            }
-        }
-        for found in &found {
-            if let Found::Damaged { sequence } = found {
-                banks.damaged = true;
-                banks.lost_newer |= banks
-                    .newest
-                    .is_some_and(|newest| newest.sequence.wrapping_sub(1) != *sequence);
-            }
-        }
-        banks.target = match (banks.newest, &found) {
-            (Some(Bank { start: 0, .. }), _) => size,
-            (Some(_), _) => 0,
-            // Nothing is overwritten while there is room that holds nothing.
-            (None, [Found::Damaged { .. }, Found::Empty]) => size,
-            (None, _) => 0,
+        let (stays, target) = match first_stays {
+            true => (&first, &second),
+            false => (&second, &first),
         };
-        Ok(banks)
-    }
-
-    /// Whether the last save was interrupted, on a device that loads the factory values then.
-    pub(super) fn is_cut(&self) -> bool {
-        self.newest.is_some_and(|bank| bank.replaced)
+        let was_withdrawn = stays.mark == Code::WITHDRAWN;
+        // A save began that was not completed.
+        let is_interrupted =
+            (was_withdrawn || stays.mark == Code::REPLACED) && target.code != Code::GIVEN_UP;
+        // A set is damaged that is later than the newest.
+        let lost = match target.code {
+            // Flash may have any content where power went.
+            Code::UNCLEAR => (layout.page == 0 && stays.mark == Code::REPLACED).into(),
+            code => code.later_than(stays.code),
+        };
+        let is_withdrawn = was_withdrawn
+            && match lost {
+                0 => is_interrupted,
+                later => later == 2,
+            };
+        let is_clean = stays.is_clean && target.is_clean;
+        let state = match stays.set {
+            Some(set) if set.device != device => Loaded::Foreign,
+            Some(_) if lost > 0 && is_withdrawn => Loaded::Damaged,
+            Some(_) if lost > 0 => Loaded::Older,
+            Some(_) if is_interrupted => Loaded::Cut {
+                factory: was_withdrawn,
+            },
+            Some(_) if is_clean => Loaded::Complete,
+            Some(_) => Loaded::Flawed,
+            None if stays.code.is_complete() => Loaded::Damaged,
+            None if stays.is_old || target.is_old => Loaded::Foreign,
+            None if is_interrupted => Loaded::Cut { factory: true },
+            None if is_clean => Loaded::Blank,
+            None => Loaded::Damaged,
+        };
+        let own = stays.set.filter(|set| set.device == device);
+        let next = match stays.code.is_complete() {
+            true => stays.code.plus(if is_withdrawn { 2 } else { 1 }),
+            false => Code::FIRST,
+        };
+        Ok(Self {
+            layout,
+            stays: stays.start,
+            len: own.map_or(0, |set| set.len),
+            target: target.start,
+            next,
+            device,
+            writer: stays.set.map(|set| set.device),
+            state,
+            is_withdrawn,
+        })
     }
 
     /// The records of the newest set.
     pub(super) fn records(&self) -> Records {
-        self.newest.map_or(Records { at: 0, end: 0 }, Records::new)
-    }
-
-    /// The sequence number of the next set.
-    pub(super) fn next_sequence(&self) -> u32 {
-        self.newest.map_or(1, |bank| bank.sequence.wrapping_add(1))
+        let at = self.stays + self.layout.header();
+        let end = at + self.len;
+        Records { at, end }
     }
 }
 
-fn look(storage: &mut dyn Storage, start: usize, size: usize) -> Result<Found, StorageError> {
-    let mut header = [0; HEADER];
-    storage.read(start, &mut header)?;
-    let word = |at: usize| {
-        u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]])
-    };
-    let sequence = word(8);
-    let damaged = Ok(Found::Damaged { sequence });
-    let replaced = header[0] == REPLACED;
-    if header[1..4] != MAGIC[1..] || !(replaced || header[0] == MAGIC[0]) {
-        // What is there while the magic is written or taken away.
-        let empty = |(byte, magic): (&u8, &u8)| matches!(byte, 0 | 0xFF) || byte == magic;
-        let empty = header.iter().zip(&MAGIC).all(empty);
-        return if empty { Ok(Found::Empty) } else { damaged };
+/// Returns the number by which a set knows its device: version of the layout, vendor-ID and product
+/// code (1018h).
+pub(super) fn device(dictionary: &Dictionary<'_>) -> u32 {
+    let mut crc = Crc32::new();
+    crc.update(&[VERSION]);
+    for sub in 1..=2 {
+        let entry = dictionary.entry(0x1018, sub);
+        let number = entry.and_then(|entry| entry.default.integer(0));
+        crc.update(&(number.unwrap_or(0) as u32).to_le_bytes());
     }
-    let len = word(12) as usize;
-    if word(4) != u32::from(VERSION) || len > size - HEADER {
-        return damaged;
+    crc.finish()
+}
+
+fn look(storage: &mut dyn Storage, layout: &Layout, start: usize) -> Result<Bank, StorageError> {
+    let mut bank = Bank {
+        start,
+        code: Code::ERASED,
+        mark: Code::ERASED,
+        set: None,
+        is_clean: true,
+        is_old: false,
+    };
+    if layout.size == 0 {
+        return Ok(bank);
+    }
+    let mut header = [0; MAX_HEADER];
+    let header = &mut header[..layout.header()];
+    storage.read(start, header)?;
+    bank.is_old = header.starts_with(MAGIC_1);
+    (bank.code, bank.mark, bank.is_clean) = decode(header, layout.word);
+    if bank.code.is_complete() {
+        bank.set = content(storage, layout, start)?;
+    }
+    let used = match bank.set {
+        Some(set) => layout.header() + set.len,
+        None => 2 * layout.word,
+    };
+    bank.is_clean &=
+        bank.code == Code::GIVEN_UP || is_blank(storage, start + used, layout.size - used)?;
+    Ok(bank)
+}
+
+/// Returns the set of a bank, if fields and records are whole.
+pub(super) fn content(
+    storage: &mut dyn Storage,
+    layout: &Layout,
+    bank: usize,
+) -> Result<Option<Set>, StorageError> {
+    let mut fields = [0; MAX_HEADER];
+    let fields = &mut fields[..layout.header() - 2 * layout.word];
+    storage.read(bank + 2 * layout.word, fields)?;
+    let number = |at: usize| {
+        u32::from_le_bytes([fields[at], fields[at + 1], fields[at + 2], fields[at + 3]])
+    };
+    let start = bank + layout.header();
+    let len = number(4) as usize;
+    if len > layout.size - layout.header() || fields[FIELDS..].iter().any(|byte| *byte != ERASED) {
+        return Ok(None);
     }
     let mut crc = Crc32::new();
-    crc.update(&header[4..16]);
-    in_chunks(storage, start + HEADER, len, |_, chunk| {
+    crc.update(&fields[..8]);
+    in_chunks(storage, start, len, |_, chunk| {
         crc.update(chunk);
         Ok(())
     })?;
-    if crc.finish() != word(16) {
-        return damaged;
+    if crc.finish() != number(8) {
+        return Ok(None);
     }
-    let bank = Bank {
-        start,
-        len,
-        sequence,
-        replaced,
-    };
-    let mut records = Records::new(bank);
-    let mut last = None;
-    while let Some(record) = records.next(storage)? {
-        if last >= Some(record.address) {
-            return damaged;
-        }
-        last = Some(record.address);
-    }
-    Ok(if records.at == records.end {
-        Found::Whole(bank)
-    } else {
-        Found::Damaged { sequence }
-    })
-}
-
-/// Reads `len` bytes from `start` on, a piece at a time.
-pub(super) fn in_chunks(
-    storage: &mut dyn Storage,
-    start: usize,
-    len: usize,
-    mut each: impl FnMut(&mut dyn Storage, &[u8]) -> Result<(), StorageError>,
-) -> Result<(), StorageError> {
-    let mut chunk = [0; 64];
-    for at in (0..len).step_by(chunk.len()) {
-        let part = &mut chunk[..(len - at).min(64)];
-        storage.read(start + at, part)?;
-        each(storage, part)?;
-    }
-    Ok(())
+    let device = number(0);
+    Ok(Some(Set { device, len }))
 }
 
 /// One saved value.
@@ -179,14 +216,6 @@ pub(super) struct Records {
 }
 
 impl Records {
-    fn new(bank: Bank) -> Self {
-        let at = bank.start + HEADER;
-        Self {
-            at,
-            end: at + bank.len,
-        }
-    }
-
     /// `None` at the end, and if the rest is not a record.
     pub(super) fn next(
         &mut self,

@@ -1,18 +1,223 @@
-//! Sizes and marks of a bank; [`image`](super) has the table.
+//! Sizes and codes of a bank; [`image`](super) has the table.
+
+use crate::storage::{Geometry, Storage, StorageError};
 
 /// The longest value that is saved, in bytes.
 pub const MAX_VALUE: usize = 1024;
+/// The longest word of a storage, in bytes.
+const MAX_WORD: usize = 32;
 
-/// Bytes of a bank's header.
-pub(super) const HEADER: usize = 20;
+/// Bytes of the fields that describe the records: device, length, CRC.
+pub(super) const FIELDS: usize = 12;
+/// Bytes of a header at most.
+pub(super) const MAX_HEADER: usize = 3 * MAX_WORD;
 /// Bytes of a record before its value.
 pub(super) const RECORD: usize = 5;
-/// Index of the records that are no object's: node ID (sub-index 1) and bit rate (2) of LSS.
+/// Index of the records that are not objects: node ID (sub-index 1) and bit rate (2) of LSS.
 pub(super) const OWN: u16 = 0;
-/// No byte of it is one flipped bit away from 00h or FFh.
-pub(super) const MAGIC: [u8; 4] = *b"\x69odk";
-/// First byte of the magic of a set that a save is about to replace, where a save that is cut
-/// leaves nothing.
-pub(super) const REPLACED: u8 = 0x96;
-/// Version of the layout.
-pub(super) const VERSION: u16 = 1;
+/// Version of the layout; part of what a set says of its device.
+pub(super) const VERSION: u8 = 2;
+/// First bytes of a bank of version 1.
+pub(super) const MAGIC_1: &[u8] = b"\x69odk";
+
+/// Content of a byte that is erased.
+pub(super) const ERASED: u8 = 0xFF;
+/// Codes of the words of a header. Any two differ in four bits, also from a word of flash that lost
+/// its power between two of them.
+static CODES: [u8; 10] = [ERASED, 0, 0xF0, 0xA5, 0xC3, 0x0F, 0x33, 0x3C, 0x55, 0x5A];
+
+/// Content of a word of a header: a place in [`CODES`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Debug)]
+pub(super) struct Code(u8);
+
+impl Code {
+    /// Nothing was written.
+    pub(super) const ERASED: Self = Self(0);
+    /// The same in a new EEPROM that is all 0.
+    const ZERO: Self = Self(1);
+    /// Commit word of a save that failed with power on: the set before it counts.
+    pub(super) const GIVEN_UP: Self = Self(2);
+    /// Mark: a save that replaces this set began; until it is complete, this set counts.
+    pub(super) const REPLACED: Self = Self(3);
+    /// Mark: a save that replaces this set began; until it is complete, the factory values count.
+    pub(super) const WITHDRAWN: Self = Self(4);
+    /// The first commit word of a complete set. Four more follow, each newer than the one before it,
+    /// and this one again.
+    pub(super) const FIRST: Self = Self(5);
+    const PHASES: u8 = 5;
+    /// More than one bit away from every code.
+    pub(super) const UNCLEAR: Self = Self(10);
+
+    /// Reads a word; `false` if a bit is wrong. One may be.
+    fn read(word: &[u8]) -> (Self, bool) {
+        for (place, code) in (0..).zip(&CODES) {
+            let wrong: u32 = word.iter().map(|byte| (byte ^ code).count_ones()).sum();
+            if wrong <= 1 {
+                return (Self(place), wrong == 0);
+            }
+        }
+        (Self::UNCLEAR, false)
+    }
+
+    fn byte(self) -> u8 {
+        CODES.get(usize::from(self.0)).map_or(ERASED, |code| *code)
+    }
+
+    /// Whether it is the commit word of a complete set.
+    pub(super) fn is_complete(self) -> bool {
+        self >= Self::FIRST && self < Self::UNCLEAR
+    }
+
+    /// The commit word of so many saves later, of that of a complete set.
+    pub(super) fn plus(self, later: u8) -> Self {
+        Self(Self::FIRST.0 + (self.0 - Self::FIRST.0 + later) % Self::PHASES)
+    }
+
+    /// Returns how many saves later than another a set was complete: 1, or 2 if the other did not
+    /// count any more. 0: it was not later, or is not complete.
+    pub(super) fn later_than(self, other: Self) -> u8 {
+        match () {
+            () if !self.is_complete() => 0,
+            () if !other.is_complete() || self == other.plus(1) => 1,
+            () if self == other.plus(2) => 2,
+            () => 0,
+        }
+    }
+}
+
+/// Returns commit word and mark at the start of a header, and whether all their bits are right.
+pub(super) fn decode(header: &[u8], word: usize) -> (Code, Code, bool) {
+    let read = |at: usize| Code::read(header.get(at..at + word).unwrap_or_default());
+    let ((code, is_exact), (mark, is_right)) = (read(0), read(word));
+    // An EEPROM that is all 0 is as good as an erased one.
+    let plain = |code| {
+        if code == Code::ZERO {
+            Code::ERASED
+        } else {
+            code
+        }
+    };
+    (plain(code), plain(mark), is_exact && is_right)
+}
+
+/// Sizes of the banks of a storage.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Layout {
+    pub(super) page: usize,
+    pub(super) word: usize,
+    /// Bytes of a bank; 0: the storage has no room for one.
+    pub(super) size: usize,
+}
+
+impl Layout {
+    pub(super) fn of(storage: &dyn Storage) -> Self {
+        let Geometry {
+            capacity,
+            page,
+            word,
+        } = storage.geometry();
+        let half = capacity / 2;
+        let fits = word.is_power_of_two() && word <= MAX_WORD && page % word == 0;
+        let mut layout = Self {
+            page,
+            word: if fits { word } else { 1 },
+            size: half - half % page.max(word).max(1),
+        };
+        if !fits || layout.size < layout.header() {
+            layout.size = 0;
+        }
+        layout
+    }
+
+    /// Bytes of a header: commit word, mark, fields.
+    pub(super) const fn header(&self) -> usize {
+        header(self.word)
+    }
+
+    /// Prepares a bank for a set of `len` bytes with its header.
+    pub(super) fn clear(
+        &self,
+        storage: &mut dyn Storage,
+        bank: usize,
+        len: usize,
+    ) -> Result<(), StorageError> {
+        if self.page == 0 {
+            self.stamp(storage, bank, Code::ERASED)?;
+            return self.stamp(storage, bank + self.word, Code::ERASED);
+        }
+        for at in (0..self.size).step_by(self.page) {
+            // Pages behind the set are mostly erased already.
+            if at < len || !is_blank(storage, bank + at, self.page)? {
+                storage.erase(bank + at)?;
+            }
+        }
+        storage.flush()
+    }
+
+    /// Writes a code into the word at `at`, and reads it back.
+    pub(super) fn stamp(
+        &self,
+        storage: &mut dyn Storage,
+        at: usize,
+        code: Code,
+    ) -> Result<(), StorageError> {
+        let wanted = [code.byte(); MAX_WORD];
+        let wanted = &wanted[..self.word];
+        let mut word = [0; MAX_WORD];
+        let word = &mut word[..self.word];
+        storage.read(at, word)?;
+        // A word of flash is written once.
+        if word != wanted && (self.page == 0 || word.iter().all(|byte| *byte == ERASED)) {
+            storage.write(at, wanted)?;
+            storage.flush()?;
+            storage.read(at, word)?;
+        }
+        match word == wanted {
+            true => Ok(()),
+            false => Err(StorageError::NotWritten),
+        }
+    }
+}
+
+/// Bytes of a header on a storage with words of this size.
+pub(super) const fn header(word: usize) -> usize {
+    2 * word + FIELDS.next_multiple_of(word)
+}
+
+/// Returns whether nothing was ever written there: all bytes are FFh, or all are 0.
+pub(super) fn is_blank(
+    storage: &mut dyn Storage,
+    start: usize,
+    len: usize,
+) -> Result<bool, StorageError> {
+    let (mut all, mut any) = (u32::MAX, 0);
+    for at in (0..len).step_by(64) {
+        let mut chunk = [0; 64];
+        let size = (len - at).min(64);
+        storage.read(start + at, &mut chunk[..size])?;
+        let first = chunk[0];
+        chunk[size..].fill(first);
+        // Most of a bank is erased, so this is most of a start.
+        for word in chunk.as_chunks().0 {
+            all &= u32::from_ne_bytes(*word);
+            any |= u32::from_ne_bytes(*word);
+        }
+    }
+    Ok(all == u32::MAX || any == 0)
+}
+
+/// Reads `len` bytes from `start` on, a piece at a time.
+pub(super) fn in_chunks(
+    storage: &mut dyn Storage,
+    start: usize,
+    len: usize,
+    mut each: impl FnMut(&mut dyn Storage, &[u8]) -> Result<(), StorageError>,
+) -> Result<(), StorageError> {
+    let mut chunk = [0; 64];
+    for at in (0..len).step_by(chunk.len()) {
+        let part = &mut chunk[..(len - at).min(64)];
+        storage.read(start + at, part)?;
+        each(storage, part)?;
+    }
+    Ok(())
+}

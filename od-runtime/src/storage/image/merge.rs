@@ -2,10 +2,12 @@
 
 use od_model::{Address, Entry};
 
-use super::bank::{Banks, in_chunks};
+use super::bank::{Banks, content};
 use super::cob_id;
 use super::covered::{is_life_record, is_saved};
-use super::layout::{HEADER, MAGIC, MAX_VALUE, OWN, RECORD, REPLACED, VERSION};
+use super::layout::{
+    Code, ERASED, FIELDS, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, in_chunks, is_blank,
+};
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -33,26 +35,24 @@ pub(super) struct Next<'n> {
     pub(super) cob_ids: SavedCobIds,
 }
 
-/// Not the start of a bank.
-const NONE: usize = usize::MAX;
-
-/// A set that is written but for its magic.
+/// A set that is written but for its commit word.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Pending {
+    layout: Layout,
     target: usize,
-    /// The set before it, if it does not count until then; else [`NONE`]. An `Option` here would keep
-    /// a node without power from being all zeros.
-    replaced: usize,
+    code: Code,
 }
 
-/// Writes the next set into the older bank, all but the magic.
+/// Writes the next set into the older bank, all but the commit word.
 pub(super) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     banks: &Banks,
     next: &Next<'_>,
 ) -> Result<Pending, StorageError> {
-    let room = banks.size.checked_sub(HEADER).ok_or(StorageError::Full)?;
+    let layout = banks.layout;
+    let room = layout.size.checked_sub(layout.header());
+    let room = room.ok_or(StorageError::Full)?;
     // Records without an object stay as long as there is room.
     let mut set = Set {
         store,
@@ -69,37 +69,46 @@ pub(super) fn begin(
         return Err(StorageError::Full);
     }
     let pending = Pending {
+        layout,
         target: banks.target,
-        replaced: match banks.newest {
-            Some(bank) if next.cut == CutSave::Factory && !bank.replaced => bank.start,
-            _ => NONE,
-        },
+        code: banks.next,
     };
-    if pending.replaced != NONE {
-        storage.write(pending.replaced, &[REPLACED])?;
-        storage.flush()?;
+    // Once it does not count, only a complete set ends that.
+    let mark = match next.cut {
+        CutSave::LastSet if !banks.is_withdrawn => Code::REPLACED,
+        _ => Code::WITHDRAWN,
+    };
+    match layout.stamp(storage, banks.stays + layout.word, mark) {
+        // A mark that power or a save before this one left in flash stays as it is.
+        Err(StorageError::NotWritten) if layout.page > 0 => {}
+        result => result?,
     }
-    if let Err(error) = set.write(storage, len) {
-        // Power did not go, so the set before it still counts, if it can be marked.
-        let _ = reinstate(storage, pending);
-        return Err(error);
-    }
+    let written = set.write(storage, len);
+    written.map_err(|error| give_up(storage, pending, error))?;
     Ok(pending)
 }
 
-/// The magic: from now on the next set is the newest.
+/// The commit word: from now on the next set is the newest.
 pub(crate) fn commit(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
-    storage.write(pending.target, &MAGIC)?;
-    storage.flush()?;
-    reinstate(storage, pending)
+    let Pending {
+        layout,
+        target,
+        code,
+    } = pending;
+    let written = layout.stamp(storage, target, code);
+    match layout.page {
+        0 => written.map_err(|error| give_up(storage, pending, error)),
+        // A word of flash is written once.
+        _ => written,
+    }
 }
 
-/// The set before the next one is what it was.
-fn reinstate(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
-    match pending.replaced {
-        NONE => Ok(()),
-        start => storage.write(start, &MAGIC[..1]),
-    }
+/// Power did not go, so the set before the next one counts, if the storage still works.
+fn give_up(storage: &mut dyn Storage, pending: Pending, error: StorageError) -> StorageError {
+    let _ = pending
+        .layout
+        .stamp(storage, pending.target, Code::GIVEN_UP);
+    error
 }
 
 /// The next set.
@@ -119,23 +128,37 @@ impl Set<'_> {
         Ok(writer.at)
     }
 
-    /// Writes header and records.
+    /// Writes records and fields, and reads them back.
     fn write(&self, storage: &mut dyn Storage, len: usize) -> Result<(), StorageError> {
-        let target = self.banks.target;
-        storage.write(target, &[0; MAGIC.len()])?;
-        storage.flush()?;
-        let mut header = [0; HEADER - MAGIC.len()];
-        header[..2].copy_from_slice(&VERSION.to_le_bytes());
-        header[4..8].copy_from_slice(&self.banks.next_sequence().to_le_bytes());
-        // The length is less than a bank, which a header can describe: survey saw to it.
-        header[8..12].copy_from_slice(&(len as u32).to_le_bytes());
-        let mut writer = Writer::new(target + HEADER, false);
-        writer.crc.update(&header[..12]);
+        let (layout, target) = (self.banks.layout, self.banks.target);
+        let header = layout.header();
+        layout.clear(storage, target, header + len)?;
+        let mut fields = [ERASED; MAX_HEADER];
+        fields[..4].copy_from_slice(&self.banks.device.to_le_bytes());
+        // The length is less than a bank, which a header can describe.
+        fields[4..8].copy_from_slice(&(len as u32).to_le_bytes());
+        let mut writer = Writer::new(target + header, false);
+        writer.crc.update(&fields[..8]);
         self.records(storage, &mut writer)?;
-        writer.write_out(storage)?;
-        header[12..].copy_from_slice(&writer.crc.finish().to_le_bytes());
-        storage.write(target + MAGIC.len(), &header)?;
-        storage.flush()
+        writer.write_out(storage, layout.word)?;
+        // Behind the records nothing stays of older sets; flash is erased there.
+        let end = target + layout.size;
+        while layout.page == 0 && writer.at < end {
+            let part = (end - writer.at).min(writer.buffer.len());
+            if !is_blank(storage, writer.at, part)? {
+                storage.write(writer.at, &[ERASED; 64][..part])?;
+            }
+            writer.at += part;
+        }
+        fields[8..FIELDS].copy_from_slice(&writer.crc.finish().to_le_bytes());
+        let fields = &fields[..header - 2 * layout.word];
+        storage.write(target + 2 * layout.word, fields)?;
+        storage.flush()?;
+        let whole = content(storage, &layout, target)?;
+        match whole.is_some_and(|set| set.len == len) {
+            true => Ok(()),
+            false => Err(StorageError::NotWritten),
+        }
     }
 
     /// Goes through the newest set and the dictionary side by side, both by address.
@@ -159,7 +182,9 @@ impl Set<'_> {
             let new = entry.as_ref().filter(|new| new.address == address);
             let fate = match (self.next.plan)(address, new) {
                 // After a save that was cut the factory values hold, and they stay.
-                Fate::Keep if self.banks.is_cut() && !new.is_some_and(is_life_record) => Fate::Drop,
+                Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => {
+                    Fate::Drop
+                }
                 Fate::Keep if new.is_none() && address.index != OWN && !self.has_orphans => {
                     Fate::Drop
                 }
@@ -246,15 +271,18 @@ impl Writer {
             self.filled += part;
             bytes = &bytes[part..];
             if self.filled == self.buffer.len() {
-                self.write_out(storage)?;
+                self.write_out(storage, 1)?;
             }
         }
         Ok(())
     }
 
-    fn write_out(&mut self, storage: &mut dyn Storage) -> Result<(), StorageError> {
-        storage.write(self.at, &self.buffer[..self.filled])?;
-        self.at += self.filled;
+    /// Writes the buffer, with the rest of its last word.
+    fn write_out(&mut self, storage: &mut dyn Storage, word: usize) -> Result<(), StorageError> {
+        let end = self.filled.next_multiple_of(word);
+        self.buffer[self.filled..end].fill(ERASED);
+        storage.write(self.at, &self.buffer[..end])?;
+        self.at += end;
         self.filled = 0;
         Ok(())
     }

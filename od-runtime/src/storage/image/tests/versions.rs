@@ -2,37 +2,65 @@
 
 use super::*;
 
-#[test]
-fn sequence_numbers_wrap() {
-    let (mut bench, mut memory) = (Bench::new(device()), storage());
-    bench.fill(1);
-    save(&mut memory, &bench.store(), STORE, 1).unwrap();
-    let bytes = memory.bytes_mut();
-    bytes[8..12].copy_from_slice(&(u32::MAX - 1).to_le_bytes());
-    let len = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+/// A bank of version 1 of the layout with one record, 6003h = 7.
+fn version_1() -> Vec<u8> {
+    let mut bytes = b"\x69odk\x01\0\0\0\x01\0\0\0\x09\0\0\0".to_vec();
+    let record = [0x03, 0x60, 0, 4, 0, 7, 0, 0, 0];
     let mut crc = crate::storage::crc::Crc32::new();
-    crc.update(&bytes[4..16]);
-    crc.update(&bytes[HEADER..HEADER + len]);
-    bytes[16..20].copy_from_slice(&crc.finish().to_le_bytes());
-    for with in 2..8 {
-        bench.fill(with);
-        save(&mut memory, &bench.store(), STORE, 1).unwrap();
-        assert_eq!(bench.start(&mut memory), Loaded::Complete);
-        assert_eq!(bench.store().unsigned(0x6003, 0), u64::from(with));
-    }
+    crc.update(&bytes[4..]);
+    crc.update(&record);
+    bytes.extend(crc.finish().to_le_bytes());
+    bytes.extend(record);
+    bytes
 }
 
 #[test]
-fn another_version_is_not_read() {
-    let (mut bench, mut memory) = (Bench::new(device()), storage());
-    bench.fill(1);
-    save(&mut memory, &bench.store(), STORE, 1).unwrap();
-    memory.bytes_mut()[4] = 2;
-    assert_eq!(bench.start(&mut memory), Loaded::Damaged);
-    assert_eq!(bench.store().unsigned(0x6003, 0), 0);
-    // A save leaves it where it is, as long as there is another bank.
-    save(&mut memory, &bench.store(), STORE, 1).unwrap();
-    assert_eq!(memory.bytes()[..5], *b"\x69odk\x02");
+fn the_set_of_another_device_or_version_is_not_loaded_and_stays() {
+    let with_identity = |product| {
+        let mut description = Description::default();
+        let number = |target, name, value| {
+            let edit = Edit::add(target).name(name).access(Access::Ro);
+            edit.data_type(DataType::Unsigned32)
+                .default(Raw::Integer(value))
+        };
+        let edits = [
+            Edit::add(Target::object(0x1018))
+                .name("Identity")
+                .code(od_model::ObjectCode::Record),
+            number(Target::member(0x1018, 1), "Vendor-ID", 0xEC),
+            number(Target::member(0x1018, 2), "Product code", product),
+            number(Target::object(0x6003), "Preset", 1)
+                .access(Access::Rw)
+                .save(od_model::Group::Application),
+            number(Target::object(0x2201), "Hours", 0).save(od_model::Group::Manufacturer),
+        ];
+        for edit in edits {
+            let findings = patch::apply(&mut description, &[edit]);
+            assert!(findings.is_empty(), "{findings:?}");
+        }
+        Bench::new(Tables::new(&description))
+    };
+    let (mut one, mut other) = (with_identity(10), with_identity(11));
+    let mut memory = storage();
+    one.store()
+        .set_unsigned(od_model::Address::new(0x6003, 0), 7);
+    save(&mut memory, &one.store(), STORE, 1).unwrap();
+    let mut old = vec![0xFF; memory.bytes().len()];
+    let version_1 = version_1();
+    old[..version_1.len()].copy_from_slice(&version_1);
+    for mut memory in [memory, Memory::new(old)] {
+        let before = memory.bytes().to_vec();
+        assert_eq!(other.start(&mut memory), Loaded::Foreign);
+        assert_eq!(other.store().unsigned(0x6003, 0), 1, "the default");
+        // The device itself writes nothing over it; a master may.
+        let result = save(&mut memory, &other.store(), STORE, 0);
+        assert_eq!(result, Err(StorageError::Foreign));
+        assert_eq!(memory.bytes(), before);
+        save(&mut memory, &other.store(), STORE, 1).unwrap();
+        other.start(&mut memory);
+        save(&mut memory, &other.store(), STORE, 1).unwrap();
+        assert_eq!(other.start(&mut memory), Loaded::Complete);
+    }
 }
 
 #[test]
