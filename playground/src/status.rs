@@ -1,6 +1,9 @@
 //! State of a device as seen from outside.
 
+use std::iter;
+
 use od_bench::VirtualDevice;
+use od_bench::notice::of_storage;
 use od_model::Address;
 use od_model::typed::Scalar;
 use od_runtime::encoder;
@@ -128,6 +131,30 @@ impl Bus {
             .rig
             .with(device, |device, _| device.eeprom())
             .unwrap_or_default()
+    }
+
+    /// Returns what happened to the EEPROMs since the last call, a sentence each; nothing of a save
+    /// that succeeded.
+    pub fn notices(&mut self) -> Vec<String> {
+        let mut notices = Vec::new();
+        for device in 0..self.device_count() {
+            let told = |device: &mut VirtualDevice, _| {
+                let (node, events) = (device.node_id(), iter::from_fn(|| device.poll_event()));
+                let events: Vec<_> = events.filter_map(|event| of_storage(&event)).collect();
+                events
+                    .into_iter()
+                    .map(move |text| format!("Node {node}: {text}"))
+            };
+            notices.extend(
+                self.journal
+                    .rig
+                    .bus
+                    .with(device, told)
+                    .into_iter()
+                    .flatten(),
+            );
+        }
+        notices
     }
 
     /// Returns the state of the bus line, with the controller of the outside.

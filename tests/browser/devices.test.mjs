@@ -178,6 +178,15 @@ check('a crash of the simulation is not one of the page', {}, async (page) => {
   await row(page, 'an answer after the crash', (one) => one.id === '581');
 });
 
+check('a save that a reset cuts is told in words', { hash: '#device=en580c&node=1' }, async (page) => {
+  await row(page, 'the boot-up', (one) => one.id === '701');
+  // The save takes half a second; the reset comes at the same moment.
+  await page.getByRole('button', { name: 'Pause time' }).click();
+  await sendRaw(page, '601#2310100173617665');
+  await sendRaw(page, '000#8101');
+  await becomes('what came of it', () => page.locator('.toasts').textContent(), /Node 1: a save was interrupted; the device loaded its factory values/);
+});
+
 /** Everything has room: nothing is wider than what it stands in. */
 const fits = (page) => becomes('what has no room', () => overflow(page), []);
 const overflow = (page) =>

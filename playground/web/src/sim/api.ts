@@ -73,6 +73,8 @@ export interface Snapshot {
   frames: Uint8Array;
   /** The words of the last frames of the batch. */
   words: string[];
+  /** What happened to EEPROMs: damage, saves that were cut. */
+  notices: string[];
   /** The journal from here on has changed. */
   journal: JournalNews | null;
   /** Of the selected node: from the raw position to the position value; null without a shaft. */

@@ -91,6 +91,8 @@ export class Engine {
         this.until = null;
         world.drain();
         world.bus.rewind(command.to);
+        // The past is not news.
+        world.bus.notices();
         world.reachedGoal();
         this.tellDevices();
         this.report({ op: 'rewound', to: world.bus.now() });
@@ -260,6 +262,7 @@ export class Engine {
           lesson: world.lessonState(),
           frames,
           words,
+          notices: bus.notices(),
           journal: bus.news(),
           chain: bus.chain(selected),
           values,

@@ -190,6 +190,8 @@ function apply(snapshot: Snapshot): void {
       state.journaled.value += 1;
     }
     if (snapshot.frames.length > 0) frames(snapshot);
+    const text = snapshot.notices.at(-1);
+    if (text) state.toast.value = { text, tone: 'error' };
   });
   for (const listener of listeners) listener(snapshot, first);
 }

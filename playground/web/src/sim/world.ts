@@ -107,6 +107,7 @@ export class World {
     this.bus = this.fresh();
     this.bus.restore(bus.entries(), false);
     this.bus.rewind(bus.now());
+    this.bus.notices();
     // What the page has not seen yet was sent by the bench before; it is told first.
     this.unseen = bus.drain();
     bus.free();
