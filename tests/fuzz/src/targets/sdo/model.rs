@@ -389,7 +389,7 @@ impl Model {
             self.is_saving = false;
             self.is_awaited = false;
         }
-        let ends = |event: &&Event| matches!(event, Event::Saved(_) | Event::StorageDamaged);
+        let ends = |event: &&Event| matches!(event, Event::Saved(_) | Event::NotSaved);
         events.iter().filter(ends).count()
     }
 }
