@@ -22,7 +22,8 @@ enum Kind {
 /// type behind sub-index 0. A member of an unknown type has none in XML.
 fn kind(object: &ObjectDescription) -> Option<Kind> {
     let typed = |data_type: DataType| data_type.kind() != od_model::Kind::Record;
-    let in_order = (0..).zip(object.entries.keys()).all(|(n, sub)| *sub == n);
+    let subs = object.entries.keys().copied().map(u16::from);
+    let in_order = (0u16..).zip(subs).all(|(n, sub)| sub == n);
     let all = object.entries.values();
     let mut types = all.map(|entry| Some(entry.data_type?.value).filter(|one| typed(*one)));
     if !in_order || object.entries.len() < 2 || types.clone().any(|one| one.is_none()) {
