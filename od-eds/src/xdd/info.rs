@@ -95,11 +95,11 @@ fn comments(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> 
 }
 
 fn date(given: Spanned<String>) -> Spanned<String> {
-    Spanned::new(known::date(&given), given.span)
+    Spanned::new(known::date(&given).trim().to_string(), given.span)
 }
 
 fn time(given: Spanned<String>) -> Spanned<String> {
-    Spanned::new(known::time(&given), given.span)
+    Spanned::new(known::time(&given).trim().to_string(), given.span)
 }
 
 fn device_info(root: Node<'_, '_>, reader: &Reader<'_>) -> Option<Placed<'static>> {
