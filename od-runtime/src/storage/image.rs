@@ -155,7 +155,7 @@ pub fn load(
 }
 
 fn survey(storage: &mut dyn Storage, store: &Store<'_>) -> Result<Banks, StorageError> {
-    Banks::survey(storage, device(&store.dictionary()))
+    Banks::survey(storage, device(store.dictionary()))
 }
 
 /// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
