@@ -15,6 +15,8 @@ use crate::scan::encoding::Encoding;
 
 /// Limit of rounds: a fix may make room for the next one.
 const ROUNDS: usize = 64;
+/// Limit of runs over all rounds.
+const RUNS: usize = 8;
 /// Limit of documents that are read again to find the fixes that do harm.
 const TRIALS: usize = 1000;
 /// Rounds that are remembered to see that fixes undo each other.
@@ -62,27 +64,32 @@ pub fn fix(
     level: Applicability,
     find: impl Fn(&Document) -> Vec<Finding>,
 ) -> Fixed {
-    let state = State {
+    let mut state = State {
         document: document.clone(),
         findings: find(document),
         edits: 0,
     };
-    let mut run = Run {
-        find: &find,
-        held: Vec::new(),
-        refused: BTreeSet::new(),
-        trials: TRIALS,
-    };
-    let State {
-        document,
-        findings,
-        edits,
-    } = run.rounds(state, level);
+    let mut held = Vec::new();
+    // What was held back may do no harm once the others are applied: the last run changes nothing.
+    for _ in 0..RUNS {
+        let before = state.edits;
+        let mut run = Run {
+            find: &find,
+            held: Vec::new(),
+            refused: BTreeSet::new(),
+            trials: TRIALS,
+        };
+        state = run.rounds(state, level);
+        held = run.held;
+        if held.is_empty() || state.edits == before {
+            break;
+        }
+    }
     Fixed {
-        document,
-        edits,
-        findings,
-        held: run.held,
+        document: state.document,
+        edits: state.edits,
+        findings: state.findings,
+        held,
     }
 }
 

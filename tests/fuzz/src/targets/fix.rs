@@ -1,4 +1,5 @@
-//! Fixes: they end, never add an error, and safe ones do not change what a file says.
+//! Fixes: they end, never add an error, leave nothing for a second run, and safe ones do not
+//! change what a file says.
 
 use od_eds::Document;
 use od_eds::fix::{Applicability, fix};
@@ -33,6 +34,14 @@ fn run(input: &[u8]) {
         if fixed.edits == 0 {
             assert_eq!(fixed.document.bytes(), before.bytes(), "{level:?}");
         }
+        let again = fix(&fixed.document, level, |file| file.load().findings);
+        assert!(
+            again.edits == 0,
+            "a second run of {level:?} fixes has {} edits:\n{}\nbecomes\n{}",
+            again.edits,
+            shown(),
+            String::from_utf8_lossy(again.document.bytes())
+        );
         if level == Applicability::Safe {
             eds::same_values(&loaded.description, &after.description, &shown());
         }
