@@ -9,7 +9,7 @@ use super::links::listener::{Listener, Stream};
 use super::links::opened::Protocol;
 use super::terminal::note;
 
-/// Most clients that are refused in one turn.
+/// Most connections that are looked at in one turn.
 const TURN: usize = 64;
 /// What the system refuses is tried again after this time.
 const AGAIN: Duration = Duration::from_millis(100);
@@ -24,6 +24,8 @@ pub(super) struct Door {
     listener: Listener,
     /// Clients may be waiting.
     pub(super) ready: bool,
+    /// A client without room, and how many rounds it waits for those who left before it came.
+    held: Option<(Stream, String, usize)>,
     /// Nobody is let in before this moment.
     shut: Option<Clock>,
     /// The last client was refused, and that was told.
@@ -43,6 +45,7 @@ impl Door {
             protocol,
             listener,
             ready: true,
+            held: None,
             shut: None,
             refuses: false,
         })
@@ -53,39 +56,51 @@ impl Door {
         self.shut
     }
 
-    /// The next client. `full` says why there is no room for it.
-    pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(Stream, String)> {
+    /// The next client. `full` says why there is no room for it; it waits until the `readable` clients
+    /// have had their turn, since one of them may have left before it came.
+    pub(super) fn accept(
+        &mut self,
+        full: Option<&str>,
+        readable: usize,
+    ) -> Option<(Stream, String)> {
         if self.shut.is_some_and(|until| Clock::now() < until) {
             return None;
         }
         self.shut = None;
         for _ in 0..TURN {
-            let (stream, name) = match self.listener.accept() {
-                Ok(accepted) => accepted,
-                Err(error) if error.kind() == ErrorKind::WouldBlock => {
-                    self.ready = false;
-                    return None;
-                }
-                // The client went before it was let in.
-                Err(error)
-                    if matches!(
-                        error.kind(),
-                        ErrorKind::ConnectionAborted
-                            | ErrorKind::ConnectionReset
-                            | ErrorKind::Interrupted
-                    ) =>
-                {
-                    continue;
-                }
-                Err(error) => {
-                    self.tell(&format!("no client can connect: {error}"));
-                    self.shut = Some(Clock::now() + AGAIN);
-                    return None;
-                }
+            let (stream, name, rounds) = match self.held.take() {
+                Some(held) => held,
+                None => match self.listener.accept() {
+                    Ok((stream, name)) => (stream, name, 0),
+                    Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                        self.ready = false;
+                        return None;
+                    }
+                    // The client went before it was let in.
+                    Err(error)
+                        if matches!(
+                            error.kind(),
+                            ErrorKind::ConnectionAborted
+                                | ErrorKind::ConnectionReset
+                                | ErrorKind::Interrupted
+                        ) =>
+                    {
+                        continue;
+                    }
+                    Err(error) => {
+                        self.tell(&format!("no client can connect: {error}"));
+                        self.shut = Some(Clock::now() + AGAIN);
+                        return None;
+                    }
+                },
             };
             let files = "too many open files; raise the limit with `ulimit -n`";
             let why = full.or_else(|| (!has_files()).then_some(files));
             match why {
+                Some(_) if rounds <= readable => {
+                    self.held = Some((stream, name, rounds + 1));
+                    return None;
+                }
                 Some(why) => {
                     self.tell(&format!("{name} was refused: {why}"));
                     stream.refuse(self.protocol, why);
