@@ -132,6 +132,7 @@ class Sim:
         """The process ends without a farewell."""
         self.leave()
         self.process.kill()
+        self.process.wait(PATIENCE)
 
     def stop(self):
         """Ctrl-C, as a person ends it."""

@@ -53,7 +53,7 @@ class Transfers(BenchCase):
     def test_too_long(self):
         self.assertAborts(0x06070012, self.device.sdo.download, 0x2010, 0, bytes(3))
         self.assertAborts(0x06070013, self.device.sdo.download, 0x2010, 0, bytes(1))
-        self.assertAborts(0x06070012, self.device.sdo.download, 0x2001, 0, bytes(5000))
+        self.assertAborts(0x06070012, self.device.sdo.download, 0x2001, 0, bytes((1 << 20) + 1))
 
     def test_block_both_ways(self):
         for size in [1, 7, 8, 888, 889, 890, 1000]:
