@@ -167,12 +167,11 @@ impl Clients {
     /// Lets clients in, and returns the names and numbers of those that came.
     pub(super) fn accept(&mut self) -> Vec<(usize, String)> {
         let mut came = Vec::new();
-        let readable = self.list.iter().filter(|client| client.readable).count();
         for at in 0..self.doors.len() {
-            while self.doors[at].ready {
+            while self.doors[at].is_wanted() {
                 let protocol = self.doors[at].protocol;
                 let full = self.full(protocol == Protocol::Control);
-                let Some((stream, name)) = self.doors[at].accept(full.as_deref(), readable) else {
+                let Some((stream, name)) = self.doors[at].accept(full.as_deref()) else {
                     break;
                 };
                 came.extend(self.welcome(protocol, stream, name));

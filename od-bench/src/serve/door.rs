@@ -1,5 +1,6 @@
 //! A place where clients come to.
 
+use std::collections::VecDeque;
 use std::io::{ErrorKind, Result};
 use std::time::{Duration, Instant as Clock};
 
@@ -11,6 +12,9 @@ use super::terminal::note;
 
 /// Most connections that are looked at in one turn.
 const TURN: usize = 64;
+/// A client without room waits this long: another may have left before it came, and the news of that
+/// may come later.
+const PATIENCE: Duration = Duration::from_millis(100);
 /// What the system refuses is tried again after this time.
 const AGAIN: Duration = Duration::from_millis(100);
 /// Files that remain free for everything but clients.
@@ -24,8 +28,8 @@ pub(super) struct Door {
     listener: Listener,
     /// Clients may be waiting.
     pub(super) ready: bool,
-    /// A client without room, and how many rounds it waits for those who left before it came.
-    held: Option<(Stream, String, usize)>,
+    /// Clients without room, and when they are refused.
+    held: VecDeque<(Stream, String, Clock)>,
     /// Nobody is let in before this moment.
     shut: Option<Clock>,
     /// The last client was refused, and that was told.
@@ -45,70 +49,71 @@ impl Door {
             protocol,
             listener,
             ready: true,
-            held: None,
+            held: VecDeque::new(),
             shut: None,
             refuses: false,
         })
     }
 
-    /// When to try again what the system refused.
+    /// When to try again what the system refused, or to refuse a client.
     pub(super) fn deadline(&self) -> Option<Clock> {
-        self.shut
+        let held = self.held.front().map(|(_, _, until)| *until);
+        self.shut.into_iter().chain(held).min()
     }
 
-    /// The next client. `full` says why there is no room for it; it waits until the `readable` clients
-    /// have had their turn, since one of them may have left before it came.
-    pub(super) fn accept(
-        &mut self,
-        full: Option<&str>,
-        readable: usize,
-    ) -> Option<(Stream, String)> {
-        if self.shut.is_some_and(|until| Clock::now() < until) {
+    /// Does anybody wait to be let in?
+    pub(super) fn is_wanted(&self) -> bool {
+        self.ready || !self.held.is_empty()
+    }
+
+    /// The next client. `full` says why there is no room for it.
+    pub(super) fn accept(&mut self, full: Option<&str>) -> Option<(Stream, String)> {
+        let now = Clock::now();
+        if self.shut.is_some_and(|until| now < until) {
             return None;
         }
         self.shut = None;
-        for _ in 0..TURN {
-            let (stream, name, rounds) = match self.held.take() {
-                Some(held) => held,
-                None => match self.listener.accept() {
-                    Ok((stream, name)) => (stream, name, 0),
-                    Err(error) if error.kind() == ErrorKind::WouldBlock => {
-                        self.ready = false;
-                        return None;
-                    }
-                    // The client went before it was let in.
-                    Err(error)
-                        if matches!(
-                            error.kind(),
-                            ErrorKind::ConnectionAborted
-                                | ErrorKind::ConnectionReset
-                                | ErrorKind::Interrupted
-                        ) =>
-                    {
-                        continue;
-                    }
-                    Err(error) => {
-                        self.tell(&format!("no client can connect: {error}"));
-                        self.shut = Some(Clock::now() + AGAIN);
-                        return None;
-                    }
-                },
-            };
-            let files = "too many open files; raise the limit with `ulimit -n`";
-            let why = full.or_else(|| (!has_files()).then_some(files));
-            match why {
-                Some(_) if rounds <= readable => {
-                    self.held = Some((stream, name, rounds + 1));
+        for _ in 0..2 * TURN {
+            if let Some((_, _, until)) = self.held.front() {
+                let files = "too many open files; raise the limit with `ulimit -n`";
+                let why = full.or_else(|| (!has_files()).then_some(files));
+                if why.is_some() && now < *until && (full.is_none() || self.held.len() == TURN) {
                     return None;
                 }
-                Some(why) => {
-                    self.tell(&format!("{name} was refused: {why}"));
-                    stream.refuse(self.protocol, why);
+                if why.is_none() || now >= *until {
+                    let (stream, name, _) = self.held.pop_front()?;
+                    match why {
+                        Some(why) => {
+                            self.tell(&format!("{name} was refused: {why}"));
+                            stream.refuse(self.protocol, why);
+                        }
+                        None if stream.prepare().is_err() => {}
+                        None => {
+                            self.refuses = false;
+                            return Some((stream, name));
+                        }
+                    }
+                    continue;
                 }
-                None if stream.prepare().is_err() => {}
-                None => {
-                    self.refuses = false;
-                    return Some((stream, name));
+            }
+            match self.listener.accept() {
+                Ok((stream, name)) => self.held.push_back((stream, name, now + PATIENCE)),
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    self.ready = false;
+                    return None;
+                }
+                // The client went before it was let in.
+                Err(error)
+                    if matches!(
+                        error.kind(),
+                        ErrorKind::ConnectionAborted
+                            | ErrorKind::ConnectionReset
+                            | ErrorKind::Interrupted
+                    ) => {}
+                Err(error) => {
+                    self.tell(&format!("no client can connect: {error}"));
+                    self.shut = Some(now + AGAIN);
+                    return None;
                 }
             }
         }
