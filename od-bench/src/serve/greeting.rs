@@ -118,7 +118,7 @@ fn text(args: &Options, bus: &Bus, links: &[Opened]) -> String {
 }
 
 /// `node 5`, or `no node ID`.
-fn node(device: &VirtualDevice) -> String {
+pub(super) fn node(device: &VirtualDevice) -> String {
     match device.is_configured() {
         true => format!("node {}", device.node_id()),
         false => String::from("no node ID"),

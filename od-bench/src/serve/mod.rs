@@ -14,7 +14,6 @@ mod fleet;
 mod greeting;
 mod hangup;
 mod http;
-mod json;
 pub mod links;
 mod live;
 mod log;

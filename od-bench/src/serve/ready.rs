@@ -4,9 +4,10 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use super::control::place::Place;
 use super::failure::Failure;
-use super::json::Json;
 use super::links::opened::{Opened, Protocol};
 use crate::bus::Bus;
 
@@ -34,14 +35,14 @@ impl Ready {
     ///
     /// # Errors
     /// It cannot be written.
-    pub(super) fn write(&self, json: &Json) -> Result<(), Failure> {
+    pub(super) fn write(&self, line: &str) -> Result<(), Failure> {
         let Self(path) = self;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let new = path.with_file_name(format!(".{name}.{}", std::process::id()));
         let _ = fs::remove_file(&new);
         let mut file = fs::OpenOptions::new();
         let file = file.write(true).create_new(true).open(&new);
-        let written = file.and_then(|mut file| file.write_all(format!("{json}\n").as_bytes()));
+        let written = file.and_then(|mut file| file.write_all(format!("{line}\n").as_bytes()));
         written
             .and_then(|()| fs::rename(&new, path))
             .map_err(|error| {
@@ -58,37 +59,73 @@ impl Drop for Ready {
 }
 
 /// Links with their ports and paths, nodes, control socket.
-pub(super) fn report(links: &[Opened], bus: &Bus, control: Option<&Place>) -> Json {
-    let nodes = (1_u64..).zip(bus.devices()).map(|(number, device)| {
-        let node_id = match device.is_configured() {
-            true => u64::from(device.node_id().raw()).into(),
-            false => Json::Null,
-        };
-        Json::Object(vec![
-            ("number", number.into()),
-            ("title", device.title().into()),
-            ("node_id", node_id),
-            ("serial", u64::from(device.lss_address()[3]).into()),
-        ])
-    });
-    let control = control.map_or(Json::Null, |place| place.to_string().into());
-    Json::Object(vec![
-        ("version", 1.into()),
-        ("pid", u64::from(std::process::id()).into()),
-        ("links", Json::List(links.iter().map(link).collect())),
-        ("nodes", Json::List(nodes.collect())),
-        ("control", control),
-    ])
+#[derive(Serialize)]
+struct Report<'b> {
+    version: u8,
+    pid: u32,
+    links: Vec<Link>,
+    nodes: Vec<Node<'b>>,
+    control: Option<String>,
 }
 
-fn link(link: &Opened) -> Json {
-    let (kind, key, place) = match link {
-        Opened::Listener(protocol, _, address) => (protocol.name(), "address", address.to_string()),
+#[derive(Serialize)]
+struct Link {
+    link: &'static str,
+    #[serde(flatten)]
+    place: Reached,
+}
+
+/// Where masters reach a link.
+#[derive(Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Reached {
+    Address(String),
+    Interface(String),
+    Path(String),
+}
+
+#[derive(Serialize)]
+struct Node<'b> {
+    /// Counted from 1.
+    number: usize,
+    title: &'b str,
+    node_id: Option<u8>,
+    serial: u32,
+}
+
+/// The line for programs.
+pub(super) fn report(links: &[Opened], bus: &Bus, control: Option<&Place>) -> String {
+    let nodes = (1..).zip(bus.devices()).map(|(number, device)| Node {
+        number,
+        title: device.title(),
+        node_id: device.is_configured().then(|| device.node_id().raw()),
+        serial: device.lss_address()[3],
+    });
+    line(&Report {
+        version: 1,
+        pid: std::process::id(),
+        links: links.iter().map(link).collect(),
+        nodes: nodes.collect(),
+        control: control.map(Place::to_string),
+    })
+}
+
+fn link(link: &Opened) -> Link {
+    let (link, place) = match link {
+        Opened::Listener(protocol, _, address) => {
+            (protocol.name(), Reached::Address(address.to_string()))
+        }
         Opened::Ends(ends) => match ends.protocol {
-            Protocol::CanFrame => ("socketcan", "interface", ends.name.clone()),
-            Protocol::Lines => ("-", "path", ends.name.clone()),
-            protocol => (protocol.name(), "path", ends.name.clone()),
+            Protocol::CanFrame => ("socketcan", Reached::Interface(ends.name.clone())),
+            Protocol::Lines => ("-", Reached::Path(ends.name.clone())),
+            protocol => (protocol.name(), Reached::Path(ends.name.clone())),
         },
     };
-    Json::Object(vec![("link", kind.into()), (key, place.into())])
+    Link { link, place }
+}
+
+/// One line of JSON.
+pub(super) fn line(report: &impl Serialize) -> String {
+    // No map of a report has keys that are not text, and a number that is none becomes null.
+    serde_json::to_string(report).expect("it has fields alone")
 }

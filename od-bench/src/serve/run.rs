@@ -70,8 +70,8 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     match &ready {
         Some(ready) => ready.write(&report)?,
         None if options.ready_file.is_none() => {}
-        None if options.links.contains(&Link::Console) => terminal::note(&report.to_string()),
-        None => terminal::print(&report.to_string())?,
+        None if options.links.contains(&Link::Console) => terminal::note(&report),
+        None => terminal::print(&report)?,
     }
     live.run()
 }

@@ -5,8 +5,10 @@ use std::fmt::Write as _;
 use std::time::{Duration, Instant as Clock};
 
 use od_runtime::Frame;
+use serde::Serialize;
 
-use super::json::Json;
+use super::greeting::node;
+use super::ready::line;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 use crate::words::plural;
@@ -32,6 +34,40 @@ pub(super) struct Guest<'c> {
     pub(super) dropped: u64,
     /// Frames of its link that the system dropped before odkit read them.
     pub(super) missed: u64,
+}
+
+/// The figures, for programs: seconds, bit/s, a load from 0 to 1.
+#[derive(Serialize)]
+struct Report<'g> {
+    version: u8,
+    uptime: f64,
+    frames: u64,
+    frames_per_second: u64,
+    bit_rate: u32,
+    load: f64,
+    dropped: u64,
+    nodes: Vec<Node>,
+    clients: Vec<Traffic<'g>>,
+}
+
+#[derive(Serialize)]
+struct Node {
+    /// Counted from 1.
+    number: usize,
+    node_id: Option<u8>,
+    state: String,
+}
+
+/// What a client sent, and what of the bus it did not get.
+#[derive(Serialize)]
+struct Traffic<'g> {
+    name: &'g str,
+    protocol: &'static str,
+    frames: u64,
+    dropped: u64,
+    missed: u64,
+    sdo_requests: u64,
+    sdo_aborts: u64,
 }
 
 /// The figures.
@@ -95,43 +131,36 @@ impl Stats {
     }
 
     /// The figures as one line of JSON.
-    pub(super) fn json(&mut self, bus: &Bus, guests: &[Guest<'_>]) -> Json {
-        let (rate, frames, load) = self.load(bus);
-        let nodes = (1_u64..).zip(bus.devices()).map(|(number, device)| {
-            let node_id = match device.is_configured() {
-                true => u64::from(device.node_id().raw()).into(),
-                false => Json::Null,
-            };
-            Json::Object(vec![
-                ("number", number.into()),
-                ("node_id", node_id),
-                ("state", state(device).into()),
-            ])
+    pub(super) fn json(&mut self, bus: &Bus, guests: &[Guest<'_>]) -> String {
+        let (bit_rate, frames_per_second, load) = self.load(bus);
+        let nodes = (1..).zip(bus.devices()).map(|(number, device)| Node {
+            number,
+            node_id: device.is_configured().then(|| device.node_id().raw()),
+            state: state(device),
         });
-        let dropped = dropped(guests);
         let clients = guests.iter().map(|guest| {
             let sent = self.of(guest);
-            Json::Object(vec![
-                ("name", guest.name.into()),
-                ("protocol", guest.protocol.into()),
-                ("frames", sent.frames.into()),
-                ("dropped", guest.dropped.into()),
-                ("missed", guest.missed.into()),
-                ("sdo_requests", sent.requests.into()),
-                ("sdo_aborts", sent.aborts.into()),
-            ])
+            Traffic {
+                name: guest.name,
+                protocol: guest.protocol,
+                frames: sent.frames,
+                dropped: guest.dropped,
+                missed: guest.missed,
+                sdo_requests: sent.requests,
+                sdo_aborts: sent.aborts,
+            }
         });
-        Json::Object(vec![
-            ("version", 1.into()),
-            ("uptime", rounded(self.start.elapsed().as_secs_f64(), 1e3)),
-            ("frames", self.frames.into()),
-            ("frames_per_second", frames.into()),
-            ("bit_rate", u64::from(rate).into()),
-            ("load", rounded(load, 1e4)),
-            ("dropped", dropped.into()),
-            ("nodes", Json::List(nodes.collect())),
-            ("clients", Json::List(clients.collect())),
-        ])
+        line(&Report {
+            version: 1,
+            uptime: rounded(self.start.elapsed().as_secs_f64(), 1e3),
+            frames: self.frames,
+            frames_per_second,
+            bit_rate,
+            load: rounded(load, 1e4),
+            dropped: dropped(guests),
+            nodes: nodes.collect(),
+            clients: clients.collect(),
+        })
     }
 
     /// The figures as lines for a person.
@@ -146,12 +175,8 @@ impl Stats {
             rate / 1000,
         );
         for (number, device) in (1..).zip(bus.devices()) {
-            let node = match device.is_configured() {
-                true => format!("node {}", device.node_id()),
-                false => String::from("no node ID"),
-            };
             // Writing to a String cannot fail.
-            let _ = writeln!(text, "{number}  {node}: {}", state(device));
+            let _ = writeln!(text, "{number}  {}: {}", node(device), state(device));
         }
         for guest in guests {
             let sent = self.of(guest);
@@ -197,8 +222,8 @@ fn state(device: &VirtualDevice) -> String {
     }
 }
 
-fn rounded(number: f64, parts: f64) -> Json {
-    Json::Number((number * parts).round() / parts)
+fn rounded(number: f64, parts: f64) -> f64 {
+    (number * parts).round() / parts
 }
 
 /// Bits of a frame on the bus line, a tenth of them stuff bits.
