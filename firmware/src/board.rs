@@ -56,7 +56,7 @@ unsafe extern "C" {
 /// A static value that the program takes once, and owns from then on.
 pub struct Once<T>(UnsafeCell<T>, AtomicBool);
 
-// SAFETY: `take` hands the value out once, to whoever comes first.
+// SAFETY: `take` hands the value out once, to its first caller.
 unsafe impl<T> Sync for Once<T> {}
 
 impl<T> Once<T> {

@@ -128,7 +128,7 @@ impl Door {
     }
 }
 
-/// Can more files be opened? A save into an EEPROM file has to work whoever connects.
+/// Can more files be opened? A save into an EEPROM file has to work however many connect.
 #[cfg(unix)]
 fn has_files() -> bool {
     let files = (0..FILES).map(|_| std::fs::File::open("/dev/null"));
