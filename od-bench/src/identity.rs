@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_model::{Entry, Group};
+use od_model::Group;
 use od_runtime::Store;
 use od_runtime::encoder::{Role, Switches};
 use od_runtime::storage::image;
@@ -153,7 +153,7 @@ impl VirtualDevice {
             return;
         };
         store.reset(|_| true);
-        let loaded = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
+        let loaded = image::load(storage, &mut store, &profile.store, &|_| true);
         if loaded != Ok(image::Loaded::Blank) {
             return;
         }

@@ -73,7 +73,7 @@ impl VirtualDevice {
         if let Ok(mut store) = Store::new(&dictionary, &mut values, node.node_id()) {
             profile.store.reset(&mut store, &|_| true);
             // Nothing that can be read: the defaults come back.
-            let _ = image::load(storage, &mut store, &profile.store, &|_: &Entry| true);
+            let _ = image::load(storage, &mut store, &profile.store, &|_| true);
         }
         Saved { values }
     }

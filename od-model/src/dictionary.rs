@@ -6,6 +6,7 @@ use crate::address::Address;
 use crate::entry::{Entry, Missing, Object, Slot};
 use crate::index;
 use crate::row::Row;
+use crate::types::DataType;
 use crate::value::{Literal, Range};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
@@ -152,6 +153,38 @@ impl<'a> Dictionary<'a> {
         self.rows.get(position).copied()
     }
 
+    /// The rows, by ascending address.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn rows(&self) -> &'a [Row] {
+        self.rows
+    }
+
+    /// What of a row has no room in it.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn pool(&self) -> &'a [u32] {
+        self.pool
+    }
+
+    /// The rows of an object, by ascending sub-index.
+    #[doc(hidden)]
+    pub fn rows_of(&self, index: u16) -> &'a [Row] {
+        let rows = self.rows.get(self.first(index)..).unwrap_or_default();
+        let count = rows.iter().take_while(|row| row.index() == index).count();
+        rows.get(..count).unwrap_or_default()
+    }
+
+    /// The default of a string; empty for a number.
+    #[doc(hidden)]
+    pub fn default_bytes(&self, row: Row) -> &'a [u8] {
+        let range = row.range(self.pool);
+        match row.data_type() {
+            DataType::VisibleString => self.text(range).as_bytes(),
+            _ => self.blob(range),
+        }
+    }
+
     /// The object at `index`.
     pub fn object(&self, index: u16) -> Option<Object> {
         let first = self.first(index);
@@ -219,11 +252,20 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[inline(always)] // into the one read that masters ask for all day
     pub fn locate(&self, address: Address) -> Result<(usize, Row), Missing> {
-        let found = index::position(self.buckets, self.rows, address);
-        match found.and_then(|at| Some((at, *self.rows.get(at)?))) {
+        match index::position(self.buckets, self.rows, address) {
             Some(both) => Ok(both),
             None => Err(self.missing(address)),
         }
+    }
+
+    /// The row of an address.
+    ///
+    /// # Errors
+    /// As for [`find`](Self::find).
+    #[doc(hidden)]
+    #[inline(never)]
+    pub fn row_of(&self, address: Address) -> Result<Row, Missing> {
+        self.locate(address).map(|(_, row)| row)
     }
 
     #[cold]

@@ -48,23 +48,31 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
     }
 }
 
-/// The position of the row with this address.
+/// The row with this address, and its position.
 #[inline(always)]
-pub(crate) fn position(buckets: &[u16], rows: &[Row], address: Address) -> Option<usize> {
+pub(crate) fn position(buckets: &[u16], rows: &[Row], address: Address) -> Option<(usize, Row)> {
     let key = address.key();
     let Some(mask) = buckets.len().checked_sub(1) else {
-        // Too many for buckets; they are sorted.
-        return rows.binary_search_by_key(&key, |row| row.key()).ok();
+        return search(rows, key);
     };
     let mut at = own_bucket(key);
     loop {
         let position = usize::from(*buckets.get(at & mask)?);
         // An empty bucket is past the last row.
-        if rows.get(position)?.key() == key {
-            return Some(position);
+        let row = *rows.get(position)?;
+        if row.key() == key {
+            return Some((position, row));
         }
         at += 1;
     }
+}
+
+/// The search among more rows than buckets can name; they are sorted.
+#[cold]
+fn search(rows: &[Row], key: u32) -> Option<(usize, Row)> {
+    let position = rows.partition_point(|row| row.key() < key);
+    let row = *rows.get(position)?;
+    (row.key() == key).then_some((position, row))
 }
 
 /// Bucket at which the search for a key begins; modulo the number of buckets, which is 2¹⁷ at most.
@@ -95,7 +103,7 @@ mod tests {
             fill(&mut buckets, &rows);
             for (at, row) in rows.iter().enumerate() {
                 let found = position(&buckets, &rows, address(row.key()));
-                assert_eq!(found, Some(at));
+                assert_eq!(found, Some((at, *row)));
                 let next = address(row.key() + 1);
                 assert_eq!(position(&buckets, &rows, next), None);
             }
@@ -106,7 +114,8 @@ mod tests {
     fn more_rows_than_buckets_can_name_are_searched() {
         let rows: Vec<Row> = (0..70_000).map(|i| keyed(3 * i)).collect();
         assert_eq!(bucket_count(rows.len()), 0);
-        assert_eq!(position(&[], &rows, address(3 * 69_999)), Some(69_999));
+        let found = position(&[], &rows, address(3 * 69_999));
+        assert_eq!(found.map(|(at, _)| at), Some(69_999));
         assert_eq!(position(&[], &rows, address(3 * 69_999 + 1)), None);
     }
 }

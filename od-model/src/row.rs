@@ -104,6 +104,36 @@ const fn bits(pool: &[u32], at: usize, kind: u32) -> u64 {
     (high as u64) << 32 | word(pool, at) as u64
 }
 
+/// The bits of a number of up to two words.
+const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
+    match kind {
+        2 => bits as i32 as u64,
+        3 => bits + node_id as u64,
+        _ => bits,
+    }
+}
+
+#[inline(never)]
+const fn limit(pool: &[u32], at: usize, kind: u32, node_id: u8) -> Option<u64> {
+    match kind {
+        0 | RANGE => None,
+        _ => Some(number(kind, bits(pool, at, kind), node_id)),
+    }
+}
+
+/// Length of each data type in bits, 0 where it varies, in the order of [`DataType::ALL`].
+static BITS: [u8; DataType::ALL.len()] = {
+    let mut bits = [0; DataType::ALL.len()];
+    let mut i = 0;
+    while i < bits.len() {
+        if let Some(number) = DataType::ALL[i].bits() {
+            bits[i] = number;
+        }
+        i += 1;
+    }
+    bits
+};
+
 impl Row {
     /// The row of an entry of an object with this code. `default` is its bits, or where they are in the pool;
     /// `limits` as the row has them.
@@ -154,7 +184,134 @@ impl Row {
         self.0[3] >> 4 & 7 != Access::Wo as u32
     }
 
+    /// Whether a master may write the value.
+    #[inline(always)]
+    pub const fn writable(self) -> bool {
+        self.has_access(1 << Access::Wo as u32 | 1 << Access::Rw as u32)
+            || self.has_access(1 << Access::Rwr as u32 | 1 << Access::Rww as u32)
+    }
+
+    /// Whether the access is one of those whose bits are set.
+    #[inline(always)]
+    const fn has_access(self, of: u32) -> bool {
+        of >> (self.0[3] >> 4 & 7) & 1 != 0
+    }
+
+    /// Whether nobody writes the value.
+    pub const fn is_const(self) -> bool {
+        self.has_access(1 << Access::Const as u32)
+    }
+
+    /// Whether the value may be mapped into a TPDO, as [`Entry::maps_to_tpdo`].
+    pub const fn maps_to_tpdo(self) -> bool {
+        self.0[3] & 1 << 7 != 0
+            && !self.has_access(1 << Access::Wo as u32 | 1 << Access::Rww as u32)
+    }
+
+    /// Whether the value may be mapped into an RPDO, as [`Entry::maps_to_rpdo`].
+    pub const fn maps_to_rpdo(self) -> bool {
+        let of = 1 << Access::Wo as u32 | 1 << Access::Rw as u32 | 1 << Access::Rww as u32;
+        self.0[3] & 1 << 7 != 0 && self.has_access(of)
+    }
+
+    /// The sub-index of 1010h that saves the value.
+    pub const fn group(self) -> Group {
+        match self.0[3] >> 8 & 3 {
+            0 => Group::None,
+            1 => Group::Communication,
+            2 => Group::Application,
+            _ => Group::Manufacturer,
+        }
+    }
+
+    /// Whether the store has the value.
+    #[inline(always)]
+    pub const fn is_stored(self) -> bool {
+        self.0[3] & 1 << 13 != 0
+    }
+
+    /// Data type.
+    #[inline(always)]
+    pub const fn data_type(self) -> DataType {
+        let number = (self.0[0] >> 3 & 31) as usize;
+        match number < DataType::ALL.len() {
+            true => DataType::ALL[number],
+            false => DataType::Unsigned8,
+        }
+    }
+
+    /// Length of a value whose type gives it, in bits; 0 for a string or DOMAIN.
+    #[inline(always)]
+    pub const fn bits(self) -> u8 {
+        let number = (self.0[0] >> 3 & 31) as usize;
+        if number < BITS.len() { BITS[number] } else { 0 }
+    }
+
+    /// Length of a value whose type gives it, in bytes; 0 for a string or DOMAIN.
+    #[inline(always)]
+    pub const fn size(self) -> usize {
+        (self.bits() as usize).div_ceil(8)
+    }
+
+    /// Whether the length varies (strings, domains) instead of following from the type.
+    #[inline(always)]
+    pub const fn is_variable(self) -> bool {
+        self.bits() == 0
+    }
+
+    /// Whether the default is `$NODEID` and a number.
+    pub const fn follows_node_id(self) -> bool {
+        self.0[0] & 7 == 3
+    }
+
+    /// Place of the value in the store.
+    pub const fn slot(self, pool: &[u32]) -> Slot {
+        let len = match self.size() {
+            _ if !self.is_stored() => 0,
+            0 => word(pool, self.0[2] as usize + 2) as u16,
+            size => size as u16,
+        };
+        let offset = self.0[1];
+        Slot { offset, len }
+    }
+
+    /// The default of a number: its bits, those of an IEEE 754 double of a REAL. 0 without one.
+    pub const fn default(self, pool: &[u32], node_id: u8) -> u64 {
+        let (kind, at) = (self.0[0] & 7, self.0[2]);
+        match kind < WIDE {
+            true => number(kind, at as u64, node_id),
+            false => bits(pool, at as usize, kind),
+        }
+    }
+
+    /// Range of the default of a string in its arena.
+    pub const fn range(self, pool: &[u32]) -> Range {
+        match self.0[0] & 7 {
+            RANGE => {
+                let bits = bits(pool, self.0[2] as usize, RANGE);
+                Range::new(bits as u32, (bits >> 32) as u32)
+            }
+            _ => Range::new(0, 0),
+        }
+    }
+
+    /// Lower and upper limit, as [`default`](Self::default) has numbers; `None`: the type limits the
+    /// value.
+    pub const fn limits(self, pool: &[u32], node_id: u8) -> [Option<u64>; 2] {
+        let limits = (self.0[3] >> 14) as usize;
+        if limits == 0 {
+            return [None, None];
+        }
+        let kinds = word(pool, limits - 1);
+        let (low, high) = (kinds & 7, kinds >> 3);
+        [
+            limit(pool, limits, low, node_id),
+            limit(pool, limits + words(low), high, node_id),
+        ]
+    }
+
     /// Index of the object.
+    #[inline(always)]
     pub const fn index(self) -> u16 {
         (self.0[0] >> 16) as u16
     }
@@ -182,23 +339,12 @@ impl Row {
     /// The entry. Not its name, which the row does not have.
     #[inline(always)]
     pub const fn entry(self, pool: &[u32]) -> Entry {
-        let [head, offset, payload, flags] = self.0;
-        let data_type = (head >> 3 & 31) as usize;
-        let data_type = match data_type < DataType::ALL.len() {
-            true => DataType::ALL[data_type],
-            false => DataType::Unsigned8,
-        };
-        let is_text = data_type as u16 == DataType::VisibleString as u16;
+        let [head, _, payload, flags] = self.0;
+        let is_text = self.data_type() as u16 == DataType::VisibleString as u16;
         let (kind, at) = (head & 7, payload as usize);
-        let size = data_type.size();
         let default = match kind < WIDE {
             true => payload as u64,
             false => bits(pool, at, kind),
-        };
-        let len = match size {
-            _ if flags & 1 << 13 == 0 => 0,
-            Some(size) => size as u16,
-            None => word(pool, at + 2) as u16,
         };
         let (mut low, mut high) = (Literal::None, Literal::None);
         let limits = (flags >> 14) as usize;
@@ -210,7 +356,7 @@ impl Row {
         }
         Entry {
             address: self.address(),
-            data_type,
+            data_type: self.data_type(),
             access: match flags >> 4 & 7 {
                 0 => Access::Ro,
                 1 => Access::Wo,
@@ -220,17 +366,12 @@ impl Row {
                 _ => Access::Const,
             },
             mappable: flags & 1 << 7 != 0,
-            group: match flags >> 8 & 3 {
-                0 => Group::None,
-                1 => Group::Communication,
-                2 => Group::Application,
-                _ => Group::Manufacturer,
-            },
+            group: self.group(),
             name: Range::new(0, 0),
             default: unpack(kind, default, is_text),
             low,
             high,
-            slot: Slot { offset, len },
+            slot: self.slot(pool),
         }
     }
 }

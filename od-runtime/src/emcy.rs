@@ -198,13 +198,10 @@ pub(crate) fn cob_id(store: &Store<'_>) -> Option<CobId> {
 /// Puts the code on top of 1003h; the oldest entry falls out.
 fn log(store: &mut Store<'_>, code: u16) {
     let dictionary = store.dictionary();
-    let Some(object) = dictionary.object(0x1003) else {
-        return;
+    let capacity = match dictionary.rows_of(0x1003) {
+        [.., last] => last.address().sub,
+        [] => return,
     };
-    let capacity = dictionary
-        .members(&object)
-        .next_back()
-        .map_or(0, |entry| entry.address.sub);
     let count = (store.unsigned(0x1003, 0) as u8).min(capacity);
     for sub in (1..=count.min(capacity.saturating_sub(1))).rev() {
         let older = store.unsigned(0x1003, sub);
@@ -222,9 +219,7 @@ fn log(store: &mut Store<'_>, code: u16) {
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
 pub(crate) fn clear_log(store: &mut Store<'_>) {
     let dictionary = store.dictionary();
-    if let Some(object) = dictionary.object(0x1003) {
-        for entry in dictionary.members(&object) {
-            store.set_unsigned(entry.address, 0);
-        }
+    for row in dictionary.rows_of(0x1003) {
+        store.set_unsigned(row.address(), 0);
     }
 }

@@ -84,6 +84,7 @@ mod node;
 mod objects;
 mod pdo;
 mod profile;
+mod real;
 mod sdo;
 pub mod storage;
 mod store;

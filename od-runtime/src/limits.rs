@@ -1,9 +1,11 @@
 //! Values against their limits: for what a master writes, and for what storage holds.
 
+use od_model::Kind;
+use od_model::row::Row;
 use od_model::typed::Scalar;
-use od_model::{Entry, Kind, Literal};
 
-use crate::store::Store;
+use crate::real;
+use crate::store::{Store, little_endian};
 
 /// Reason why an object cannot have a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -19,48 +21,37 @@ pub(crate) enum Outside {
 }
 
 /// Checks a value against the limits of an entry. `bytes` has the entry's length.
-pub(crate) fn check(store: &Store<'_>, entry: &Entry, bytes: &[u8]) -> Result<(), Outside> {
-    match entry.data_type.kind() {
-        Kind::Boolean if bytes.first().is_some_and(|byte| *byte > 1) => Err(Outside::NotAllowed),
-        Kind::Signed => integer(store, entry, i64::from_wire(bytes) as u64 ^ SIGN, SIGN),
-        Kind::Boolean | Kind::Unsigned => integer(store, entry, u64::from_wire(bytes), 0),
-        Kind::Real => real(entry, bytes),
-        Kind::Text | Kind::Bytes | Kind::Record => Ok(()),
+pub(crate) fn check(store: &Store<'_>, row: Row, bytes: &[u8]) -> Result<(), Outside> {
+    let kind = row.data_type().kind();
+    if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
+        return Err(Outside::NotAllowed);
     }
-}
-
-/// Bit that differs between the order of signed and of unsigned numbers.
-const SIGN: u64 = 1 << 63;
-
-/// The limits of an entry are of its type, so both sides of a comparison have the same order.
-fn integer(store: &Store<'_>, entry: &Entry, value: u64, sign: u64) -> Result<(), Outside> {
-    let node_id = store.node_id().raw();
-    if entry
-        .high
-        .bits(node_id)
-        .is_some_and(|high| value > high ^ sign)
-    {
-        Err(Outside::Above)
-    } else if entry
-        .low
-        .bits(node_id)
-        .is_some_and(|low| value < low ^ sign)
-    {
-        Err(Outside::Below)
-    } else {
-        Ok(())
-    }
-}
-
-fn real(entry: &Entry, bytes: &[u8]) -> Result<(), Outside> {
-    let value = match *bytes {
-        [a, b, c, d] => f64::from(f32::from_le_bytes([a, b, c, d])),
-        [a, b, c, d, e, f, g, h] => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
-        _ => return Err(Outside::Length),
+    let is_real = match kind {
+        Kind::Text | Kind::Bytes | Kind::Record => return Ok(()),
+        Kind::Real if !matches!(bytes.len(), 4 | 8) => return Err(Outside::Length),
+        kind => kind == Kind::Real,
     };
-    if matches!(entry.high, Literal::Real(high) if value > high) {
+    let [low, high] = row.limits(store.dictionary().pool(), store.node_id().raw());
+    if low.is_none() && high.is_none() {
+        return Ok(());
+    }
+    let value = match kind {
+        Kind::Signed => i64::from_wire(bytes) as u64,
+        _ => little_endian(bytes),
+    };
+    let value = match bytes.len() {
+        4 if is_real => real::widened(value as u32),
+        _ => value,
+    };
+    // The limits of an entry are of its type, so both sides of a comparison have the same order.
+    let sign = if kind == Kind::Signed { 1 << 63 } else { 0 };
+    let is_greater = |one: u64, other: u64| match is_real {
+        true => real::is_greater(one, other),
+        false => one ^ sign > other ^ sign,
+    };
+    if high.is_some_and(|high| is_greater(value, high)) {
         Err(Outside::Above)
-    } else if matches!(entry.low, Literal::Real(low) if value < low) {
+    } else if low.is_some_and(|low| is_greater(low, value)) {
         Err(Outside::Below)
     } else {
         Ok(())

@@ -6,7 +6,8 @@
 //! forbid. A literal that ends in `..Profile::CIA301` (or in a part of it, such as
 //! `..Profile::CIA301.sdo`) still compiles when a field is added.
 
-use od_model::{Address, Entry};
+use od_model::Address;
+use od_model::row::Row;
 use od_wire::{AbortCode, NodeId};
 
 use crate::store::Store;
@@ -126,14 +127,14 @@ pub struct StoreProfile {
 impl StoreProfile {
     /// Every value for which `which` is true becomes what the device was delivered with.
     #[inline(never)]
-    pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Entry) -> bool) {
+    pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(Row) -> bool) {
         store.reset(which);
         if let Some((address, node_id)) = self.node_id
-            && let Ok(entry) = store.dictionary().find(address)
-            && which(&entry)
+            && let Ok(row) = store.dictionary().row_of(address)
+            && which(row)
         {
             // An UNSIGNED8, or the dictionary's own default stays.
-            let _ = store.put(&entry, &[node_id.raw()]);
+            let _ = store.put_row(row, &[node_id.raw()]);
         }
     }
 }

@@ -4,8 +4,9 @@ use core::fmt;
 
 use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
-use od_model::{Address, Dictionary, Entry, Literal, Slot};
+use od_model::{Address, DataType, Dictionary, Entry, Slot};
 
+use crate::real;
 use od_wire::{AbortCode, NodeId};
 
 /// The slice is shorter than [`Dictionary::store_len`].
@@ -97,27 +98,41 @@ impl<'a> Store<'a> {
     }
 
     /// Every value for which `which` is true becomes its default.
-    pub fn reset(&mut self, mut which: impl FnMut(&Entry) -> bool) {
-        for position in 0..self.dictionary.len() {
-            let entry = self.dictionary.at(position);
-            if which(&entry) {
-                self.reset_entry(&entry);
+    pub fn reset(&mut self, mut which: impl FnMut(Row) -> bool) {
+        for row in self.dictionary.rows() {
+            if which(*row) {
+                self.reset_row(*row);
             }
         }
     }
 
     /// One value becomes its default; a description that gives none means 0 or empty.
     pub fn reset_entry(&mut self, entry: &Entry) {
+        if let Ok(row) = self.dictionary.row_of(entry.address) {
+            self.reset_row(row);
+        }
+    }
+
+    /// One value becomes its default.
+    #[inline(never)]
+    pub(crate) fn reset_row(&mut self, row: Row) {
+        // A number of one word, as most are, is written as it stands.
         let mut number = [0; 8];
-        let bytes = default_bytes(self.dictionary, entry, self.node_id, &mut number);
+        let bytes = default_bytes(self.dictionary, row, self.node_id, &mut number);
         // The layout left room for the default; a longer one cannot be.
-        let _ = put(self.values, entry, bytes);
+        let _ = self.put_row(row, bytes);
     }
 
     /// Returns whether the value is its default.
     pub fn is_default(&self, entry: &Entry) -> bool {
+        let row = self.dictionary.row_of(entry.address);
+        row.is_ok_and(|row| self.has_default(row))
+    }
+
+    /// Whether the value is its default.
+    pub(crate) fn has_default(&self, row: Row) -> bool {
         let (mut a, mut b) = ([0; 8], [0; 8]);
-        self.bytes(entry, &mut a) == default_bytes(self.dictionary, entry, self.node_id, &mut b)
+        self.value(row, &mut a) == default_bytes(self.dictionary, row, self.node_id, &mut b)
     }
 
     /// The value of a handle.
@@ -127,8 +142,8 @@ impl<'a> Store<'a> {
             Some(bytes) if !bytes.is_empty() => T::from_wire(bytes),
             _ => {
                 let mut number = [0; 8];
-                T::from_wire(match self.dictionary.find(var.address()) {
-                    Ok(entry) => self.bytes(&entry, &mut number),
+                T::from_wire(match self.dictionary.row_of(var.address()) {
+                    Ok(row) => self.value(row, &mut number),
                     Err(_) => &[],
                 })
             }
@@ -150,8 +165,8 @@ impl<'a> Store<'a> {
 
     /// The bytes of a string or domain.
     pub fn text<A>(&self, text: Text<A>) -> &[u8] {
-        match self.dictionary.find(text.address()) {
-            Ok(entry) => variable(self.dictionary, self.values, &entry),
+        match self.dictionary.row_of(text.address()) {
+            Ok(row) => variable(self.dictionary, self.values, row),
             Err(_) => &[],
         }
     }
@@ -166,8 +181,10 @@ impl<'a> Store<'a> {
         bytes: &[u8],
     ) -> Result<(), TextTooLong> {
         let capacity = usize::from(text.slot().len.saturating_sub(2));
-        match self.dictionary.find(text.address()) {
-            Ok(entry) => put(self.values, &entry, bytes).map_err(|_| TextTooLong { capacity }),
+        match self.dictionary.row_of(text.address()) {
+            Ok(row) => self
+                .put_row(row, bytes)
+                .map_err(|_| TextTooLong { capacity }),
             Err(_) => Err(TextTooLong { capacity: 0 }),
         }
     }
@@ -180,14 +197,22 @@ impl<'a> Store<'a> {
 
     /// The value's bytes as an SDO carries them. `number` is room for those of a
     /// `const` number, which is not in the store.
-    #[inline]
     pub fn bytes<'b>(&'b self, entry: &Entry, number: &'b mut [u8; 8]) -> &'b [u8] {
-        if entry.is_variable() {
-            return variable(self.dictionary, self.values, entry);
+        match self.dictionary.row_of(entry.address) {
+            Ok(row) => self.value(row, number),
+            Err(_) => &[],
         }
-        match slot(self.values, entry.slot) {
+    }
+
+    /// As [`bytes`](Self::bytes).
+    #[inline(never)]
+    pub(crate) fn value<'b>(&'b self, row: Row, number: &'b mut [u8; 8]) -> &'b [u8] {
+        if row.is_variable() {
+            return variable(self.dictionary, self.values, row);
+        }
+        match slot(self.values, row.slot(&[])) {
             Some(bytes) if !bytes.is_empty() => bytes,
-            _ => default_bytes(self.dictionary, entry, self.node_id, number),
+            _ => default_bytes(self.dictionary, row, self.node_id, number),
         }
     }
 
@@ -197,12 +222,39 @@ impl<'a> Store<'a> {
     /// [`AbortCode::TooLong`] or [`AbortCode::TooShort`] by the entry's length or capacity;
     /// [`AbortCode::ReadOnly`] where nothing is stored.
     pub fn put(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
-        put(self.values, entry, bytes)
+        self.put_row(self.dictionary.row_of(entry.address)?, bytes)
     }
 
-    /// The place for a value of this length, to be filled at once.
-    pub(crate) fn room(&mut self, entry: &Entry, len: usize) -> Option<&mut [u8]> {
-        room(self.values, entry, len).ok()
+    /// As [`put`](Self::put).
+    #[inline(never)]
+    pub(crate) fn put_row(&mut self, row: Row, bytes: &[u8]) -> Result<(), AbortCode> {
+        let room = self.room(row, bytes.len())?;
+        room.iter_mut()
+            .zip(bytes)
+            .for_each(|(to, from)| *to = *from);
+        Ok(())
+    }
+
+    /// The place for a value of this length, which a string has from now on; to be filled at once.
+    pub(crate) fn room(&mut self, row: Row, len: usize) -> Result<&mut [u8], AbortCode> {
+        let slot = row.slot(self.dictionary.pool());
+        let to = slot_mut(self.values, slot)
+            .filter(|to| !to.is_empty())
+            .ok_or(AbortCode::ReadOnly)?;
+        if row.is_variable() {
+            let [low, high, room @ ..] = to else {
+                return Err(AbortCode::TooLong);
+            };
+            let room = room.get_mut(..len).ok_or(AbortCode::TooLong)?;
+            // The room is shorter than 64 KiB, so the length fits.
+            [*low, *high] = (len as u16).to_le_bytes();
+            return Ok(room);
+        }
+        match len {
+            len if len < to.len() => Err(AbortCode::TooShort),
+            len if len > to.len() => Err(AbortCode::TooLong),
+            _ => Ok(to),
+        }
     }
 
     /// The number at an address: 0 where the object is missing or no integer.
@@ -211,36 +263,31 @@ impl<'a> Store<'a> {
     }
 
     /// The number at an address, if there is such an object; signed ones are extended.
+    #[inline(never)]
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
-        let (position, row) = self.dictionary.locate(Address::new(index, sub)).ok()?;
-        Some(self.number_at(position, row))
+        let row = self.dictionary.row_of(Address::new(index, sub)).ok()?;
+        Some(self.number_of(row))
     }
 
-    /// The number of the value at a position, with its row.
-    #[inline]
-    pub(crate) fn number_at(&self, position: usize, row: Row) -> u64 {
-        match self.slot(row.plain()) {
-            [] => self.number(&self.dictionary.at(position)),
-            bytes => little_endian(bytes),
-        }
+    /// The number of the value of a row, little-endian, eight bytes at most.
+    #[inline(never)]
+    pub(crate) fn number_of(&self, row: Row) -> u64 {
+        little_endian(self.value(row, &mut [0; 8]))
     }
 
     /// The number that an entry holds, little-endian, eight bytes at most.
-    #[inline]
     pub fn number(&self, entry: &Entry) -> u64 {
-        let mut number = [0; 8];
-        little_endian(self.bytes(entry, &mut number))
+        little_endian(self.bytes(entry, &mut [0; 8]))
     }
 
     /// Puts a number at an address, cut to the entry's length; `false` if the object does not exist.
     pub fn set_unsigned(&mut self, address: Address, value: u64) -> bool {
-        let Ok(entry) = self.dictionary.find(address) else {
+        let Ok(row) = self.dictionary.row_of(address) else {
             return false;
         };
-        match entry.data_type.size() {
-            Some(size) => put(self.values, &entry, &value.to_le_bytes()[..size.min(8)]).is_ok(),
-            None => false,
-        }
+        let bytes = value.to_le_bytes();
+        let bytes = bytes.get(..row.size()).unwrap_or_default();
+        !row.is_variable() && self.put_row(row, bytes).is_ok()
     }
 }
 
@@ -274,56 +321,31 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
 
 /// A string: two bytes of length, then the bytes; the default where nothing is stored.
 #[inline(never)]
-fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], entry: &Entry) -> &'b [u8] {
-    match slot(values, entry.slot) {
+fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], row: Row) -> &'b [u8] {
+    match slot(values, row.slot(dictionary.pool())) {
         Some([low, high, rest @ ..]) => {
             let len = usize::from(u16::from_le_bytes([*low, *high]));
             rest.get(..len).unwrap_or(rest)
         }
-        _ => dictionary.literal_bytes(entry.default),
+        _ => dictionary.default_bytes(row),
     }
 }
 
 #[inline(never)]
 fn default_bytes<'b>(
     dictionary: &Dictionary<'b>,
-    entry: &Entry,
+    row: Row,
     node_id: NodeId,
     number: &'b mut [u8; 8],
 ) -> &'b [u8] {
-    let Some(size) = entry.data_type.size() else {
-        return dictionary.literal_bytes(entry.default);
-    };
-    *number = match entry.default {
-        Literal::Real(value) if size == 4 => (value as f32).to_wire(),
-        Literal::Real(value) => value.to_wire(),
-        literal => literal.bits(node_id.raw()).unwrap_or(0).to_le_bytes(),
-    };
-    &number[..size.min(8)]
-}
-
-fn put(values: &mut [u8], entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
-    room(values, entry, bytes.len())?.copy_from_slice(bytes);
-    Ok(())
-}
-
-/// The place for a value of this length, which a string has from now on.
-fn room<'v>(values: &'v mut [u8], entry: &Entry, len: usize) -> Result<&'v mut [u8], AbortCode> {
-    let to = slot_mut(values, entry.slot)
-        .filter(|to| !to.is_empty())
-        .ok_or(AbortCode::ReadOnly)?;
-    if entry.is_variable() {
-        let [low, high, room @ ..] = to else {
-            return Err(AbortCode::TooLong);
-        };
-        let room = room.get_mut(..len).ok_or(AbortCode::TooLong)?;
-        // The room is shorter than 64 KiB, so the length fits.
-        [*low, *high] = (len as u16).to_le_bytes();
-        return Ok(room);
+    if row.is_variable() {
+        return dictionary.default_bytes(row);
     }
-    match len.cmp(&to.len()) {
-        core::cmp::Ordering::Less => Err(AbortCode::TooShort),
-        core::cmp::Ordering::Greater => Err(AbortCode::TooLong),
-        core::cmp::Ordering::Equal => Ok(to),
-    }
+    let default = row.default(dictionary.pool(), node_id.raw());
+    let default = match row.data_type() {
+        DataType::Real32 => real::narrowed(default).into(),
+        _ => default,
+    };
+    *number = default.to_le_bytes();
+    number.get(..row.size()).unwrap_or_default()
 }

@@ -1,7 +1,7 @@
 //! The encoder as the [`Application`] behind a node.
 
-use od_model::typed::{Ro, Scalar, Var};
-use od_model::{Address, Entry, Kind};
+use od_model::typed::{Ro, Var};
+use od_model::{Address, Kind};
 
 use super::angle::Angle;
 use super::configure::STEPS;
@@ -12,7 +12,7 @@ use super::profile::{EncoderProfile, Options};
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
-use crate::store::Store;
+use crate::store::{Store, little_endian};
 use od_wire::{AbortCode, Instant, NodeId};
 
 const POSITION: u16 = 0x6004;
@@ -71,10 +71,8 @@ impl<M: Motion> Application for Encoder<M> {
         address: Address,
         value: &[u8],
     ) -> Result<(), AbortCode> {
-        let number = match cx.store.dictionary().find(address) {
-            Ok(Entry { data_type, .. }) if data_type.kind() == Kind::Unsigned => {
-                u64::from_wire(value)
-            }
+        let number = match cx.store.dictionary().row_of(address) {
+            Ok(row) if row.data_type().kind() == Kind::Unsigned => little_endian(value),
             _ => return Ok(()),
         };
         let profile = self.profile;
@@ -259,13 +257,7 @@ const fn live_bit(index: u16) -> u64 {
 
 /// The handle of 6004h, whatever its width; it lies in the store where it lies.
 fn position_handle(store: &Store<'_>) -> Option<Var<u32, Ro>> {
-    let entry = store.dictionary().entry(POSITION, 0)?;
-    let is_integer = matches!(entry.data_type.kind(), Kind::Unsigned | Kind::Signed);
-    is_integer.then(|| {
-        Var::new(
-            entry.address,
-            entry.slot,
-            entry.data_type.bits().unwrap_or(32),
-        )
-    })
+    let row = store.dictionary().row_of(Address::new(POSITION, 0)).ok()?;
+    let is_integer = matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed);
+    is_integer.then(|| Var::new(row.address(), row.slot(&[]), row.bits()))
 }

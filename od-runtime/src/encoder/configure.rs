@@ -282,12 +282,12 @@ impl<M: Motion> Encoder<M> {
     /// A reset: the one of two linked objects that is saved rules; of two, the one that
     /// storage held.
     pub(super) fn agree_on_links(&self, store: &mut Store<'_>) {
-        let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
-            Ok(entry) => entry.group != Group::None,
+        let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().row_of(at) {
+            Ok(row) => row.group() != Group::None,
             Err(_) => false,
         };
-        let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().find(at) {
-            Ok(entry) => is_saved(store, at) && !store.is_default(&entry),
+        let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().row_of(at) {
+            Ok(row) => row.group() != Group::None && !store.has_default(row),
             Err(_) => false,
         };
         for (first, second) in self.profile.links {

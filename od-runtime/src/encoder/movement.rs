@@ -43,8 +43,9 @@ impl<M: Motion> Encoder<M> {
     ) -> i64 {
         let mut known = self.measured_since.iter().zip(self.profile.movements());
         let since = known.find(|(_, (at, _))| *at == address);
-        let bits = match cx.store.dictionary().find(address) {
-            Ok(entry) => entry.data_type.bits().unwrap_or(32).clamp(8, 32),
+        let bits = match cx.store.dictionary().row_of(address) {
+            Ok(row) if row.is_variable() => 32,
+            Ok(row) => row.bits().clamp(8, 32),
             Err(_) => return 0,
         };
         let most = (1i64 << (bits - 1)) - 1;

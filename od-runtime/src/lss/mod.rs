@@ -2,6 +2,8 @@
 
 mod identify;
 
+use od_model::row::Row;
+
 use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
@@ -211,9 +213,7 @@ impl Slave {
                 return error::NOT_SUPPORTED;
             }
         }
-        let ours = |entry: &od_model::Entry| {
-            entry.address == profile.node_id || entry.address == profile.bit_rate
-        };
+        let ours = |row: Row| [profile.node_id, profile.bit_rate].contains(&row.address());
         let profile = objects.profile();
         match image::save_only(objects.storage, &objects.store, &profile.store, &ours) {
             Ok(()) => error::NONE,

@@ -1,5 +1,6 @@
 //! Power-on, the two NMT resets, and how the services get their configuration.
 
+use od_model::row::Row;
 use od_wire::nmt::State;
 use od_wire::{CobId, Instant, NodeId};
 
@@ -169,14 +170,14 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         // bus with, or all that can be saved or written; it leaves the errors that last.
         let lss = objects.profile().lss;
         let scope = objects.profile().nmt.reset_communication;
-        let which = |entry: &od_model::Entry| {
-            let starts_with =
-                |lss: LssProfile| entry.address == lss.node_id || entry.address == lss.bit_rate;
-            all || match entry.address.index {
+        let which = |row: Row| {
+            let address = row.address();
+            let starts_with = |lss: LssProfile| address == lss.node_id || address == lss.bit_rate;
+            all || match address.index {
                 0x1001 | 0x1003 => false,
                 0x1000..=0x1FFF => true,
                 _ if scope == CommunicationReset::Everything => {
-                    image::is_kept(entry) || entry.access.writable()
+                    image::is_kept(row) || row.writable()
                 }
                 _ => lss.is_some_and(starts_with),
             }

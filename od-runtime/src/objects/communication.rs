@@ -1,7 +1,8 @@
 //! Rules of CiA 301 for writing the communication objects.
 
+use od_model::Address;
+use od_model::row::Row;
 use od_model::typed::MapEntry;
-use od_model::{Address, Entry};
 
 use crate::profile::Profile;
 use crate::store::{Store, little_endian};
@@ -32,13 +33,13 @@ pub(super) const fn is_mapping_count(address: Address) -> bool {
 pub(super) fn check(
     store: &Store<'_>,
     profile: &Profile,
-    entry: &Entry,
+    row: Row,
     bytes: &[u8],
 ) -> Result<(), AbortCode> {
-    let Address { index, sub } = entry.address;
+    let Address { index, sub } = row.address();
     let value = little_endian(bytes);
     let cob_id = CobId::new(value as u32);
-    let check_cob_id = |has_valid_bit| check_cob_id(store, profile, entry, cob_id, has_valid_bit);
+    let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, cob_id, has_valid_bit);
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
         (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
@@ -92,11 +93,11 @@ fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u64) -> bool {
 fn check_cob_id(
     store: &Store<'_>,
     profile: &Profile,
-    entry: &Entry,
+    row: Row,
     new: CobId,
     has_valid_bit: bool,
 ) -> Result<(), AbortCode> {
-    let old = CobId::new(store.number(entry) as u32);
+    let old = CobId::new(store.number_of(row) as u32);
     let valid = new.is_valid() || !has_valid_bit;
     if !new.is_consistent() || (valid && new.is_restricted()) {
         return Err(AbortCode::ValueRange);
@@ -145,13 +146,12 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<Ma
             _ => Err(AbortCode::NotMappable),
         };
     }
-    let entry = store.dictionary().find(mapped.address)?;
-    let direction = if transmits {
-        entry.maps_to_tpdo()
-    } else {
-        entry.maps_to_rpdo()
+    let row = store.dictionary().row_of(mapped.address)?;
+    let direction = match transmits {
+        true => row.maps_to_tpdo(),
+        false => row.maps_to_rpdo(),
     };
-    if direction && entry.data_type.bits() == Some(mapped.bits) {
+    if direction && !row.is_variable() && row.bits() == mapped.bits {
         Ok(mapped)
     } else {
         Err(AbortCode::NotMappable)

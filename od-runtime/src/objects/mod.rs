@@ -5,7 +5,8 @@ mod outbox;
 
 use core::marker::PhantomData;
 
-use od_model::{Address, Entry};
+use od_model::Address;
+use od_model::row::Row;
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
 use crate::device::Device;
@@ -72,9 +73,9 @@ impl<'c, D: Device> Objects<'c, D> {
         call(self.application, &mut context)
     }
 
-    /// The entry at an address.
-    pub(crate) fn entry(&self, address: Address) -> Result<Entry, AbortCode> {
-        Ok(self.store.dictionary().find(address)?)
+    /// The row of the value at an address.
+    pub(crate) fn row(&self, address: Address) -> Result<Row, AbortCode> {
+        Ok(self.store.dictionary().row_of(address)?)
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
@@ -85,42 +86,40 @@ impl<'c, D: Device> Objects<'c, D> {
         address: Address,
         number: &'b mut [u8; 8],
     ) -> Result<&'b [u8], Unread> {
-        let (position, row) = self
+        let (_, row) = self
             .store
             .dictionary()
             .locate(address)
             .map_err(AbortCode::from)?;
         let plain = row.plain();
         if plain.len == 0 {
-            self.check_special(&self.store.dictionary().at(position))?;
+            self.check_special(row)?;
         }
         if address.index == 0x1003 {
             self.unused_error(address)?;
         }
         self.refresh(address)?;
         Ok(match self.store.slot(plain) {
-            [] => self
-                .store
-                .bytes(&self.store.dictionary().at(position), number),
+            [] => self.store.value(row, number),
             bytes => bytes,
         })
     }
 
     /// Whether a value that is not plain (a number in the store) can be read from the store.
     #[inline(never)]
-    fn check_special(&mut self, entry: &Entry) -> Result<(), Unread> {
-        if !entry.access.readable() {
+    fn check_special(&mut self, row: Row) -> Result<(), Unread> {
+        if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
         }
-        if self.streams(entry) {
+        if self.streams(row) {
             return Err(Unread::Streamed);
         }
         Ok(())
     }
 
     /// Whether the application streams the value.
-    pub(crate) fn streams(&mut self, entry: &Entry) -> bool {
-        D::STREAMS && entry.is_variable() && self.application.stream(entry.address).is_some()
+    pub(crate) fn streams(&mut self, row: Row) -> bool {
+        D::STREAMS && row.is_variable() && self.application.stream(row.address()).is_some()
     }
 
     /// Calls the stream of a value.
@@ -150,28 +149,26 @@ impl<'c, D: Device> Objects<'c, D> {
         self.application(|application, context| application.refresh(context, address))
     }
 
-    /// Returns the entry, if it can be written and data of this length fits.
-    pub(crate) fn writable(
-        &self,
-        address: Address,
-        len: Option<usize>,
-    ) -> Result<Entry, AbortCode> {
-        let entry = self.entry(address)?;
-        if !entry.access.writable() {
-            return Err(AbortCode::ReadOnly);
+    /// Returns the row of a value, if it can be written.
+    #[inline(never)]
+    pub(crate) fn writable(&self, address: Address) -> Result<Row, AbortCode> {
+        let row = self.row(address)?;
+        match row.writable() {
+            true => Ok(row),
+            false => Err(AbortCode::ReadOnly),
         }
-        if let Some(len) = len {
-            self.fit(&entry, len)?;
-        }
-        Ok(entry)
     }
 
-    /// Returns how many of `len` bytes the entry accepts.
-    fn fit(&self, entry: &Entry, len: usize) -> Result<usize, AbortCode> {
+    /// Returns how many of `len` bytes the value accepts.
+    #[inline(never)]
+    pub(crate) fn fit(&self, row: Row, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile().sdo.length;
-        let (low, high) = match entry.data_type.size() {
-            Some(size) => (size, size),
-            None => (0, usize::from(entry.slot.len.saturating_sub(2))),
+        let (low, high) = match row.size() {
+            0 => {
+                let slot = row.slot(self.store.dictionary().pool());
+                (0, usize::from(slot.len.saturating_sub(2)))
+            }
+            size => (size, size),
         };
         if len < low {
             return Err(rule.too_short);
@@ -185,32 +182,32 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Writes an object with everything that belongs to it: access, length, limits, the
     /// services' and the application's rules, then the value, then what follows from it.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
-        let entry = self.writable(address, None)?;
-        self.change(&entry, bytes)
+        let row = self.writable(address)?;
+        self.change(row, bytes)
     }
 
     /// Writes an object from the side of the device: as [`write`](Self::write), but for the access.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
-        let entry = self.entry(address)?;
-        self.change(&entry, bytes)
+        let row = self.row(address)?;
+        self.change(row, bytes)
     }
 
-    fn change(&mut self, entry: &Entry, bytes: &[u8]) -> Result<(), AbortCode> {
-        let address = entry.address;
-        let len = self.fit(entry, bytes.len())?;
-        let bytes = &bytes[..len];
+    #[inline(never)]
+    fn change(&mut self, row: Row, bytes: &[u8]) -> Result<(), AbortCode> {
+        let address = row.address();
+        let len = self.fit(row, bytes.len())?;
+        let bytes = bytes.get(..len).unwrap_or(bytes);
         if D::STORAGE
             && let Some(signature) = communication::command(address)
         {
-            return self.command(entry, signature, bytes);
+            return self.command(address, signature, bytes);
         }
-        limits::check(&self.store, entry, bytes)
-            .map_err(|outside| self.refusal(address, outside))?;
+        limits::check(&self.store, row, bytes).map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
-            communication::check(&self.store, self.profile(), entry, bytes)?;
+            communication::check(&self.store, self.profile(), row, bytes)?;
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
-        self.store.put(entry, bytes)?;
+        self.store.put_row(row, bytes)?;
         if address == Address::new(0x1003, 0) {
             crate::emcy::clear_log(&mut self.store);
         }
@@ -234,24 +231,24 @@ impl<'c, D: Device> Objects<'c, D> {
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
     fn command(
         &mut self,
-        entry: &Entry,
+        address: Address,
         signature: [u8; 4],
         bytes: &[u8],
     ) -> Result<(), AbortCode> {
         if bytes != signature {
             return Err(AbortCode::NotStored);
         }
-        let sub = entry.address.sub;
+        let sub = address.sub;
         // What a save writes in the background is there before anything follows.
         self.complete_save();
-        if entry.address.index == 0x1010 {
+        if address.index == 0x1010 {
             return self.save(sub);
         }
         let profile = &self.profile().store;
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
         if profile.restore == crate::profile::Restore::AtOnce {
-            let which = |entry: &Entry| image::restores(profile, entry, sub);
+            let which = |row| image::restores(profile, row, sub);
             profile.reset(&mut self.store, &which);
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
@@ -311,10 +308,11 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// Updates the operating records before they are saved.
     pub(crate) fn refresh_life_record(&mut self) {
-        let entries = self.store.dictionary().entries();
-        for entry in entries.filter(image::is_life_record) {
-            // A value that cannot be updated is saved as it is.
-            let _ = self.refresh(entry.address);
+        for row in self.store.dictionary().rows() {
+            if image::is_life_record(*row) {
+                // A value that cannot be updated is saved as it is.
+                let _ = self.refresh(row.address());
+            }
         }
     }
 

@@ -114,10 +114,10 @@ impl Mapping {
     pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
         let mut data = 0u64;
         self.each(objects, |objects, row, first, bits| {
-            let Some((at, row)) = row else { return };
+            let Some((_, row)) = row else { return };
             // A PDO has no way to say that a value could not be had; it takes the last one.
             let _ = objects.refresh(row.address());
-            let value = objects.store.number_at(at, row);
+            let value = objects.store.number_of(row);
             data |= (value & mask(bits)) << first.min(63);
         });
         data.to_le_bytes()

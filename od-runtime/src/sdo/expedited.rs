@@ -1,6 +1,6 @@
 //! Expedited download (CiA 301, chapter 7.2.4.3.3): the value is in the request.
 
-use od_model::Entry;
+use od_model::row::Row;
 use od_wire::AbortCode;
 
 use crate::profile::SdoProfile;
@@ -10,12 +10,12 @@ use crate::profile::SdoProfile;
 /// missing was not given.
 pub(super) fn len(
     profile: &SdoProfile,
-    entry: &Entry,
+    row: Row,
     size: Option<u32>,
     dlc: u8,
 ) -> Result<usize, AbortCode> {
     let given = usize::from(dlc.saturating_sub(4)).min(4);
-    let own = entry.data_type.size();
+    let own = Some(row.size()).filter(|size| *size > 0);
     let len = match size {
         // Bytes that do not count need not be there either.
         Some(size) if profile.length.too_long.is_none() => {

@@ -156,10 +156,11 @@ impl<D: Device, const N: usize> Server<D, N> {
         if had_begun.is_none() {
             self.replace(objects, address);
         }
-        let entry = objects.writable(address, None)?;
-        let len = expedited::len(&objects.profile().sdo, &entry, size, dlc)?;
-        if !objects.streams(&entry) {
-            objects.write(address, &bytes[..len])?;
+        let row = objects.writable(address)?;
+        let len = expedited::len(&objects.profile().sdo, row, size, dlc)?;
+        let bytes = bytes.get(..len).unwrap_or_default();
+        if !objects.streams(row) {
+            objects.write(address, bytes)?;
             self.reset();
         } else {
             if had_begun != Some(len) {
@@ -168,7 +169,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.transfer = Transfer::Expedited(len as u8);
             }
             self.window.clear();
-            self.window.put(&bytes[..len])?;
+            self.window.put(bytes)?;
             self.complete(objects, len)?;
         }
         Ok(Some(Response::InitiateDownload { address }))
@@ -181,9 +182,9 @@ impl<D: Device, const N: usize> Server<D, N> {
         size: Option<u32>,
     ) -> Result<(), Halt> {
         let address = self.address;
-        let entry = objects.writable(address, None)?;
+        let row = objects.writable(address)?;
         self.window.clear();
-        if objects.streams(&entry) {
+        if objects.streams(row) {
             objects.stream(address, |stream, cx| {
                 stream.begin_download(cx, address, size)
             })?;
@@ -191,7 +192,9 @@ impl<D: Device, const N: usize> Server<D, N> {
             return Ok(());
         }
         let size = size.map(|size| size as usize);
-        objects.writable(address, size)?;
+        if let Some(size) = size {
+            objects.fit(row, size)?;
+        }
         match size {
             Some(size) if size > N => Err(AbortCode::OutOfMemory.into()),
             _ => Ok(()),

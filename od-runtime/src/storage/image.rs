@@ -33,7 +33,8 @@
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
-use od_model::{Dictionary, Entry, Group, Literal};
+use od_model::row::Row;
+use od_model::{Dictionary, Group};
 
 use super::{Storage, StorageError};
 use crate::limits;
@@ -69,9 +70,9 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
     let mut bytes = layout::header(word);
     let mut i = 0;
     while i < dictionary.len() {
-        let entry = dictionary.at(i);
-        if is_saved(&entry) {
-            let len = entry.slot.len as usize;
+        let row = dictionary.rows()[i];
+        if is_saved(row) {
+            let len = row.slot(dictionary.pool()).len as usize;
             bytes += RECORD + if len < MAX_VALUE { len } else { MAX_VALUE };
         }
         i += 1;
@@ -108,7 +109,7 @@ pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
     profile: &StoreProfile,
-    which: &dyn Fn(&Entry) -> bool,
+    which: &dyn Fn(Row) -> bool,
 ) -> Result<Loaded, StorageError> {
     let banks = survey(storage, store)?;
     let mut skipped = 0u16;
@@ -118,29 +119,29 @@ pub fn load(
         if record.address.index == OWN {
             continue;
         }
-        let entry = store.dictionary().find(record.address).ok();
-        match entry.as_ref().filter(|entry| is_saved(entry)) {
-            Some(entry) if !which(entry) || banks.is_withdrawn && !is_life_record(entry) => {}
+        let row = store.dictionary().row_of(record.address).ok();
+        match row.filter(|row| is_saved(*row)) {
+            Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => {}
             // A string goes straight to its place: there is no room for it on a small stack.
-            Some(entry) if entry.is_variable() && record.len <= MAX_VALUE => {
+            Some(row) if row.is_variable() && record.len <= MAX_VALUE => {
                 let read = store
-                    .room(entry, record.len)
+                    .room(row, record.len)
                     .map(|room| storage.read(record.at, room));
                 match read {
-                    Some(Ok(())) => {}
-                    Some(Err(error)) => {
-                        store.reset_entry(entry);
+                    Ok(Ok(())) => {}
+                    Ok(Err(error)) => {
+                        store.reset_row(row);
                         return Err(error);
                     }
-                    None => skipped = skipped.saturating_add(1),
+                    Err(_) => skipped = skipped.saturating_add(1),
                 }
             }
-            Some(entry) if record.len <= number.len() => {
+            Some(row) if record.len <= number.len() => {
                 let value = &mut number[..record.len];
                 storage.read(record.at, value)?;
-                if !cob_id::restore(store, entry, profile.cob_ids, value)
-                    || limits::check(store, entry, value).is_err()
-                    || store.put(entry, value).is_err()
+                if !cob_id::restore(store, row, profile.cob_ids, value)
+                    || limits::check(store, row, value).is_err()
+                    || store.put_row(row, value).is_err()
                 {
                     skipped = skipped.saturating_add(1);
                 }
@@ -193,9 +194,8 @@ pub(crate) fn begin(
     }
     let next = Next {
         plan: &|_, entry| match entry {
-            Some(entry) if is_covered(profile, entry, sub) || is_life_record(entry) => {
-                let follows =
-                    matches!(entry.default, Literal::NodeId(_)) && store.is_default(entry);
+            Some(row) if is_covered(profile, row, sub) || is_life_record(row) => {
+                let follows = row.follows_node_id() && store.has_default(row);
                 if follows { Fate::Drop } else { Fate::Store }
             }
             _ => Fate::Keep,
@@ -220,7 +220,7 @@ pub fn save_only(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     profile: &StoreProfile,
-    which: &dyn Fn(&Entry) -> bool,
+    which: &dyn Fn(Row) -> bool,
 ) -> Result<(), StorageError> {
     let banks = survey(storage, store)?;
     let next = Next {
@@ -306,7 +306,7 @@ pub fn erase(
     let next = Next {
         plan: &|address, entry| {
             let goes = match entry {
-                Some(entry) => restores(profile, entry, sub),
+                Some(row) => restores(profile, row, sub),
                 None => Group::of_index(address.index).covered_by(sub),
             };
             if goes { Fate::Drop } else { Fate::Keep }

@@ -18,7 +18,7 @@ fn the_trace_of_the_manual() {
     assert!(core::mem::take(&mut bench.signals.reconfigure));
     // 1011h takes the values back, then says so; the two timers are one value to it.
     bench.with(|encoder, cx| {
-        cx.store.reset(|entry| entry.address.index >= 0x1800);
+        cx.store.reset(|row| row.index() >= 0x1800);
         encoder.reset(cx, Reset::Defaults);
     });
     assert_eq!(bench.position(), 0x7_9592);
@@ -116,7 +116,7 @@ fn two_timers_are_one() {
     // What a reset takes back is what the other follows.
     bench.write(0x6200, 0, 9).unwrap();
     bench.with(|encoder, cx| {
-        cx.store.reset(|entry| entry.address.index < 0x2000);
+        cx.store.reset(|row| row.index() < 0x2000);
         encoder.reset(cx, Reset::Communication);
     });
     assert_eq!(

@@ -134,9 +134,9 @@ pub(super) fn device(dictionary: &Dictionary<'_>) -> u32 {
     let mut crc = Crc32::new();
     crc.update(&[VERSION]);
     for sub in 1..=2 {
-        let entry = dictionary.entry(0x1018, sub);
-        let number = entry.and_then(|entry| entry.default.integer(0));
-        crc.update(&(number.unwrap_or(0) as u32).to_le_bytes());
+        let row = dictionary.row_of(Address::new(0x1018, sub));
+        let number = row.map_or(0, |row| row.default(dictionary.pool(), 0));
+        crc.update(&(number as u32).to_le_bytes());
     }
     crc.finish()
 }

@@ -1,6 +1,7 @@
 //! Writing: the newest set and the store make the next set.
 
-use od_model::{Address, Entry};
+use od_model::Address;
+use od_model::row::Row;
 
 use super::bank::{Banks, content};
 use super::cob_id;
@@ -27,7 +28,7 @@ pub(super) enum Fate {
 /// Recipe of the next set.
 pub(super) struct Next<'n> {
     /// Decides for an address; without an entry where no object of the dictionary saves it.
-    pub(super) plan: &'n dyn Fn(Address, Option<&Entry>) -> Fate,
+    pub(super) plan: &'n dyn Fn(Address, Option<Row>) -> Fate,
     /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
     pub(super) own: [Option<u8>; 2],
     /// Values after an interrupted save.
@@ -170,16 +171,16 @@ impl Set<'_> {
             }
         }
         let mut records = self.banks.records();
-        let entries = self.store.dictionary().entries();
-        let mut entries = entries.filter(is_saved);
-        let (mut record, mut entry) = (records.next(storage)?, entries.next());
+        let rows = self.store.dictionary().rows().iter().copied();
+        let mut rows = rows.filter(|row| is_saved(*row));
+        let (mut record, mut row) = (records.next(storage)?, rows.next());
         loop {
-            let addresses = [record.map(|old| old.address), entry.map(|new| new.address)];
+            let addresses = [record.map(|old| old.address), row.map(Row::address)];
             let Some(address) = addresses.into_iter().flatten().min() else {
                 return Ok(());
             };
             let old = record.filter(|old| old.address == address);
-            let new = entry.as_ref().filter(|new| new.address == address);
+            let new = row.filter(|new| new.address() == address);
             let fate = match (self.next.plan)(address, new) {
                 // After a save that was cut the factory values hold, and they stay.
                 Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => {
@@ -191,14 +192,14 @@ impl Set<'_> {
                 fate => fate,
             };
             match (fate, new, old) {
-                (Fate::Store, Some(entry), _) => {
+                (Fate::Store, Some(row), _) => {
                     let mut number = [0; 8];
-                    let bytes = self.store.bytes(entry, &mut number);
+                    let bytes = self.store.value(row, &mut number);
                     if bytes.len() > MAX_VALUE {
                         return Err(StorageError::Full);
                     }
                     writer.head(storage, address, bytes.len())?;
-                    match cob_id::difference(self.store, entry, self.next.cob_ids) {
+                    match cob_id::difference(self.store, row, self.next.cob_ids) {
                         Some(difference) => {
                             writer.put(storage, &difference[..bytes.len().min(8)])?;
                         }
@@ -217,7 +218,7 @@ impl Set<'_> {
                 record = records.next(storage)?;
             }
             if new.is_some() {
-                entry = entries.next();
+                row = rows.next();
             }
         }
     }

@@ -91,7 +91,7 @@ impl Bench {
     /// Every value as text.
     fn values(&mut self) -> Vec<String> {
         let store = self.store();
-        let show = |entry: Entry| {
+        let show = |entry: od_model::Entry| {
             let mut number = [0; 8];
             format!(
                 "{} {:02X?}",
