@@ -60,7 +60,7 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private2")
+    format!("{odkit}::__private3")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -233,6 +233,9 @@ const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 #[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
 ({pdos}, and {bytes} bytes).\"]
 pub type Node = {root}::Node<Device, {pdos}, {bytes}>;
+#[doc = \"A node for [`DICTIONARY`] with all that it needs: values, an application, a storage.\"]
+pub type Board<A = {root}::NoApplication, S = {root}::NoStorage> =
+{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN>;
 "
     );
 }

@@ -167,14 +167,14 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private2::Dictionary<'static> =",
+            "pub const DICTIONARY: ::odkit::__private3::Dictionary<'static> =",
             "static ROWS: [Row; 5] = rows(b\"1\\0\\0\\x10",
             "static NAMES: [[Range; 2]; 5] = names(b\"",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "pub type Node = ::odkit::__private2::Node<Device, 0, 4>;",
+            "pub type Node = ::odkit::__private3::Node<Device, 0, 4>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

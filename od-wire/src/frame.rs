@@ -171,6 +171,14 @@ impl Frame {
         }
     }
 
+    /// The frame as any type of the `embedded-can` ecosystem; `None` if that type refuses it.
+    pub fn to_can<F: embedded_can::Frame>(&self) -> Option<F> {
+        match self.remote {
+            true => F::new_remote(Id::from(self.id), self.dlc.into()),
+            false => F::new(Id::from(self.id), self.data()),
+        }
+    }
+
     /// Returns the CAN-ID.
     #[inline]
     pub const fn id(&self) -> CanId {
@@ -279,6 +287,7 @@ mod tests {
             Frame::remote(CanId::standard(5), 8).unwrap(),
         ] {
             assert_eq!(Frame::from_can(&frame), Some(frame));
+            assert_eq!(frame.to_can(), Some(frame));
         }
     }
 

@@ -46,6 +46,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[doc(inline)]
+pub use od_board as board;
 pub use od_macros::object_dictionary;
 pub use od_model::{
     Access, Address, DataType, Dictionary, Entry, Group, Kind, Literal, Missing, Object,
@@ -64,8 +66,10 @@ pub use od_wire::{emcy, lss, nmt, sdo};
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// what is emitted, so that a macro and a crate that do not belong together fail at this name.
 #[doc(hidden)]
-pub mod __private2 {
+pub mod __private3 {
+    pub use od_board::Board;
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
-    pub use od_runtime::{Device, Node, Profile};
+    pub use od_runtime::storage::NoStorage;
+    pub use od_runtime::{Device, NoApplication, Node, Profile};
 }

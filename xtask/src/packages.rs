@@ -33,11 +33,12 @@ pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
 ];
 
 /// Packages that build without the standard library.
-pub(crate) const NO_STD: [&str; 6] = [
+pub(crate) const NO_STD: [&str; 7] = [
     "od-model",
     "od-wire",
     "od-client",
     "od-runtime",
+    "od-board",
     "odkit",
     "od-devices",
 ];

@@ -59,6 +59,11 @@ impl Consumer {
         }
     }
 
+    /// The nodes that are watched; 0: none.
+    pub(super) fn nodes(&self) -> impl Iterator<Item = u8> + '_ {
+        self.watches.iter().take(self.count).map(|watch| watch.node)
+    }
+
     fn watches(&mut self) -> impl Iterator<Item = &mut Watch> {
         self.watches
             .iter_mut()

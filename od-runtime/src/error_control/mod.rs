@@ -13,8 +13,8 @@ pub(crate) use heartbeat::Producer;
 use crate::device::Device;
 use crate::profile::Profile;
 use crate::store::Store;
-use od_wire::Instant;
 use od_wire::nmt::State;
+use od_wire::{CanId, Instant, NodeId};
 
 /// Whether node guarding is active instead of heartbeat.
 ///
@@ -78,6 +78,12 @@ impl Monitor {
     /// A heartbeat, or boot-up message, of another node.
     pub(crate) fn heartbeat(&mut self, node: u8, now: Instant) {
         self.consumer.heartbeat(node, now);
+    }
+
+    /// CAN-IDs of the heartbeats that are watched.
+    pub(crate) fn watched(&self) -> impl Iterator<Item = CanId> + '_ {
+        let nodes = self.consumer.nodes().filter_map(NodeId::new);
+        nodes.map(|node| node.plus(0x700))
     }
 
     /// Time has passed.

@@ -103,6 +103,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         self.reset_due = false;
         self.lost = false;
         self.tick_at = None;
+        self.wanted_changed = true;
         self.state = State::Initialising;
         let mut rate = None;
         if light {
@@ -241,6 +242,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
 
     /// Every service reads its objects again.
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
+        self.wanted_changed = true;
         let sync = objects.store.try_unsigned(0x1005, 0).unwrap_or(0x80);
         self.sync_id = CobId::new(sync as u32).can_id();
         let dictionary = objects.store.dictionary();

@@ -94,6 +94,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 .configure(&objects.store, objects.profile(), objects.now);
         }
         if Self::HAS_MONITOR && monitor {
+            self.wanted_changed = true;
             self.monitor
                 .configure::<D>(&objects.store, objects.profile());
             self.poll_monitor(objects);

@@ -18,6 +18,7 @@ mod fits;
 mod input;
 mod output;
 mod own;
+mod wanted;
 
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
@@ -94,6 +95,8 @@ struct Machines<D, const PDO: usize, const SDO: usize> {
     watches_changes: bool,
     /// A TPDO may be waiting to be sent.
     pdo_pending: bool,
+    /// The CAN-IDs that the node listens to may be others than those that the host knows.
+    wanted_changed: bool,
 }
 
 impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
@@ -201,6 +204,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             rpdo_count: 0,
             watches_changes: false,
             pdo_pending: false,
+            wanted_changed: false,
         }
     }
 

@@ -70,6 +70,11 @@ impl Rpdo {
         self.valid && self.cob_id.can_id() == id
     }
 
+    /// CAN-ID of the frames that it receives.
+    pub(crate) fn received_by(&self) -> Option<CanId> {
+        self.valid.then(|| self.cob_id.can_id())
+    }
+
     /// Its frame came.
     pub(crate) fn receive<D: Device>(
         &mut self,

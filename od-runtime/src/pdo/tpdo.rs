@@ -158,6 +158,12 @@ impl Tpdo {
         self.config.valid && self.config.cob_id.allows_rtr() && self.config.cob_id.can_id() == id
     }
 
+    /// CAN-ID of the remote frame that requests it.
+    pub(crate) fn requested_by(&self) -> Option<CanId> {
+        let cob_id = self.config.cob_id;
+        (self.config.valid && cob_id.allows_rtr()).then(|| cob_id.can_id())
+    }
+
     /// A remote frame asks for it: synchronous types answer with what the last SYNC saw.
     pub(crate) fn request<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         if self.config.kind <= kind::SYNC_RTR {

@@ -1,0 +1,58 @@
+//! A counter of 32 bits as time that does not wrap.
+
+use od_runtime::{Duration, Instant};
+
+/// Time of a counter with `HZ` ticks a second that starts again at 0 after 2³² ticks.
+///
+/// Ask it at least once in 2³² ticks (71 minutes at 1 MHz); [`Clock::LONGEST`] is a good limit for a
+/// sleep. No tick is lost in the conversion to microseconds, however long it runs.
+///
+/// ```
+/// use od_board::Clock;
+///
+/// let mut clock: Clock = Clock::new();
+/// assert_eq!(clock.at(u32::MAX).as_micros(), 4_294_967_295);
+/// assert_eq!(clock.at(4).as_micros(), 4_294_967_300);
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Clock<const HZ: u32 = 1_000_000> {
+    ticks: u32,
+    micros: u64,
+    /// Part of a microsecond that is left over, in units of `1 / DIVISOR`.
+    rest: u64,
+}
+
+impl<const HZ: u32> Clock<HZ> {
+    /// Half of the time in which the counter wraps.
+    pub const LONGEST: Duration = Duration::from_micros((1 << 31) * Self::FACTOR / Self::DIVISOR);
+    const COMMON: u64 = {
+        let (mut a, mut b) = (1_000_000, HZ as u64);
+        assert!(b > 0, "a counter counts");
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    const FACTOR: u64 = 1_000_000 / Self::COMMON;
+    const DIVISOR: u64 = HZ as u64 / Self::COMMON;
+
+    /// A clock at 0, as the counter is.
+    pub const fn new() -> Self {
+        Self {
+            ticks: 0,
+            micros: 0,
+            rest: 0,
+        }
+    }
+
+    /// Returns the moment at which the counter shows `ticks`. A counter that seems to have gone back has
+    /// wrapped.
+    pub const fn at(&mut self, ticks: u32) -> Instant {
+        let passed = ticks.wrapping_sub(self.ticks) as u64;
+        self.ticks = ticks;
+        let parts = passed * Self::FACTOR + self.rest;
+        self.micros = self.micros.wrapping_add(parts / Self::DIVISOR);
+        self.rest = parts % Self::DIVISOR;
+        Instant::from_micros(self.micros)
+    }
+}

@@ -1,0 +1,133 @@
+//! Acceptance filters for the CAN-IDs that a node listens to.
+
+use od_wire::CanId;
+
+/// Frames that a CAN controller shall accept: those whose CAN-ID has the bits of `id` where `mask` has
+/// ones.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Filter {
+    /// The CAN-ID, of 11 or 29 bits; so are those of the frames.
+    pub id: CanId,
+    /// Bits of the CAN-ID that count; all of them: 7FFh or 1FFF_FFFFh.
+    pub mask: u32,
+}
+
+impl Filter {
+    const fn of(id: CanId) -> Self {
+        let mask = if id.is_extended() { 0x1FFF_FFFF } else { 0x7FF };
+        Self { id, mask }
+    }
+
+    /// Whether frames with this CAN-ID, data or remote, pass.
+    pub const fn accepts(&self, id: CanId) -> bool {
+        self.id.is_extended() == id.is_extended() && (self.id.raw() ^ id.raw()) & self.mask == 0
+    }
+
+    /// The narrowest filter that accepts what two accept; `None` if their CAN-IDs differ in length.
+    fn with(&self, other: &Self) -> Option<Self> {
+        if self.id.is_extended() != other.id.is_extended() {
+            return None;
+        }
+        let mask = self.mask & other.mask & !(self.id.raw() ^ other.id.raw());
+        let raw = self.id.raw() & mask;
+        let id = match self.id.is_extended() {
+            true => CanId::extended(raw),
+            false => CanId::standard(raw as u16),
+        };
+        Some(Self { id, mask })
+    }
+
+    /// Number of CAN-IDs that pass.
+    fn width(&self) -> u32 {
+        let bits = if self.id.is_extended() { 29 } else { 11 };
+        1 << (bits - self.mask.count_ones())
+    }
+}
+
+/// At most `N` filters, two or more, that let through what a node listens to.
+///
+/// A filter has one CAN-ID as long as there is room; then those are joined that let the fewest
+/// other frames through. A frame that is not for the node does no harm but for its time.
+///
+/// ```
+/// use od_board::Filters;
+/// use od_board::wire::CanId;
+///
+/// let ids = [0, 0x80, 0x601, 0x80].map(CanId::standard);
+/// let filters: Filters<2> = ids.into_iter().collect();
+/// assert_eq!(filters.as_slice().len(), 2);
+/// assert_eq!((filters.as_slice()[0].id.raw(), filters.as_slice()[0].mask), (0, 0x77F));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Filters<const N: usize> {
+    filters: [Filter; N],
+    len: usize,
+}
+
+impl<const N: usize> Filters<N> {
+    const NONE: Self = {
+        assert!(N >= 2, "one filter for 11 bits and one for 29 bits");
+        Self {
+            filters: [Filter::of(CanId::standard(0)); N],
+            len: 0,
+        }
+    };
+
+    /// The filters.
+    pub fn as_slice(&self) -> &[Filter] {
+        self.filters.get(..self.len).unwrap_or_default()
+    }
+
+    /// Lets this CAN-ID through, too.
+    pub fn add(&mut self, id: CanId) {
+        if self.as_slice().iter().any(|filter| filter.accepts(id)) {
+            return;
+        }
+        let mut new = Filter::of(id);
+        if self.len == N
+            && let Some((first, second, joined)) = self.cheapest(&new)
+        {
+            match second {
+                // The new one is a part of one that there is.
+                None => new = joined,
+                Some(second) => self.filters[second] = joined,
+            }
+            self.filters[first] = new;
+            return;
+        }
+        if let Some(room) = self.filters.get_mut(self.len) {
+            *room = new;
+            self.len += 1;
+        }
+    }
+
+    /// The two of all filters and `new` that are best joined, and what they make; `None`: `new`.
+    fn cheapest(&self, new: &Filter) -> Option<(usize, Option<usize>, Filter)> {
+        let filters = self.as_slice();
+        let pairs = filters.iter().enumerate().flat_map(|(at, first)| {
+            let others = (at + 1..).zip(&filters[at + 1..]);
+            let others = others.map(|(at, other)| (Some(at), other));
+            others
+                .chain([(None, new)])
+                .filter_map(move |(to, second)| Some((at, to, first.with(second)?, second, first)))
+        });
+        let best = pairs.min_by_key(|(_, _, joined, second, first)| {
+            joined.width() - (first.width() + second.width()).min(joined.width())
+        });
+        best.map(|(at, to, joined, ..)| (at, to, joined))
+    }
+}
+
+impl<const N: usize> Default for Filters<N> {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl<const N: usize> FromIterator<CanId> for Filters<N> {
+    fn from_iter<I: IntoIterator<Item = CanId>>(ids: I) -> Self {
+        let mut filters = Self::NONE;
+        ids.into_iter().for_each(|id| filters.add(id));
+        filters
+    }
+}

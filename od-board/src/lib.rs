@@ -1,0 +1,25 @@
+//! A CANopen node on a board: what a firmware needs besides the node itself.
+//!
+//! - [`Board`] owns node, values, application and storage, and can be a `static`.
+//! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
+//! - [`Filters`] are the acceptance filters for the CAN-IDs that the node listens to.
+//! - [`Clock`] is time of a counter of 32 bits that wraps.
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod board;
+mod clock;
+mod filters;
+mod owner;
+mod port;
+
+pub use board::{Board, Plain};
+pub use clock::Clock;
+pub use filters::{Filter, Filters};
+pub use owner::Owner;
+pub use port::Port;
+
+pub use od_wire as wire;

@@ -1,0 +1,41 @@
+//! The node as the parts of this crate drive it.
+
+use od_runtime::{BusEvent, Event, Frame, Instant};
+use od_wire::CanId;
+
+/// A node with all that it needs, so that a call has no argument but its input.
+///
+/// [`Board`](crate::Board) is one. The functions are those of [`Node`](od_runtime::Node).
+pub trait Owner {
+    /// Handles a frame that was received.
+    fn handle_frame(&mut self, now: Instant, frame: &Frame);
+
+    /// Does what is due by now.
+    fn handle_timeout(&mut self, now: Instant);
+
+    /// Tells the application that the world outside the bus changed.
+    fn handle_change(&mut self, now: Instant);
+
+    /// Reports a state change or frame loss of the CAN controller.
+    fn handle_bus(&mut self, now: Instant, event: BusEvent);
+
+    /// Returns the next frame to send; `None` when all are out.
+    fn poll_transmit(&mut self, now: Instant) -> Option<Frame>;
+
+    /// When [`handle_timeout`](Self::handle_timeout) is to be called next.
+    fn poll_timeout(&self) -> Option<Instant>;
+
+    /// Returns the oldest pending event.
+    fn poll_event(&mut self) -> Option<Event>;
+
+    /// Passes the CAN-IDs that the node listens to on to `each`, if they may have changed since the
+    /// last call.
+    fn poll_wanted_ids(&mut self, each: &mut dyn FnMut(CanId));
+
+    /// Does what is due, if anything is.
+    fn catch_up(&mut self, now: Instant) {
+        if self.poll_timeout().is_some_and(|at| at <= now) {
+            self.handle_timeout(now);
+        }
+    }
+}

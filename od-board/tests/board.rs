@@ -1,0 +1,98 @@
+//! The owner as a static, its time, and its changes.
+
+mod support;
+
+use std::sync::Mutex;
+
+use odkit::board::{Board, Clock, Owner};
+use odkit::storage::Memory;
+use odkit::{Device, Instant, NodeId};
+use support::{Heater, frame, sent, thermometer};
+
+type Thermometer = thermometer::Board<Heater, Memory<[u8; 256]>>;
+
+static BOARD: Mutex<Thermometer> = Mutex::new(Thermometer::new(
+    NodeId::ONE,
+    Heater::new(),
+    Memory::new([0; 256]),
+));
+
+#[test]
+fn a_board_is_a_static_and_sends_what_changes() {
+    let mut board = BOARD.lock().expect("one test has it");
+    let now = Instant::ZERO;
+    board.power_on(now).expect("it fits");
+    assert_eq!(sent(&mut *board, now), ["701#00"]);
+    board.handle_frame(now, &frame("000#0100"));
+    assert_eq!(sent(&mut *board, now), ["181#D700"]);
+    board.set(now, thermometer::TEMPERATURE, 220);
+    assert_eq!(sent(&mut *board, now), ["181#DC00"]);
+    assert_eq!(board.get(thermometer::TEMPERATURE), 220);
+    let ticks = board.change(now, |heater, store| {
+        store.set(thermometer::TEMPERATURE, 221);
+        heater.ticks
+    });
+    assert_eq!(ticks, Some(2));
+    assert_eq!(board.application.ticks, 3);
+    assert_eq!(sent(&mut *board, now), ["181#DD00"]);
+    // A master's value.
+    board.handle_frame(now, &frame("201#0500"));
+    assert_eq!(board.get(thermometer::TARGET), 5);
+}
+
+#[test]
+fn a_board_saves_and_loads() {
+    let now = Instant::ZERO;
+    let mut board = Thermometer::new(NodeId::ONE, Heater::new(), Memory::new([0; 256]));
+    board.power_on(now).expect("it fits");
+    board.handle_frame(now, &frame("601#2B17100064000000"));
+    board.handle_frame(now, &frame("601#2310100173617665"));
+    let answers = ["701#00", "581#6017100000000000", "581#6010100100000000"];
+    assert_eq!(sent(&mut board, now), answers);
+    let mut again = Thermometer::new(NodeId::ONE, Heater::new(), board.storage);
+    again.power_on(now).expect("it fits");
+    assert_eq!(again.poll_timeout(), Some(Instant::from_millis(100)));
+}
+
+/// Heartbeats of a counter of 32 bits that begins shortly before it wraps, and of one with another
+/// frequency.
+#[test]
+fn heartbeats_go_on_when_the_counter_wraps() {
+    fn run<const HZ: u32>(first: u32, millis: u64) -> Vec<u64> {
+        let mut clock = Clock::<HZ>::new();
+        let mut board: Board<thermometer::Device, _, _, 1, 8, { thermometer::STORE_LEN }> =
+            Board::new(NodeId::ONE, Heater::new(), Memory::new([0; 256]));
+        let start = clock.at(first);
+        board.power_on(start).expect("it fits");
+        board.handle_frame(start, &frame("601#2B17100064000000"));
+        sent(&mut board, start);
+        let mut beats = Vec::new();
+        for milli in 0..millis {
+            let passed = milli * u64::from(HZ) / 1000;
+            let now = clock.at(first.wrapping_add(passed as u32));
+            board.catch_up(now);
+            let frames = sent(&mut board, now);
+            beats.extend(frames.iter().map(|_| milli));
+        }
+        beats
+    }
+    let expected: Vec<u64> = (1..20).map(|beat| beat * 100).collect();
+    assert_eq!(run::<1_000_000>(u32::MAX - 450_000, 2000), expected);
+    assert_eq!(run::<1_000>(u32::MAX - 450, 2000), expected);
+    assert_eq!(run::<72_000_000>(u32::MAX - 30_000_000, 2000), expected);
+}
+
+#[test]
+fn no_tick_is_lost_in_sixty_days() {
+    // 32,768 Hz: 30.5 µs a tick, told a few ticks at a time.
+    let mut clock = Clock::<32_768>::new();
+    let (mut ticks, mut now) = (0u64, Instant::ZERO);
+    while ticks < 60 * 86_400 * 32_768 {
+        ticks += 1_000_003;
+        now = clock.at(ticks as u32);
+    }
+    let exact = u128::from(ticks) * 1_000_000 / 32_768;
+    assert_eq!(u128::from(now.as_micros()), exact);
+    assert_eq!(Clock::<1_000>::LONGEST.as_secs(), (1 << 31) / 1000);
+    assert!(thermometer::Device::DICTIONARY.is_some());
+}
