@@ -8,7 +8,7 @@ use od_model::Dictionary;
 use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
-    AnyDevice, Application, BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, Profile,
+    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Profile,
     Reset,
 };
 use od_wire::emcy::Emcy;
@@ -18,17 +18,12 @@ use crate::behaviour::Behaviour;
 use crate::eeprom::Eeprom;
 #[cfg(feature = "eds")]
 use crate::long::{Beside, Long};
+use crate::roomy::roomy;
 use crate::services::Services;
 use crate::shaft;
 use crate::slave::{Input, Slave};
 use crate::source::Source;
 use od_runtime::DeviceKind;
-
-/// Returns a node with room for what EDS files have: all PDOs that CiA 301 knows, and the longest
-/// value that a store can hold.
-pub(super) fn roomy(node_id: NodeId) -> Box<dyn Slave> {
-    Box::new(Node::<AnyDevice, 512, 0x1_0000>::new(node_id))
-}
 
 /// A CANopen device that lives in virtual time.
 ///
@@ -69,7 +64,7 @@ impl VirtualDevice {
     pub fn new(kind: &DeviceKind, node_id: NodeId) -> Self {
         let behaviour = Behaviour::Encoder(Box::new(shaft::encoder(kind)));
         let source = Source::Compiled(kind.dictionary);
-        let node = roomy(node_id);
+        let node = roomy(node_id, kind.dictionary);
         let device = Self::build(kind.title.into(), source, behaviour, *kind.profile, node);
         Self {
             channels: kind.channels,
@@ -84,9 +79,14 @@ impl VirtualDevice {
     ///
     /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
     /// A node that does not know its dictionary does not compile.
-    pub fn of<D: Device + 'static, const PDO: usize, const SDO: usize>(
+    pub fn of<
+        D: Device + 'static,
+        const PDO: usize,
+        const SDO: usize,
+        X: Extras<D, SDO> + 'static,
+    >(
         title: &str,
-        node: Node<D, PDO, SDO>,
+        node: Node<D, PDO, SDO, X>,
     ) -> Self {
         let source = Source::of::<D>();
         let behaviour = Behaviour::of(source.dictionary());
@@ -95,9 +95,14 @@ impl VirtualDevice {
     }
 
     /// As [`of`](Self::of), with behaviour of one's own, and what the services do differently.
-    pub fn with_application<D: Device + 'static, const PDO: usize, const SDO: usize>(
+    pub fn with_application<
+        D: Device + 'static,
+        const PDO: usize,
+        const SDO: usize,
+        X: Extras<D, SDO> + 'static,
+    >(
         title: &str,
-        node: Node<D, PDO, SDO>,
+        node: Node<D, PDO, SDO, X>,
         profile: &'static Profile,
         application: Box<dyn Application>,
     ) -> Self {

@@ -33,6 +33,7 @@ mod own;
 pub mod pdos;
 mod plain;
 pub mod rig;
+mod roomy;
 mod saved;
 pub mod script;
 #[cfg(feature = "serve")]

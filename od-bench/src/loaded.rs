@@ -7,8 +7,9 @@ use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
 
 use crate::behaviour::Behaviour;
-use crate::device::{VirtualDevice, roomy};
+use crate::device::VirtualDevice;
 use crate::long::Long;
+use crate::roomy::roomy;
 use crate::services::Services;
 use crate::source::Source;
 
@@ -50,8 +51,8 @@ impl VirtualDevice {
         let title = title
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
+        let node = roomy(node_id, tables.dictionary());
         let source = Source::Loaded(Box::new(tables));
-        let node = roomy(node_id);
         let profile = Profile {
             lss: lss(description),
             ..Profile::CIA301

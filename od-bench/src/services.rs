@@ -14,7 +14,7 @@ pub struct Services {
 }
 
 /// Objects that turn a service on (CiA 301, chapter 7.5.2).
-const ON: [(u16, u16, &str); 11] = [
+const ON: [(u16, u16, &str); 12] = [
     (0x1005, 0x1005, "SYNC consumer"),
     (0x1010, 0x1010, "save (1010h)"),
     (0x1011, 0x1011, "restore defaults (1011h)"),
@@ -23,16 +23,16 @@ const ON: [(u16, u16, &str); 11] = [
     (0x1017, 0x1017, "heartbeat producer"),
     (0x100C, 0x100D, "node guarding"),
     (0x1029, 0x1029, "error behaviour (1029h)"),
+    (0x1201, 0x127F, "further SDO servers"),
     (0x1400, 0x15FF, "RPDOs"),
     (0x1800, 0x19FF, "TPDOs"),
     (0x6004, 0x6004, "encoder (CiA 406)"),
 ];
 
 /// Objects of services that a node does not have.
-const MISSING: [(u16, u16, &str); 8] = [
+const MISSING: [(u16, u16, &str); 7] = [
     (0x1006, 0x1007, "SYNC producer (1006h)"),
     (0x1012, 0x1013, "TIME (1012h)"),
-    (0x1201, 0x127F, "further SDO servers (1201h to 127Fh)"),
     (0x1280, 0x12FF, "SDO clients (1280h to 12FFh)"),
     (0x1F20, 0x1F2F, "configuration manager (1F20h to 1F2Fh)"),
     (0x1F50, 0x1F57, "program download (1F50h to 1F57h)"),

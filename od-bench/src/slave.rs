@@ -1,7 +1,9 @@
 //! A node whatever its type: the bench runs those of compiled devices with their own sizes.
 
 use od_model::Address;
-use od_runtime::{BusEvent, Device, Event, Frame, Instant, Lent, Node, NodeId, StoreTooSmall};
+use od_runtime::{
+    BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, StoreTooSmall,
+};
 use od_wire::AbortCode;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
@@ -40,8 +42,10 @@ pub(crate) trait Slave {
     fn is_bus_off(&self) -> bool;
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Slave for Node<D, PDO, SDO> {
-    /// A file may ask for more than the node serves: a second SDO server, say. What a compiled
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Slave
+    for Node<D, PDO, SDO, X>
+{
+    /// A file may ask for more than the node serves: more TPDOs, say. What a compiled
     /// device has fits its node, or it would not compile.
     fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall> {
         self.power_on_partly(device, now)

@@ -4,8 +4,8 @@ use od_model::Dictionary;
 use od_model::typed::{DeviceWritable, Scalar, Var};
 use od_runtime::storage::{NoStorage, Storage};
 use od_runtime::{
-    Application, BusEvent, Device, Event, Frame, Instant, Lent, NoApplication, Node, NodeId,
-    Profile, Store, Unfit,
+    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, NoApplication, Node,
+    NodeId, Profile, Store, Unfit,
 };
 use od_wire::CanId;
 
@@ -14,13 +14,13 @@ use crate::owner::Owner;
 /// A CANopen node that owns all it needs, so that it can be a `static`.
 ///
 /// `object_dictionary!` makes the type `Board<A, S>` of each module, with the sizes of its
-/// dictionary: `PDO` and `SDO` are those of [`Node`], `LEN` is the number of bytes of the values.
+/// dictionary: `PDO`, `SDO` and `X` are those of [`Node`], `LEN` is the number of bytes of the values.
 /// Dictionary and profile are those of `D`; without `behaves` the profile is [`Profile::CIA301`].
 ///
 /// Inputs and outputs are the functions of [`Owner`].
 #[derive(Debug)]
-pub struct Board<D, A, S, const PDO: usize, const SDO: usize, const LEN: usize> {
-    node: Node<D, PDO, SDO>,
+pub struct Board<D, A, S, const PDO: usize, const SDO: usize, const LEN: usize, X = ()> {
+    node: Node<D, PDO, SDO, X>,
     values: [u8; LEN],
     /// Behaviour of the device. After a change call [`handle_change`](Owner::handle_change), or use
     /// [`change`](Self::change).
@@ -33,8 +33,15 @@ pub struct Board<D, A, S, const PDO: usize, const SDO: usize, const LEN: usize> 
 pub type Plain<D, const PDO: usize, const SDO: usize, const LEN: usize> =
     Board<D, NoApplication, NoStorage, PDO, SDO, LEN>;
 
-impl<D: Device, A: Application, S: Storage, const PDO: usize, const SDO: usize, const LEN: usize>
-    Board<D, A, S, PDO, SDO, LEN>
+impl<
+    D: Device,
+    A: Application,
+    S: Storage,
+    const PDO: usize,
+    const SDO: usize,
+    const LEN: usize,
+    X: Extras<D, SDO>,
+> Board<D, A, S, PDO, SDO, LEN, X>
 {
     const DICTIONARY: &'static Dictionary<'static> = match &D::DICTIONARY {
         Some(dictionary) => {
@@ -59,12 +66,15 @@ impl<D: Device, A: Application, S: Storage, const PDO: usize, const SDO: usize, 
     }
 
     /// The node.
-    pub const fn node(&self) -> &Node<D, PDO, SDO> {
+    pub const fn node(&self) -> &Node<D, PDO, SDO, X> {
         &self.node
     }
 
     /// Calls a function of the node that is not one of [`Owner`], such as [`Node::raise`].
-    pub fn call<R>(&mut self, act: impl FnOnce(&mut Node<D, PDO, SDO>, &mut Lent<'_>) -> R) -> R {
+    pub fn call<R>(
+        &mut self,
+        act: impl FnOnce(&mut Node<D, PDO, SDO, X>, &mut Lent<'_>) -> R,
+    ) -> R {
         let (node, mut lent) = self.parts();
         act(node, &mut lent)
     }
@@ -109,7 +119,7 @@ impl<D: Device, A: Application, S: Storage, const PDO: usize, const SDO: usize, 
         self.change(now, |_, store| store.set(var, value));
     }
 
-    fn parts(&mut self) -> (&mut Node<D, PDO, SDO>, Lent<'_>) {
+    fn parts(&mut self) -> (&mut Node<D, PDO, SDO, X>, Lent<'_>) {
         let lent = Lent {
             dictionary: *Self::DICTIONARY,
             values: &mut self.values,
@@ -121,8 +131,15 @@ impl<D: Device, A: Application, S: Storage, const PDO: usize, const SDO: usize, 
     }
 }
 
-impl<D: Device, A: Application, S: Storage, const PDO: usize, const SDO: usize, const LEN: usize>
-    Owner for Board<D, A, S, PDO, SDO, LEN>
+impl<
+    D: Device,
+    A: Application,
+    S: Storage,
+    const PDO: usize,
+    const SDO: usize,
+    const LEN: usize,
+    X: Extras<D, SDO>,
+> Owner for Board<D, A, S, PDO, SDO, LEN, X>
 {
     fn handle_frame(&mut self, now: Instant, frame: &Frame) {
         let (node, mut lent) = self.parts();

@@ -104,7 +104,11 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
     let mut services = String::new();
     let depth = if of_variant.is_some() { 2 } else { 1 };
     input.services.constants(&mut services, root, depth);
-    node(out, root, &device.tables, &services);
+    let servers = match input.services.lacks("SERVERS") {
+        true => 0,
+        false => device.tables.dictionary().servers(),
+    };
+    node(out, root, &device.tables, &services, servers);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -214,13 +218,17 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
 }
 
 /// `Node` with the sizes of the dictionary, and the type that ties the two.
-fn node(out: &mut String, root: &str, tables: &Tables, services: &str) {
+fn node(out: &mut String, root: &str, tables: &Tables, services: &str, servers: usize) {
     let dictionary = tables.dictionary();
     let pdos = dictionary.tpdos().max(dictionary.rpdos());
     let mut bytes = dictionary.longest();
     if dictionary.has_streams() {
         bytes = bytes.max(BLOCK);
     }
+    let extras = match servers {
+        0 => String::new(),
+        _ => format!(", {root}::Extra<Device, {bytes}, {servers}>"),
+    };
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
@@ -232,10 +240,10 @@ const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 {services}}}
 #[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
 ({pdos}, and {bytes} bytes).\"]
-pub type Node = {root}::Node<Device, {pdos}, {bytes}>;
+pub type Node = {root}::Node<Device, {pdos}, {bytes}{extras}>;
 #[doc = \"A node for [`DICTIONARY`] with all that it needs: values, an application, a storage.\"]
 pub type Board<A = {root}::NoApplication, S = {root}::NoStorage> =
-{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN>;
+{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN{extras}>;
 "
     );
 }

@@ -41,7 +41,8 @@
 //!           | "profile" "=" cia406 ";"             checked against 1000h, nothing else
 //!           | "without" service { "," service } ";"  the node of the device has no code for these:
 //!                        lss, segmented, block (SDO transfers), rpdos, changes (PDOs when a value
-//!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events
+//!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
+//!                        servers (SDO servers past the first)
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement

@@ -11,7 +11,7 @@ use crate::report::Report;
 use crate::words;
 
 /// The services by their words, and the constants of `Device`.
-const SERVICES: [(&str, &str); 10] = [
+const SERVICES: [(&str, &str); 11] = [
     ("lss", "LSS"),
     ("segmented", "SEGMENTED"),
     ("block", "BLOCK"),
@@ -22,6 +22,7 @@ const SERVICES: [(&str, &str); 10] = [
     ("storage", "STORAGE"),
     ("behaviour", "BEHAVIOUR"),
     ("events", "EVENTS"),
+    ("servers", "SERVERS"),
 ];
 
 /// What a call says of services.
@@ -70,6 +71,11 @@ impl Services {
         })?;
         self.profile = Some(path);
         Ok(())
+    }
+
+    /// Whether a constant of `Device` is `false`.
+    pub(crate) fn lacks(&self, constant: &str) -> bool {
+        self.off.contains(&constant)
     }
 
     /// Whether `behaves` was given.

@@ -27,6 +27,15 @@ impl Dictionary<'_> {
         }
     }
 
+    /// SDO servers past the default one that a node needs: up to the last object of 1201h–127Fh, 0–127.
+    pub const fn servers(&self) -> usize {
+        let end = self.first(0x1280);
+        match end.checked_sub(1) {
+            Some(last) if self.index_at(last) > 0x1200 => (self.index_at(last) - 0x1200) as usize,
+            _ => 0,
+        }
+    }
+
     /// Bytes of the longest value, which one SDO transfer carries: the size of a number, the
     /// capacity of a string or domain, the length of a `const` one; of a streamed one a segment.
     pub const fn longest(&self) -> usize {

@@ -41,6 +41,13 @@ pub trait Device {
     const BEHAVIOUR: bool = true;
     /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
     const EVENTS: bool = true;
+    /// SDO servers past the default one (1201h to 127Fh): on where the dictionary has one. A device
+    /// whose dictionary is known at run time says so; the node has room for them as
+    /// [`Extras`](crate::Extras).
+    const SERVERS: bool = match &Self::DICTIONARY {
+        Some(dictionary) => dictionary.servers() > 0,
+        None => false,
+    };
     /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on
     /// where the dictionary has one, or is known at run time.
     const STREAMS: bool = match &Self::DICTIONARY {

@@ -75,6 +75,7 @@ mod device;
 mod emcy;
 pub mod encoder;
 mod error_control;
+mod extras;
 mod fifo;
 mod kind;
 mod lent;
@@ -97,6 +98,7 @@ pub use application::{
     Application, Chunk, Context, Halt, NoApplication, Reset, Signals, Stream, StreamEnd,
 };
 pub use device::{AnyDevice, Device};
+pub use extras::{Extra, Extras};
 pub use kind::DeviceKind;
 pub use lent::Lent;
 pub use node::{BusEvent, Event, Node, Unfit};
@@ -105,4 +107,5 @@ pub use profile::{
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,
     StoreProfile,
 };
+pub use sdo::SdoServer;
 pub use store::{Store, StoreTooSmall, TextTooLong};

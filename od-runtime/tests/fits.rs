@@ -152,7 +152,7 @@ fn a_reason_says_what_to_write() {
     );
     assert_eq!(
         say(Unfit::SdoServer(0x1201)),
-        "1201h: a second SDO server is not supported; remove 1201h to 127Fh"
+        "1201h: the node has no room for this SDO server"
     );
     assert_eq!(
         say(Unfit::SyncProducer),

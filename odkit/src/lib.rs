@@ -56,10 +56,10 @@ pub use od_model::{
 pub use od_runtime::{
     AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId,
     CommunicationReset, Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile,
-    ErrorReset, Event, Frame, Halt, Instant, LengthRule, Lent, LssProfile, NmtProfile,
-    NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore, SaveAnswer,
-    SavedCobIds, SdoProfile, Signals, Store, StoreProfile, StoreTooSmall, Stream, StreamEnd,
-    TextTooLong, Unfit, encoder, storage,
+    ErrorReset, Event, Extra, Extras, Frame, Halt, Instant, LengthRule, Lent, LssProfile,
+    NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore,
+    SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile, StoreTooSmall,
+    Stream, StreamEnd, TextTooLong, Unfit, encoder, storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 
@@ -71,5 +71,5 @@ pub mod __private3 {
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
     pub use od_runtime::storage::NoStorage;
-    pub use od_runtime::{Device, NoApplication, Node, Profile};
+    pub use od_runtime::{Device, Extra, NoApplication, Node, Profile};
 }

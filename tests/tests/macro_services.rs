@@ -92,3 +92,34 @@ fn a_service_that_is_off_is_answered_as_one_that_the_family_lacks() {
     assert!(!has_events);
     assert_eq!(answers!(lean::small, REQUESTS).0, lean);
 }
+
+odkit::object_dictionary! {
+    mod two_servers {
+        add 0x1000 { name = "Device type"; type = u32; default = 0 }
+        add 0x1001 { name = "Error register"; type = u8 }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 1 }
+        add 0x1201 { code = record; name = "SDO server 2" }
+        add 0x1201sub1 { name = "COB-ID request"; type = u32; default = 0x680 }
+        add 0x1201sub2 { name = "COB-ID response"; type = u32; default = 0x6C0 }
+    }
+}
+
+#[test]
+fn a_node_has_as_many_servers_as_its_dictionary() {
+    let mut node = two_servers::Node::new(NodeId::ONE);
+    let mut values = [0; two_servers::STORE_LEN];
+    let mut device = Lent {
+        dictionary: two_servers::DICTIONARY,
+        values: &mut values,
+        application: &mut NoApplication,
+        storage: &mut Memory::new([]),
+        profile: &Profile::CIA301,
+    };
+    node.power_on(&mut device, Instant::ZERO).unwrap();
+    while node.poll_transmit(&mut device, Instant::ZERO).is_some() {}
+    let request = Frame::standard(0x680, &[0x40, 0x18, 0x10, 1, 0, 0, 0, 0]);
+    node.handle_frame(&mut device, Instant::ZERO, &request);
+    let answer = node.poll_transmit(&mut device, Instant::ZERO).unwrap();
+    assert_eq!(answer.to_string(), "6C0#4318100101000000");
+}

@@ -187,11 +187,6 @@ fn edits(dictionary: Dictionary<'_>) -> String {
             lines += &format!("        modify 0x1005 {{ default = {consumed:#010X} }}\n");
         }
     }
-    let servers = dictionary.objects().iter().map(|object| object.index);
-    for index in servers.filter(|index| (0x1201..=0x127F).contains(index)) {
-        lines += "        // The node has one SDO server, the default SDO.\n";
-        lines += &format!("        remove 0x{index:04X};\n");
-    }
     lines
 }
 

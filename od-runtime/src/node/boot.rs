@@ -7,6 +7,7 @@ use od_wire::{CobId, Instant, NodeId};
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
 use crate::device::Device;
+use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
@@ -14,7 +15,7 @@ use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Power comes: the values become the saved ones or their defaults, and the node boots up.
     ///
     /// # Errors
@@ -29,7 +30,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 
     /// [`power_on`](Self::power_on) for a dictionary that need not fit, such as that of a file.
-    /// PDOs without room, second SDO servers and the SYNC producer are not served; a value
+    /// PDOs and SDO servers without room and the SYNC producer are not served; a value
     /// longer than the SDO buffer answers with SDO abort 05040005h.
     ///
     /// # Errors
@@ -72,14 +73,14 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         node.save_at = None;
         node.discard_frames();
         node.emcy.reset();
-        node.sdo.forget();
+        node.forget_transfers();
         node.stop_pdos();
         node.state = State::Initialising;
         node.boot_at = None;
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let nmt = &objects.profile().nmt;
         let delay = match reset {
@@ -90,7 +91,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         // NMT reset node may begin the NMT state alone again.
         let light = nmt.reset_node_light.filter(|_| reset == Reset::Node);
         let light = light.is_some_and(|switch| objects.has_bits(switch));
-        self.sdo.cut(objects);
+        self.cut_transfers(objects);
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();
@@ -190,6 +191,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 true => image::load(objects.storage, &mut objects.store, profile, &which),
                 false => Ok(Loaded::Blank),
             };
+            Self::forget_dynamic(objects);
             let news = match loaded {
                 Ok(Loaded::Blank | Loaded::Complete) => None,
                 Ok(Loaded::Cut { factory }) => Some(Event::SaveCut { factory }),
@@ -262,5 +264,6 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 rpdo.configure(objects, number as u16);
             }
         }
+        self.configure_servers(objects);
     }
 }

@@ -9,11 +9,12 @@ use super::{Machines, Node};
 use crate::application::Reset;
 use crate::device::Device;
 use crate::emcy::PDO_LENGTH;
+use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::profile::Notice;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Reports a state change or frame loss of the CAN controller. A host that never calls
     /// this runs the node as on an error-free bus.
     pub fn handle_bus(&mut self, device: &mut Lent<'_>, now: Instant, event: BusEvent) {
@@ -51,7 +52,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     pub(super) const fn is_bus_off(&self) -> bool {
         matches!(self.bus, BusEvent::Off)
     }
@@ -94,7 +95,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         self.mute = Some(Mute::BUS_OFF);
         self.event(Event::BusOff { restarts });
         self.discard_frames();
-        self.sdo.cut(objects);
+        self.cut_transfers(objects);
         self.stop_pdos();
         let set = self.emcy.set_silent(&mut objects.store, profile.bus_off);
         if !(restarts && profile.off.behaviour_if_off) {

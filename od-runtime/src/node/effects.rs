@@ -5,13 +5,14 @@ use od_wire::nmt::State;
 use super::{Event, Machines};
 use crate::device::Device;
 use crate::error_control;
+use crate::extras::Extras;
 use crate::objects::{Effect, Objects};
 use crate::storage::image;
 
 /// Sub-index of 1010h, were it one, under which the device saves its own record.
 const LIFE_RECORD: u8 = 0;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
     /// cause event-driven PDOs.
     #[inline]
@@ -47,6 +48,10 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
         self.save_at = None;
         let failed = (!objects.complete_save()).then_some(objects.profile().store.failed);
+        self.end_save_of_servers(objects, failed);
+        if D::SERVERS && !self.sdo.awaits_save() {
+            return;
+        }
         let (answer, held) = self.sdo.finish(objects, failed);
         if let Some(answer) = answer {
             self.answer(answer);
@@ -113,11 +118,12 @@ fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Whether it is an object that configures SYNC or a PDO.
+/// Whether it is an object that configures SYNC, a PDO or a further SDO server.
 fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     let repeat = objects.profile().pdo.repeat_counter;
     let sync_only = objects.profile().pdo.sync_only;
     matches!(index, 0x1005 | 0x1400..=0x1BFF)
+        || D::SERVERS && matches!(index, 0x1201..=0x127F)
         || sync_only.is_some_and(|(switch, _)| switch == index)
         || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))
 }

@@ -4,6 +4,7 @@
 use super::{Event, Machines};
 use crate::device::Device;
 use crate::emcy::{self, Change};
+use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::profile::Notice;
 use od_wire::emcy::Emcy;
@@ -30,7 +31,7 @@ impl Notice {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// Takes over what the monitor has to say.
     #[inline]
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {

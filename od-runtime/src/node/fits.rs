@@ -7,6 +7,7 @@ use od_wire::CobId;
 
 use super::Node;
 use crate::device::Device;
+use crate::extras::Extras;
 use crate::store::StoreTooSmall;
 
 /// A reason why a node cannot serve a dictionary.
@@ -36,8 +37,8 @@ pub enum Unfit {
         /// Bytes of the buffer.
         room: usize,
     },
-    /// The dictionary has the parameters of a second SDO server (1201h–127Fh); the node has
-    /// one, the default SDO.
+    /// The dictionary has the parameters of an SDO server (1201h–127Fh) for which the node has no
+    /// room ([`Extras::SERVERS`]).
     SdoServer(u16),
     /// The default value of 1005h has bit 30 set, and the node does not produce SYNC.
     SyncProducer,
@@ -53,7 +54,7 @@ impl Unfit {
             Self::Tpdos { .. } => "the dictionary has more TPDOs than the node",
             Self::Rpdos { .. } => "the dictionary has more RPDOs than the node",
             Self::SdoBuffer { .. } => "a value of the dictionary is longer than the SDO buffer",
-            Self::SdoServer(_) => "a second SDO server is not supported; remove 1201h to 127Fh",
+            Self::SdoServer(_) => "the node has no room for this SDO server",
             Self::Service(_) => "the dictionary has an object of a service that is switched off",
             Self::SyncProducer => {
                 "producing SYNC is not supported; clear bit 30 of the default value of 1005h"
@@ -99,7 +100,7 @@ impl From<StoreTooSmall> for Unfit {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Checks that a node of these sizes serves all that the dictionary has.
     /// [`power_on`](Self::power_on) does so, too.
     ///
@@ -124,7 +125,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         while at < dictionary.len() {
             let entry = dictionary.at(at);
             match entry.address.index {
-                index @ 0x1201..=0x127F => return Err(Unfit::SdoServer(index)),
+                index @ 0x1201..=0x127F if index - 0x1201 >= Self::SERVERS => {
+                    return Err(Unfit::SdoServer(index));
+                }
                 0x1005 if produces_sync(entry.default) => return Err(Unfit::SyncProducer),
                 index if !Self::serves(index) => return Err(Unfit::Service(index)),
                 _ => {}
@@ -133,6 +136,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         }
         Ok(())
     }
+
+    /// Further SDO servers that it serves.
+    const SERVERS: u16 = if D::SERVERS { X::SERVERS as u16 } else { 0 };
 
     /// Whether there is code for the service of a communication object.
     const fn serves(index: u16) -> bool {

@@ -9,12 +9,13 @@ use super::{Machines, Node};
 use crate::application::Reset;
 use crate::device::Device;
 use crate::emcy::PDO_LENGTH;
+use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::lss::{self, Action};
 use crate::objects::Objects;
 use crate::pdo::Received;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Handles a frame that was received.
     #[inline]
     pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {
@@ -31,8 +32,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             }
             return;
         }
-        let is_error_control =
-            Machines::<D, PDO, SDO>::HAS_MONITOR && id.raw() & 0x780 == 0x700 && !id.is_extended();
+        let is_error_control = Machines::<D, PDO, SDO, X>::HAS_MONITOR
+            && id.raw() & 0x780 == 0x700
+            && !id.is_extended();
         if D::LSS && id == CanId::standard(od_wire::lss::MASTER) {
             node.handle_lss(&mut objects, frame);
             return;
@@ -46,9 +48,11 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         } else if frame.is_remote() {
             node.handle_remote(&mut objects, frame);
         } else if id == node.node_id.plus(0x600) {
-            if let Some(answer) = node.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
+            if D::SERVERS && node.refuses(&mut objects, frame) {
+            } else if let Some(answer) = node.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
                 node.answer(answer);
             }
+        } else if D::SERVERS && node.handle_server(&mut objects, frame) {
         } else if node.state == State::Operational {
             if id == node.sync_id {
                 node.handle_sync(&mut objects, frame);
@@ -84,7 +88,8 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         {
             node.answer(answer);
         }
-        if Machines::<D, PDO, SDO>::HAS_MONITOR {
+        node.wake_servers(&mut objects, false);
+        if Machines::<D, PDO, SDO, X>::HAS_MONITOR {
             node.monitor.handle_timeout::<D>(now);
             node.poll_monitor(&mut objects);
         }
@@ -113,11 +118,12 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if let Some(answer) = node.sdo.handle_change(&mut objects) {
             node.answer(answer);
         }
+        node.wake_servers(&mut objects, true);
         node.finish(&mut objects);
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     #[inline(never)]
     fn handle_nmt(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
         let Some(nmt::Repr { command, node }) = nmt::Repr::parse(frame.data()) else {

@@ -18,12 +18,14 @@ mod fits;
 mod input;
 mod output;
 mod own;
+mod servers;
 mod wanted;
 
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
 use crate::device::{AnyDevice, Device};
+use crate::extras::Extras;
 use crate::fifo::Fifo;
 use crate::lent::Lent;
 use crate::objects::{Objects, Outbox};
@@ -39,19 +41,20 @@ pub use fits::Unfit;
 /// buffer: the longest value that a segmented or block transfer can carry, or the longest part of a
 /// streamed one ([`Application::stream`](crate::Application::stream)). `D` says what the
 /// compiler knows of the device: with `object_dictionary!` the type `Node` of its module has the
-/// sizes of the dictionary, and other sizes do not compile unless they fit.
+/// sizes of the dictionary, and other sizes do not compile unless they fit. `X` is the room for
+/// services that few devices have ([`Extras`]).
 ///
 /// The node has no lifetime: each call borrows the device as a [`Lent`].
 #[derive(Debug)]
-pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128> {
+pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X = ()> {
     /// [`Objects`] holds it while a call has the device, so it is not one of the machines.
     outbox: Outbox,
-    machines: Machines<D, PDO, SDO>,
+    machines: Machines<D, PDO, SDO, X>,
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Debug)]
-struct Machines<D, const PDO: usize, const SDO: usize> {
+struct Machines<D, const PDO: usize, const SDO: usize, X> {
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: NodeId,
@@ -97,18 +100,24 @@ struct Machines<D, const PDO: usize, const SDO: usize> {
     pdo_pending: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
     wanted_changed: bool,
+    extras: X,
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// A node without power. It starts with this node ID, unless the application or the saved
     /// values set another.
     ///
     /// Does not compile where [`fits`](Self::fits) refuses the dictionary of `D`.
     pub const fn new(node_id: NodeId) -> Self {
+        Self::with_extras(node_id, X::NEW)
+    }
+
+    /// As [`new`](Self::new), with room for services that was made at run time.
+    pub const fn with_extras(node_id: NodeId, extras: X) -> Self {
         const { Self::assert_fits() };
         Self {
             outbox: Outbox::new(),
-            machines: Machines::new(node_id),
+            machines: Machines::new(node_id, extras),
         }
     }
 
@@ -161,7 +170,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         &'c mut self,
         device: &'c mut Lent<'_>,
         now: Instant,
-    ) -> Option<(&'c mut Machines<D, PDO, SDO>, Objects<'c, D>)> {
+    ) -> Option<(&'c mut Machines<D, PDO, SDO, X>, Objects<'c, D>)> {
         let machines = &mut self.machines;
         if !machines.powered {
             return None;
@@ -172,8 +181,8 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
-    const fn new(node_id: NodeId) -> Self {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+    const fn new(node_id: NodeId, extras: X) -> Self {
         Self {
             node_id,
             made_with: node_id,
@@ -188,7 +197,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             out: Fifo::new(Frame::standard(0, &[])),
             answer: None,
             events: Fifo::new(Event::State(State::Initialising)),
-            sdo: sdo::Server::new(),
+            sdo: sdo::Server::idle(),
             heartbeat: error_control::Producer::new(),
             monitor: error_control::Monitor::new(),
             lss: lss::Slave::new(),
@@ -205,6 +214,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             watches_changes: false,
             pdo_pending: false,
             wanted_changed: false,
+            extras,
         }
     }
 
@@ -253,7 +263,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
             _ => self.stop_pdos(),
         }
         if state == State::Stopped {
-            self.sdo.cut(objects);
+            self.cut_transfers(objects);
         }
     }
 

@@ -5,10 +5,11 @@ use od_wire::{Frame, Instant};
 
 use super::{Event, Machines, Node};
 use crate::device::Device;
+use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
     /// input before it.
     #[inline]
@@ -24,7 +25,11 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
         if let Some(frame) = node.out.pop() {
             return Some(frame);
         }
-        if node.pdo_pending || node.emcy.deadline().is_some() || D::BLOCK && node.sdo.is_sending() {
+        if node.pdo_pending
+            || node.emcy.deadline().is_some()
+            || D::BLOCK && node.sdo.is_sending()
+            || node.is_server_sending()
+        {
             return self.poll_services(device, now);
         }
         None
@@ -52,8 +57,12 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
             }
         }
         if D::BLOCK {
-            let segment = node.sdo.poll(&mut objects);
-            return segment.map(|segment| node.response(segment));
+            if let Some(segment) = node.sdo.poll(&mut objects) {
+                return Some(node.response(segment));
+            }
+            if D::SERVERS {
+                return node.poll_servers(&mut objects);
+            }
         }
         None
     }
@@ -72,7 +81,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// Sends an SDO response, after all that waits already.
     #[inline]
     pub(super) fn answer(&mut self, answer: [u8; 8]) {
@@ -125,6 +134,9 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
         consider(self.mute.map(|mute| mute.until));
         if D::BLOCK || D::STREAMS {
             consider(self.sdo.deadline());
+        }
+        if D::SERVERS {
+            consider(self.servers_deadline());
         }
         if D::STORAGE {
             consider(self.save_at);

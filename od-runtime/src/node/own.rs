@@ -7,9 +7,10 @@ use od_wire::{AbortCode, Instant};
 
 use super::Node;
 use crate::device::Device;
+use crate::extras::Extras;
 use crate::lent::Lent;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Sets a value from the side of the device: as a master's download does, but for the access, so
     /// that read-only objects change, too. Event-driven TPDOs follow.
     ///

@@ -4,8 +4,9 @@ use od_wire::CanId;
 
 use super::{Machines, Node};
 use crate::device::Device;
+use crate::extras::Extras;
 
-impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Returns the CAN-IDs of all frames, data and remote, that mean anything to the node in any NMT
     /// state. Some may come twice.
     pub fn wanted_ids(&self) -> impl Iterator<Item = CanId> + '_ {
@@ -20,7 +21,7 @@ impl<D: Device, const PDO: usize, const SDO: usize> Node<D, PDO, SDO> {
     }
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     fn wanted_ids(&self) -> impl Iterator<Item = CanId> + '_ {
         let has_lss = D::LSS && D::PROFILE.is_none_or(|profile| profile.lss.is_some());
         let lss = has_lss.then_some(CanId::standard(od_wire::lss::MASTER));
@@ -41,6 +42,13 @@ impl<D: Device, const PDO: usize, const SDO: usize> Machines<D, PDO, SDO> {
                 rpdos
                     .filter_map(|pdo| pdo.received_by())
                     .filter(|_| D::RPDOS),
+            )
+            .chain(
+                self.extras
+                    .servers()
+                    .iter()
+                    .filter_map(|one| one.received_by())
+                    .filter(|_| D::SERVERS),
             )
             .chain(self.monitor.watched().filter(|_| D::CONSUMER));
         lss.into_iter().chain(others.filter(move |_| has_id))

@@ -4,6 +4,7 @@ use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
+use crate::device::Device;
 use crate::profile::Profile;
 use crate::store::{Store, little_endian};
 use od_wire::{AbortCode, CobId};
@@ -30,7 +31,7 @@ pub(super) const fn is_mapping_count(address: Address) -> bool {
 
 /// Checks a value that a master wants to write to an object below 2000h. `bytes` has the
 /// entry's length.
-pub(super) fn check(
+pub(super) fn check<D: Device>(
     store: &Store<'_>,
     profile: &Profile,
     row: Row,
@@ -49,6 +50,8 @@ pub(super) fn check(
         // A node has one heartbeat time (chapter 7.5.2.13).
         (0x1016, 1..) if is_watched_elsewhere(store, sub, value) => Err(AbortCode::Incompatible),
         (0x1014, 0) | (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => check_cob_id(true),
+        // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
+        (0x1201..=0x127F, 1 | 2) if D::SERVERS => check_cob_id(true),
         (0x1400..=0x15FF, 2) if matches!(value, 241..=253) => Err(AbortCode::ValueRange),
         (0x1800..=0x19FF, 2) => {
             let mut types = profile.pdo.tpdo_types.iter();

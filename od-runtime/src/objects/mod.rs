@@ -204,7 +204,7 @@ impl<'c, D: Device> Objects<'c, D> {
         }
         limits::check(&self.store, row, bytes).map_err(|outside| self.refusal(address, outside))?;
         if address.index < 0x2000 {
-            communication::check(&self.store, self.profile(), row, bytes)?;
+            communication::check::<D>(&self.store, self.profile(), row, bytes)?;
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put_row(row, bytes)?;

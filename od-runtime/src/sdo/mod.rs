@@ -6,6 +6,7 @@
 mod block_download;
 mod block_upload;
 mod expedited;
+mod further;
 mod late;
 mod request;
 mod segmented;
@@ -28,6 +29,8 @@ use block_upload::BlockUpload;
 use late::{Held, Late};
 use segmented::{Download, Upload};
 use window::Window;
+
+pub use further::SdoServer;
 
 /// Longest time that a block transfer waits for the client, in microseconds: its segments look
 /// like requests, so a client that died would block the next one.
@@ -69,8 +72,8 @@ pub(crate) struct Server<D, const N: usize> {
 /// Response of the server, if there is one, or the reason why it does not come.
 type Answer = Result<Option<Response>, Halt>;
 
-impl<D: Device, const N: usize> Server<D, N> {
-    pub(crate) const fn new() -> Self {
+impl<D, const N: usize> Server<D, N> {
+    pub(crate) const fn idle() -> Self {
         Self {
             device: PhantomData,
             transfer: Transfer::None,
@@ -82,7 +85,9 @@ impl<D: Device, const N: usize> Server<D, N> {
             late: Late::NONE,
         }
     }
+}
 
+impl<D: Device, const N: usize> Server<D, N> {
     /// Forgets everything without a word, as the end of power does.
     pub(crate) fn forget(&mut self) {
         self.reset();
@@ -201,9 +206,7 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// Finds out whether the next frame needs a closer look.
     fn look(&mut self) {
-        self.is_busy = self.late.is_awaited()
-            || self.streams()
-            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments());
+        self.is_busy = self.takes_anything() || self.streams();
     }
 
     /// A new transfer takes the place of one that was not finished.
@@ -281,6 +284,36 @@ impl<D: Device, const N: usize> Server<D, N> {
             code: code.code(),
         }
         .emit()
+    }
+
+    /// Refuses a request that begins a transfer.
+    #[cold]
+    pub(crate) fn refuse(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        address: Address,
+        code: AbortCode,
+    ) -> [u8; 8] {
+        self.replace(objects, address);
+        let abort = self.abort(objects, code);
+        self.look();
+        abort
+    }
+
+    /// The value that the application streams.
+    pub(crate) fn streamed(&self) -> Option<Address> {
+        self.streams().then_some(self.address)
+    }
+
+    /// Whether the next frame is data, whatever it looks like, or waits.
+    pub(crate) fn takes_anything(&self) -> bool {
+        self.late.is_awaited()
+            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
+    }
+
+    /// Whether a client waits for the end of a save.
+    pub(crate) fn awaits_save(&self) -> bool {
+        self.late.is_awaited() && !self.late.awaits_stream()
     }
 
     /// Whether [`poll`](Self::poll) may have a segment.

@@ -5,7 +5,7 @@ use od_eds::{Description, EntryDescription, ObjectDescription, Spanned, Tables, 
 use od_model::{Access, Address, DataType, ObjectCode};
 use od_runtime::storage::Memory;
 use od_runtime::{
-    AnyDevice, Application, BusEvent, CanId, Frame, Instant, Lent, NoApplication, Node, NodeId,
+    Application, BusEvent, CanId, Device, Extra, Frame, Instant, Lent, NoApplication, Node, NodeId,
     Profile,
 };
 
@@ -127,8 +127,16 @@ pub fn tables(rows: Vec<Row>) -> Tables {
     Tables::new(&description)
 }
 
+/// A device with every service; its dictionary is known at run time.
+#[derive(Debug)]
+pub struct Full;
+
+impl Device for Full {
+    const SERVERS: bool = true;
+}
+
 /// Its buffer is shorter than the DOMAIN 2003h: what runs over is tested, too.
-pub type TestNode = Node<AnyDevice, 4, 512>;
+pub type TestNode = Node<Full, 4, 512, Extra<Full, 512, 3>>;
 
 /// The node with everything that it needs.
 pub struct Bench<A = NoApplication> {

@@ -1,4 +1,4 @@
-//! A dictionary with a second SDO server.
+//! A dictionary with a second SDO server, and a node that has no room for it.
 
 use odkit::{NodeId, object_dictionary};
 
@@ -14,7 +14,7 @@ object_dictionary! {
     }
 }
 
-static NODE: device::Node = odkit::Node::new(NodeId::ONE);
+static NODE: odkit::Node<device::Device, 0, 32> = odkit::Node::new(NodeId::ONE);
 
 fn main() {
     println!("{}", NODE.node_id());

@@ -1,0 +1,68 @@
+//! An SDO server past the default one: a server and its two COB-IDs (1201h to 127Fh).
+
+use od_wire::{CanId, CobId, Frame};
+
+use super::Server;
+use crate::store::Store;
+
+/// SDO server of one of the objects 1201h to 127Fh, with a transfer of its own. `N` is the room for
+/// its buffer in bytes, as that of the default server.
+#[derive(Debug)]
+pub struct SdoServer<D, const N: usize> {
+    pub(crate) server: Server<D, N>,
+    /// The two COB-IDs, while both are valid.
+    channel: Option<Channel>,
+}
+
+/// The COB-IDs of an SDO: from client to server, and back.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Channel {
+    request: CanId,
+    response: CanId,
+}
+
+impl<D, const N: usize> SdoServer<D, N> {
+    /// A server before power-on.
+    pub const fn new() -> Self {
+        Self {
+            server: Server::idle(),
+            channel: None,
+        }
+    }
+
+    /// Whether it receives frames with this CAN-ID.
+    pub(crate) fn takes(&self, id: CanId) -> bool {
+        self.received_by() == Some(id)
+    }
+
+    /// The CAN-ID of its requests, while it is valid.
+    pub(crate) fn received_by(&self) -> Option<CanId> {
+        self.channel.map(|channel| channel.request)
+    }
+
+    /// The frame of a response; `None` where it has no COB-ID any more.
+    pub(crate) fn frame(&self, data: [u8; 8]) -> Option<Frame> {
+        let channel = self.channel?;
+        Some(Frame::full(channel.response, data))
+    }
+
+    /// Reads its object again. Returns whether its channel is another one than before: the transfer
+    /// on the old one has lost its client.
+    pub(crate) fn configure(&mut self, store: &Store<'_>, index: u16) -> bool {
+        let cob_id = |sub| {
+            let cob_id = CobId::new(store.try_unsigned(index, sub)? as u32);
+            cob_id.is_valid().then_some(cob_id.can_id())
+        };
+        let channel = match (cob_id(1), cob_id(2)) {
+            (Some(request), Some(response)) => Some(Channel { request, response }),
+            _ => None,
+        };
+        core::mem::replace(&mut self.channel, channel) != channel
+    }
+}
+
+impl<D, const N: usize> Default for SdoServer<D, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
