@@ -3,6 +3,7 @@
 //! - [`Board`] owns node, values, application and storage, and can be a `static`.
 //! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
 //! - [`Filters`] are the acceptance filters for the CAN-IDs that the node listens to.
+//! - [`storage`] keeps saved values on NOR flash, in the background or at once.
 //! - [`Clock`] is time of a counter of 32 bits that wraps.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -15,6 +16,7 @@ mod clock;
 mod filters;
 mod owner;
 mod port;
+pub mod storage;
 
 pub use board::{Board, Plain};
 pub use clock::Clock;

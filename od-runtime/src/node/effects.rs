@@ -47,7 +47,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[cold]
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
         self.save_at = None;
-        let failed = (!objects.complete_save()).then_some(objects.profile().store.failed);
+        let Some(done) = objects.complete_save() else {
+            return;
+        };
+        let failed = (!done).then_some(objects.profile().store.failed);
         self.end_save_of_servers(objects, failed);
         if D::SERVERS && !self.sdo.awaits_save() {
             return;

@@ -21,6 +21,9 @@ use outbox::Saving;
 pub(crate) use communication::check_mapped;
 pub(crate) use outbox::{Effect, Outbox};
 
+/// Time until a memory that is still writing is asked again, in microseconds.
+const ASK_AGAIN_US: u64 = 2_000;
+
 /// Reason why [`Objects::read`] has no bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Unread {
@@ -253,6 +256,10 @@ impl<'c, D: Device> Objects<'c, D> {
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
         self.outbox.effect(Effect::Restored(sub));
+        if self.storage.is_writing() {
+            self.await_memory(None);
+            self.outbox.answer_later = true;
+        }
         Ok(())
     }
 
@@ -268,36 +275,57 @@ impl<'c, D: Device> Objects<'c, D> {
             return Err(profile.failed);
         };
         self.outbox.saving = Some(Saving {
-            pending,
-            sub,
+            pending: Some(pending),
+            sub: Some(sub),
             due: self.now.plus_micros(profile.duration_us.into()),
         });
         if profile.duration_us > 0 {
             self.outbox.answer_later = profile.answer == SaveAnswer::AfterStoring;
             self.outbox.effect(Effect::Saving);
-            Ok(())
-        } else if self.complete_save() {
-            Ok(())
-        } else {
-            Err(profile.failed)
+            return Ok(());
+        }
+        let done = self.complete_save();
+        self.outbox.answer_later = done.is_none();
+        match done {
+            Some(false) => Err(profile.failed),
+            _ => Ok(()),
         }
     }
 
-    /// Ends a save that goes on, if there is one; `false` where it failed.
-    pub(crate) fn complete_save(&mut self) -> bool {
+    /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
+    /// memory is still writing.
+    pub(crate) fn complete_save(&mut self) -> Option<bool> {
         let Some(Saving { pending, sub, .. }) = self.outbox.saving.take() else {
-            return true;
+            return Some(true);
         };
-        let done = image::commit(self.storage, pending).is_ok();
+        let is_written = match pending {
+            Some(pending) => image::commit(self.storage, pending).is_ok(),
+            None => true,
+        };
+        if is_written && self.storage.is_writing() {
+            self.await_memory(sub);
+            return None;
+        }
+        let done = is_written && (pending.is_some() || self.storage.flush().is_ok());
         if done {
             self.storage_is_sound();
         }
-        self.outbox.effect(if done {
-            Effect::Saved(sub)
-        } else {
-            Effect::NotSaved
+        match sub {
+            _ if !done => self.outbox.effect(Effect::NotSaved),
+            Some(sub) => self.outbox.effect(Effect::Saved(sub)),
+            None => {}
+        }
+        Some(done)
+    }
+
+    /// All is written, and on its way to the memory that keeps it.
+    fn await_memory(&mut self, sub: Option<u8>) {
+        self.outbox.saving = Some(Saving {
+            pending: None,
+            sub,
+            due: self.now.plus_micros(ASK_AGAIN_US),
         });
-        done
+        self.outbox.effect(Effect::Saving);
     }
 
     /// The application may report the end of an error that it found at the start.

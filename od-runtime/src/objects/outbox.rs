@@ -41,9 +41,10 @@ pub(crate) struct Outbox {
 /// A save that takes its time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Saving {
-    pub(super) pending: image::Pending,
-    /// Sub-index of 1010h.
-    pub(super) sub: u8,
+    /// `None`: it is written, and on its way to the memory that keeps it.
+    pub(super) pending: Option<image::Pending>,
+    /// Sub-index of 1010h; `None`: it is a restore, which was told.
+    pub(super) sub: Option<u8>,
     /// It is complete then.
     pub(crate) due: Instant,
 }

@@ -33,6 +33,8 @@
 //! Records go by address, so an image survives a firmware with another dictionary:
 //! what no longer fits is not loaded, but it stays in the image as long as there is room.
 
+use core::ops::Range;
+
 use od_model::row::Row;
 use od_model::{Dictionary, Group};
 
@@ -91,7 +93,19 @@ pub fn device(dictionary: &Dictionary<'_>) -> u32 {
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
 pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
-    Ok(Banks::survey(storage, 0)?.writer)
+    Ok(Banks::survey(storage, 0)?.newest.map(|set| set.device))
+}
+
+/// Returns where the newest set with its header is in the storage; `None` if there is no whole set.
+/// A storage that holds this at its start, and is erased behind it, has the same saved values.
+///
+/// # Errors
+/// [`StorageError`] if the storage cannot be read.
+pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, StorageError> {
+    let banks = Banks::survey(storage, 0)?;
+    let header = banks.layout.header();
+    let place = |set: bank::Set| banks.stays..banks.stays + header + set.len;
+    Ok(banks.newest.map(place))
 }
 
 /// Bytes of storage that a device needs beyond [`capacity_needed`] where LSS stores node ID and

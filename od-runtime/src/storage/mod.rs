@@ -112,7 +112,15 @@ pub trait Storage {
         Err(StorageError::Device)
     }
 
-    /// Makes sure that everything written before this call survives a loss of power after it.
+    /// Whether written bytes are on their way to the memory that keeps them, where somebody else does
+    /// that in the background. The node answers 1010h and 1011h when they have arrived, and asks
+    /// [`flush`](Self::flush) then whether all went well.
+    fn is_writing(&mut self) -> bool {
+        false
+    }
+
+    /// Makes sure that everything written before this call survives a loss of power after it. Where
+    /// [`is_writing`](Self::is_writing) returns `true` it does not wait, and reports what failed.
     ///
     /// # Errors
     /// Those of the device.

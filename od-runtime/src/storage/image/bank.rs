@@ -29,7 +29,7 @@ struct Bank {
 #[derive(Clone, Copy)]
 pub(super) struct Set {
     /// [`device`] that wrote it.
-    device: u32,
+    pub(super) device: u32,
     /// Bytes of records.
     pub(super) len: usize,
 }
@@ -47,8 +47,8 @@ pub(super) struct Banks {
     pub(super) next: Code,
     /// The device.
     pub(super) device: u32,
-    /// The device that wrote the newest set.
-    pub(super) writer: Option<u32>,
+    /// The newest set, of whatever device.
+    pub(super) newest: Option<Set>,
     /// The set that a start loads, whether or not its records fit.
     pub(super) state: Loaded,
     /// The newest set does not count, because a later save was interrupted on a device that loads
@@ -114,7 +114,7 @@ impl Banks {
             target: target.start,
             next,
             device,
-            writer: stays.set.map(|set| set.device),
+            newest: stays.set,
             state,
             is_withdrawn,
         })

@@ -1,0 +1,173 @@
+//! Saved values in a log on NOR flash, by `sequential-storage`.
+
+use core::cell::{Cell, RefCell};
+use core::future::poll_fn;
+use core::ops::Range;
+use core::task::Poll;
+
+use embedded_storage_async::nor_flash::NorFlash;
+use od_runtime::storage::StorageError;
+use sequential_storage::cache::{Cache, Uncached};
+use sequential_storage::map::{MapConfig, MapStorage, SerializationError, Value};
+
+use super::guard::Guard;
+use super::mirror::Mirror;
+
+type Map<F> = MapStorage<u8, Guard<F>, Cache<Uncached, Uncached, Uncached, u8>>;
+
+/// The only key.
+const SET: u8 = 0;
+
+/// Attempts to store a set, each behind what the one before it left.
+const ATTEMPTS: usize = 3;
+
+/// Pages of flash that hold the newest set of a [`Mirror`], among older ones: a save appends one, and a
+/// page is erased when all are full. So pages wear alike, and a set that is written counts once its
+/// checksum is there.
+///
+/// `B` is the size of the buffer that a set goes through: half of the mirror's, and 64 more. The driver is
+/// asynchronous; [`Steps`](super::Steps) makes it of one that waits.
+pub struct Log<F: NorFlash, const B: usize> {
+    map: Map<F>,
+    buffer: [u8; B],
+}
+
+/// Calls its argument with the mirror.
+type With<'w, const N: usize> = &'w mut dyn FnMut(&mut dyn FnMut(&mut Mirror<N>));
+
+/// The newest set of a mirror, which is copied where it is written.
+struct Newest<'w, const N: usize> {
+    with: RefCell<With<'w, N>>,
+    number: Cell<u32>,
+}
+
+impl<const N: usize> Newest<'_, N> {
+    /// Calls `act` with the set and its number.
+    fn set(&self, act: &mut dyn FnMut(&[u8], u32)) {
+        (self.with.borrow_mut())(&mut |mirror| {
+            let (bytes, number) = mirror.newest();
+            act(bytes, number);
+        });
+    }
+
+    /// Whether a set is the newest one, or one before it, which nobody has to compare.
+    fn is(&self, stored: &[u8]) -> bool {
+        let mut is_same = false;
+        self.set(&mut |bytes, number| is_same = number != self.number.get() || bytes == stored);
+        is_same
+    }
+}
+
+impl<const N: usize> Value<'_> for Newest<'_, N> {
+    fn serialize_into(&self, buffer: &mut [u8]) -> Result<usize, SerializationError> {
+        let mut result = Err(SerializationError::BufferTooSmall);
+        self.set(&mut |bytes, number| {
+            if let Some(to) = buffer.get_mut(..bytes.len()) {
+                to.copy_from_slice(bytes);
+                self.number.set(number);
+                result = Ok(bytes.len());
+            }
+        });
+        result
+    }
+
+    fn deserialize_from(_: &[u8]) -> Result<(Self, usize), SerializationError> {
+        Err(SerializationError::InvalidFormat)
+    }
+}
+
+impl<F: NorFlash, const B: usize> Log<F, B> {
+    /// The pages from `range.start` to `range.end`, three or more.
+    ///
+    /// # Panics
+    /// In a constant: does not compile. Where the range is not three whole pages, or a set does not fit
+    /// into a page.
+    pub const fn new(flash: F, range: Range<u32>) -> Self {
+        const {
+            assert!(
+                B + 64 <= F::ERASE_SIZE,
+                "a set fits into a page of the flash"
+            )
+        };
+        assert!(
+            (range.end - range.start) as usize >= 3 * F::ERASE_SIZE,
+            "a log has three pages or more"
+        );
+        Self {
+            map: Map::new(Guard(flash), MapConfig::new(range), Cache::new_uncached()),
+            buffer: [0; B],
+        }
+    }
+
+    /// Loads the newest set into a mirror, before the node has power.
+    ///
+    /// # Errors
+    /// [`StorageError::Device`] if the flash cannot be read or repaired.
+    pub async fn load<const N: usize>(
+        &mut self,
+        mirror: &mut Mirror<N>,
+    ) -> Result<(), StorageError> {
+        let set = self.map.fetch_item::<&[u8]>(&mut self.buffer, &SET).await;
+        mirror.load(set.map_err(|_| StorageError::Device)?.unwrap_or(&[]));
+        Ok(())
+    }
+
+    /// Keeps what the node saves, for ever. `with` calls its argument with the mirror, in whatever lock
+    /// the node is; it is held as long as it takes to copy a set.
+    pub async fn run<const N: usize>(
+        &mut self,
+        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N>)),
+    ) {
+        loop {
+            poll_fn(|cx| {
+                let mut changed = Poll::Pending;
+                with(&mut |mirror| changed = mirror.poll_changed(cx));
+                changed
+            })
+            .await;
+            self.save(&mut with).await;
+        }
+    }
+
+    /// Keeps what the node has saved by now, if that is not kept already.
+    pub async fn save<const N: usize>(
+        &mut self,
+        mut with: impl FnMut(&mut dyn FnMut(&mut Mirror<N>)),
+    ) {
+        const { assert!(N / 2 + 64 <= B, "the buffer has room for a set and its key") };
+        let newest = Newest {
+            with: RefCell::new(&mut with),
+            number: Cell::new(0),
+        };
+        let mut is_empty = true;
+        newest.set(&mut |bytes, number| {
+            is_empty = bytes.is_empty();
+            newest.number.set(number);
+        });
+        let result = match is_empty {
+            true => Ok(()),
+            false => self.append(&newest).await,
+        };
+        let number = newest.number.get();
+        with(&mut |mirror| mirror.stored(number, result));
+    }
+
+    /// Appends a set, and reads it back: behind a word that power left half-written, the next one may not
+    /// be found (sequential-storage 136).
+    async fn append<const N: usize>(&mut self, set: &Newest<'_, N>) -> Result<(), StorageError> {
+        let mut result = Err(StorageError::Device);
+        for _ in 0..ATTEMPTS {
+            let stored = self.map.store_item(&mut self.buffer, &SET, set).await;
+            let found = match stored {
+                Ok(()) => self.map.fetch_item::<&[u8]>(&mut self.buffer, &SET).await,
+                Err(error) => Err(error),
+            };
+            match found {
+                Ok(Some(bytes)) if set.is(bytes) => return Ok(()),
+                Ok(_) => result = Err(StorageError::NotWritten),
+                Err(_) => result = Err(StorageError::Device),
+            }
+        }
+        result
+    }
+}

@@ -1,0 +1,356 @@
+//! Saves on NOR flash: in the background in bounded steps, and inside the call; power that goes in any
+//! step.
+#![cfg(feature = "flash")]
+
+#[path = "../../od-runtime/tests/support/nor.rs"]
+mod nor;
+mod support;
+
+use std::cell::{Cell, RefCell};
+use std::pin::pin;
+use std::rc::Rc;
+use std::task::{Context, Poll, Waker};
+
+use embedded_storage::nor_flash::{
+    ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
+};
+use odkit::board::Owner;
+use odkit::board::storage::{Log, Mirror, Nor, Steps};
+use odkit::storage::image::capacity_needed;
+use odkit::storage::{Storage, image};
+use odkit::{Event, Instant, NoApplication, NodeId};
+use support::{frame, sent, thermometer};
+
+const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
+const BUFFER: usize = SAVED / 2 + 64;
+
+type Mirrored = thermometer::Board<NoApplication, Mirror<SAVED>>;
+
+/// Why a flash fails; there is one reason.
+#[derive(Clone, Copy, Debug)]
+struct Failed;
+
+impl NorFlashError for Failed {
+    fn kind(&self) -> NorFlashErrorKind {
+        NorFlashErrorKind::Other
+    }
+}
+
+/// The strict flash as a driver. Others look at it beside the log that owns it.
+#[derive(Clone)]
+struct Chip<const PAGE: usize, const WORD: usize> {
+    nor: Rc<RefCell<nor::Nor>>,
+    /// Calls that change the flash.
+    calls: Rc<Cell<usize>>,
+}
+
+impl<const PAGE: usize, const WORD: usize> Chip<PAGE, WORD> {
+    fn new(pages: usize) -> Self {
+        Self {
+            nor: Rc::new(RefCell::new(nor::Nor::new(pages * PAGE, PAGE, WORD))),
+            calls: Rc::default(),
+        }
+    }
+
+    fn end(&self) -> u32 {
+        self.nor.borrow().bytes.len() as u32
+    }
+}
+
+impl<const PAGE: usize, const WORD: usize> ErrorType for Chip<PAGE, WORD> {
+    type Error = Failed;
+}
+
+impl<const PAGE: usize, const WORD: usize> ReadNorFlash for Chip<PAGE, WORD> {
+    const READ_SIZE: usize = if WORD == 4 { 4 } else { 1 };
+
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Failed> {
+        assert!((offset as usize).is_multiple_of(Self::READ_SIZE));
+        assert!(bytes.len().is_multiple_of(Self::READ_SIZE));
+        let mut nor = self.nor.borrow_mut();
+        nor.read(offset as usize, bytes).map_err(|_| Failed)
+    }
+
+    fn capacity(&self) -> usize {
+        self.nor.borrow().bytes.len()
+    }
+}
+
+impl<const PAGE: usize, const WORD: usize> NorFlash for Chip<PAGE, WORD> {
+    const WRITE_SIZE: usize = WORD;
+    const ERASE_SIZE: usize = PAGE;
+
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Failed> {
+        assert_eq!(to - from, PAGE as u32);
+        self.calls.set(self.calls.get() + 1);
+        let mut nor = self.nor.borrow_mut();
+        nor.erase(from as usize).map_err(|_| Failed)
+    }
+
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Failed> {
+        self.calls.set(self.calls.get() + 1);
+        let mut nor = self.nor.borrow_mut();
+        nor.write(offset as usize, bytes).map_err(|_| Failed)
+    }
+}
+
+/// Runs a future to its end, `between` before each step.
+fn wait<T>(future: impl Future<Output = T>, mut between: impl FnMut()) -> T {
+    let mut future = pin!(future);
+    let mut cx = Context::from_waker(Waker::noop());
+    loop {
+        between();
+        if let Poll::Ready(result) = future.as_mut().poll(&mut cx) {
+            return result;
+        }
+    }
+}
+
+fn log<const PAGE: usize, const WORD: usize>(
+    chip: &Chip<PAGE, WORD>,
+) -> Log<Steps<Chip<PAGE, WORD>>, BUFFER> {
+    Log::new(Steps(chip.clone()), 0..chip.end())
+}
+
+/// Power comes: the saved heartbeat time.
+fn start<const PAGE: usize, const WORD: usize>(
+    chip: &Chip<PAGE, WORD>,
+) -> (Mirrored, Log<Steps<Chip<PAGE, WORD>>, BUFFER>) {
+    let mut log = log(chip);
+    let mut board = Mirrored::new(NodeId::ONE, NoApplication, Mirror::new());
+    wait(log.load(&mut board.storage), || {}).expect("a flash that works");
+    board.power_on(Instant::ZERO).expect("it fits");
+    sent(&mut board, Instant::ZERO);
+    (board, log)
+}
+
+/// Heartbeat time in milliseconds.
+fn time(board: &Mirrored) -> Option<u64> {
+    board.poll_timeout().map(|at| at.as_micros() / 1000)
+}
+
+/// A master sets the heartbeat time, and saves.
+fn command(board: &mut impl Owner, time: u16) -> Vec<String> {
+    let [low, high] = time.to_le_bytes();
+    let now = Instant::ZERO;
+    board.handle_frame(now, &frame(&format!("601#2B171000{low:02X}{high:02X}0000")));
+    board.handle_frame(now, &frame("601#2310100173617665"));
+    sent(board, now)
+}
+
+const SET: &str = "581#6017100000000000";
+const SAVED_NOW: &str = "581#6010100100000000";
+const NOT_SAVED: &str = "581#8010100100000606";
+
+#[test]
+fn a_save_is_answered_when_the_flash_has_it() {
+    let chip = Chip::<1024, 8>::new(3);
+    let (board, mut log) = start(&chip);
+    let board = RefCell::new(board);
+    assert_eq!(command(&mut *board.borrow_mut(), 700), [SET]);
+    let mut now = Instant::ZERO;
+    let save = log.save(|act| act(&mut board.borrow_mut().storage));
+    let mut steps = 0;
+    let mut calls = chip.calls.get();
+    wait(save, || {
+        // Between two steps the node is free, and its master hears nothing yet.
+        let in_step = chip.calls.get() - calls;
+        assert!(in_step <= 1, "{in_step} changes of the flash in a step");
+        (calls, steps) = (chip.calls.get(), steps + 1);
+        let mut board = board.borrow_mut();
+        now = now.plus_millis(1);
+        board.catch_up(now);
+        assert_eq!(sent(&mut *board, now), [""; 0]);
+    });
+    assert!(steps > 5, "{steps}");
+    let mut board = board.into_inner();
+    now = now.plus_millis(3);
+    board.catch_up(now);
+    assert_eq!(sent(&mut board, now), [SAVED_NOW]);
+    let events: Vec<_> = std::iter::from_fn(|| board.poll_event()).collect();
+    assert!(events.contains(&Event::Saved(1)), "{events:?}");
+    // A restore waits, too.
+    board.handle_frame(now, &frame("601#231110016C6F6164"));
+    assert_eq!(sent(&mut board, now), [""; 0]);
+    let board = RefCell::new(board);
+    wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+    let mut board = board.into_inner();
+    board.catch_up(now.plus_millis(3));
+    assert_eq!(
+        sent(&mut board, now.plus_millis(3)),
+        ["581#6011100100000000"]
+    );
+    assert_eq!(time(&start(&chip).0), None);
+}
+
+#[test]
+fn a_task_keeps_what_comes() {
+    let chip = Chip::<1024, 4>::new(4);
+    let (board, mut log) = start(&chip);
+    let board = RefCell::new(board);
+    let mut task = pin!(log.run(|act| act(&mut board.borrow_mut().storage)));
+    let mut cx = Context::from_waker(Waker::noop());
+    let mut now = Instant::ZERO;
+    for time in 1..20 {
+        command(&mut *board.borrow_mut(), time * 100);
+        let mut answers = Vec::new();
+        while answers.is_empty() {
+            assert!(task.as_mut().poll(&mut cx).is_pending());
+            now = now.plus_millis(1);
+            board.borrow_mut().catch_up(now);
+            answers = sent(&mut *board.borrow_mut(), now);
+            answers.retain(|frame| frame.starts_with("581"));
+        }
+        assert_eq!(answers, [SAVED_NOW]);
+        assert_eq!(self::time(&start(&chip).0), Some(u64::from(time) * 100));
+    }
+}
+
+fn erasures<const PAGE: usize, const WORD: usize>(pages: usize) -> (usize, Vec<usize>) {
+    let chip = Chip::<PAGE, WORD>::new(pages);
+    let (board, mut log) = start(&chip);
+    let board = RefCell::new(board);
+    let mut places = vec![0; pages];
+    for save in 0..300u16 {
+        command(&mut *board.borrow_mut(), 1 + save);
+        let before = chip.nor.borrow().bytes.clone();
+        wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+        let mut board = board.borrow_mut();
+        board.catch_up(Instant::from_millis(3 + 3 * u64::from(save)));
+        sent(&mut *board, Instant::ZERO);
+        let after = &chip.nor.borrow().bytes;
+        for (page, place) in places.iter_mut().enumerate() {
+            let of = page * PAGE..(page + 1) * PAGE;
+            *place += usize::from(before[of.clone()] != after[of]);
+        }
+    }
+    (chip.nor.borrow().erases, places)
+}
+
+#[test]
+fn a_save_erases_one_page_at_most_in_the_mean_and_pages_wear_alike() {
+    let all = [
+        erasures::<256, 1>(3),
+        erasures::<512, 2>(4),
+        erasures::<1024, 4>(3),
+        erasures::<2048, 8>(3),
+        erasures::<512, 32>(5),
+    ];
+    for (erases, places) in all {
+        assert!(erases <= 300, "{erases} erasures for 300 saves");
+        let (least, most) = (places.iter().min(), places.iter().max());
+        assert!(most <= least.map(|least| 2 * least).as_ref(), "{places:?}");
+    }
+    assert!(erasures::<2048, 8>(3).0 < 30);
+}
+
+/// Power goes in every step of a save behind `saves` others, and in `cuts` starts and saves after
+/// another.
+fn cut<const PAGE: usize, const WORD: usize>(saves: u16, cuts: u64) {
+    let (mut step, mut seed) = (0, 1);
+    loop {
+        let chip = Chip::<PAGE, WORD>::new(3);
+        let mut old = None;
+        for save in 1..=saves {
+            let (mut board, mut log) = start(&chip);
+            command(&mut board, save * 10);
+            let board = RefCell::new(board);
+            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            old = Some(u64::from(save) * 10);
+        }
+        let mut was_cut = false;
+        for cut in 0..cuts {
+            let new = 5000 + cut * 10;
+            let (mut board, mut log) = start(&chip);
+            command(&mut board, new as u16);
+            chip.nor.borrow_mut().cut_after(step, seed + cut);
+            let board = RefCell::new(board);
+            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            was_cut = chip.nor.borrow().is_cut;
+            chip.nor.borrow_mut().restore_power();
+            let found = time(&start(&chip).0);
+            let place = format!("{PAGE}/{WORD}, {saves} saves, step {step}.{seed}.{cut}");
+            if was_cut {
+                assert!(
+                    found == old || found == Some(new),
+                    "{place}: {found:?}, not {old:?} or {new}"
+                );
+            } else {
+                assert_eq!(found, Some(new), "{place}");
+            }
+            old = found;
+        }
+        for new in [9000, 9010] {
+            let (mut board, mut log) = start(&chip);
+            command(&mut board, new);
+            let board = RefCell::new(board);
+            wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+            assert_eq!(
+                time(&start(&chip).0),
+                Some(new.into()),
+                "{PAGE}/{WORD} {step}.{seed}"
+            );
+        }
+        if !was_cut {
+            assert!(step > 3);
+            return;
+        }
+        seed += 1;
+        if seed == 3 {
+            (step, seed) = (step + 1, 1);
+        }
+    }
+}
+
+#[test]
+fn power_can_go_in_any_step_of_a_save_in_the_background() {
+    // The sixth save erases the oldest page, whatever the size of a word.
+    cut::<256, 1>(6, 2);
+    for saves in [0, 3, 6] {
+        cut::<256, 4>(saves, 2);
+        cut::<512, 8>(saves, 1);
+        cut::<512, 32>(saves, 2);
+    }
+}
+
+#[test]
+fn a_flash_that_fails_is_an_abort() {
+    let chip = Chip::<1024, 8>::new(3);
+    let (mut board, mut log) = start(&chip);
+    assert_eq!(command(&mut board, 300), [SET]);
+    chip.nor.borrow_mut().cut_after(2, 1);
+    let board = RefCell::new(board);
+    wait(log.save(|act| act(&mut board.borrow_mut().storage)), || {});
+    let mut board = board.into_inner();
+    let later = Instant::from_millis(3);
+    board.catch_up(later);
+    assert_eq!(sent(&mut board, later), [NOT_SAVED]);
+    let events: Vec<_> = std::iter::from_fn(|| board.poll_event()).collect();
+    assert!(events.contains(&Event::NotSaved), "{events:?}");
+}
+
+/// The adapter without a log: everything inside the call.
+#[test]
+fn a_save_on_two_banks_of_flash_is_answered_at_once() {
+    fn run<const PAGE: usize, const WORD: usize>() {
+        const { assert!(image::capacity_on(&thermometer::DICTIONARY, PAGE, WORD) <= 2 * PAGE) };
+        let chip = Chip::<PAGE, WORD>::new(4);
+        let place = PAGE as u32;
+        for save in 1..5u16 {
+            let flash = Nor::new(chip.clone(), place, 2 * place);
+            let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, flash);
+            board.power_on(Instant::ZERO).expect("it fits");
+            let old = board.poll_timeout().map(|at| at.as_micros() / 100_000);
+            assert_eq!(old, (save > 1).then_some(u64::from(save - 1)));
+            sent(&mut board, Instant::ZERO);
+            assert_eq!(command(&mut board, save * 100), [SET, SAVED_NOW]);
+        }
+        let nor = chip.nor.borrow();
+        assert_eq!(nor.erases, 4);
+        let outside = [&nor.bytes[..PAGE], &nor.bytes[3 * PAGE..]].concat();
+        assert!(outside.iter().all(|byte| *byte == 0xFF));
+    }
+    run::<1024, 8>();
+    run::<512, 4>();
+    run::<2048, 1>();
+}
