@@ -2,6 +2,7 @@
 
 use core::arch::{asm, global_asm};
 use core::cell::UnsafeCell;
+use core::ffi::CStr;
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -117,10 +118,37 @@ pub fn clock() -> u32 {
     unsafe { SYSTICK.add(2).read_volatile() }
 }
 
-fn semihosting(operation: u32, parameter: usize) {
+fn semihosting(operation: u32, parameter: usize) -> usize {
+    let answer;
     // SAFETY: the emulator reads what `parameter` points to, and r0 is its answer.
     unsafe {
-        asm!("bkpt 0xAB", inout("r0") operation => _, in("r1") parameter, options(nostack));
+        asm!("bkpt 0xAB", inout("r0") operation as usize => answer, in("r1") parameter, options(nostack));
+    }
+    answer
+}
+
+/// A file of the computer that runs the emulator.
+pub struct File(usize);
+
+impl File {
+    /// Opens a file to be read, or makes one anew to be written.
+    pub fn open(name: &CStr, writes: bool) -> Self {
+        let mode = if writes { 5 } else { 1 };
+        let block = [name.as_ptr() as usize, mode, name.to_bytes().len()];
+        Self(semihosting(0x01, block.as_ptr() as usize))
+    }
+
+    /// Reads as many bytes as there is room for, fewer at the end; returns their number.
+    pub fn read(&self, to: &mut [u8]) -> usize {
+        let block = [self.0, to.as_mut_ptr() as usize, to.len()];
+        let missing = semihosting(0x06, block.as_ptr() as usize);
+        to.len().saturating_sub(missing)
+    }
+
+    /// Writes bytes.
+    pub fn write(&self, bytes: &[u8]) {
+        let block = [self.0, bytes.as_ptr() as usize, bytes.len()];
+        semihosting(0x05, block.as_ptr() as usize);
     }
 }
 

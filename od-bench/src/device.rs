@@ -23,6 +23,7 @@ use crate::services::Services;
 use crate::shaft;
 use crate::slave::{Input, Slave};
 use crate::source::Source;
+use crate::twin::{Call, Twin};
 use od_runtime::DeviceKind;
 
 /// A CANopen device that lives in virtual time.
@@ -54,6 +55,8 @@ pub struct VirtualDevice {
     /// Channels on its shaft, as [`DeviceKind::channels`].
     channels: u8,
     pub(super) has_leds: bool,
+    /// Receives the calls of this device, too.
+    pub(super) twin: Option<Box<dyn Twin>>,
 }
 
 /// So many events are kept for whoever asks.
@@ -148,6 +151,7 @@ impl VirtualDevice {
             events: VecDeque::new(),
             channels: 1,
             has_leds: true,
+            twin: None,
         }
     }
 
@@ -198,6 +202,7 @@ impl VirtualDevice {
             memory.restore_power();
         }
         self.configure_node_id();
+        self.forward(now, Call::PowerOn);
         // `build` made room for the values.
         let powered = self.lend(|node, device| node.power_on(device, now));
         debug_assert!(powered.is_ok());
@@ -211,6 +216,7 @@ impl VirtualDevice {
 
     /// Power goes. Time goes on, and the shaft with it.
     pub fn power_off(&mut self, now: Instant) {
+        self.forward(now, Call::PowerOff);
         if let Behaviour::Encoder(encoder) = &mut self.behaviour {
             encoder.power_off(now);
         }
@@ -262,7 +268,11 @@ impl VirtualDevice {
 
     /// The next frame to send.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
-        self.lend(|node, device| node.poll_transmit(device, now))
+        let frame = self.lend(|node, device| node.poll_transmit(device, now));
+        if let (Some(twin), Some(frame)) = (&mut self.twin, &frame) {
+            twin.sent(frame);
+        }
+        frame
     }
 
     /// When [`handle_timeout`](Self::handle_timeout) is due.
@@ -282,6 +292,7 @@ impl VirtualDevice {
 
     /// Hands an input on to the node.
     fn handle(&mut self, now: Instant, input: Input<'_>) {
+        self.forward(now, Call::Input(input));
         self.lend(|node, device| node.handle(device, now, input));
         self.take_events();
     }
@@ -290,6 +301,9 @@ impl VirtualDevice {
     /// the world outside the node has to know.
     pub(super) fn take_events(&mut self) {
         while let Some(event) = self.node.poll_event() {
+            if let Some(twin) = &mut self.twin {
+                twin.happened(&event);
+            }
             match event {
                 Event::BitRate(code) => self.activated = self.bit_rate_of(code),
                 Event::Reset(Reset::PowerOn | Reset::Node, _) => {

@@ -17,6 +17,7 @@ mod cursor;
 mod device;
 mod eeprom;
 pub mod faults;
+mod forward;
 pub mod grammar;
 mod identity;
 pub mod journal;
@@ -45,6 +46,7 @@ mod slave;
 mod source;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
+pub mod twin;
 mod view;
 pub mod wire;
 mod wiring;

@@ -12,6 +12,7 @@ use od_wire::nmt::State;
 
 use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
+use crate::twin::Call;
 
 /// Most errors of one device that can be active.
 const ERRORS: usize = 32;
@@ -42,6 +43,7 @@ impl VirtualDevice {
             let (size, len) = (size * 8, len * 8);
             return Err(format!("{label}: {data_type} has {size} bits, not {len}"));
         }
+        self.forward(now, Call::Value(address, bytes));
         let result = self.lend(|node, lent| node.set_value(lent, now, address, bytes));
         self.take_events();
         result.map_err(|code| {
@@ -151,6 +153,7 @@ impl VirtualDevice {
     }
 
     fn change_error(&mut self, error: Emcy, on: bool, now: Instant) -> bool {
+        self.forward(now, Call::Error(error, on));
         let changed = self.lend(|node, lent| node.change_error(lent, now, error, on));
         self.take_events();
         changed

@@ -9,10 +9,15 @@ use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 /// Something that a node handles.
-pub(crate) enum Input<'f> {
+#[derive(Clone, Copy, Debug)]
+pub enum Input<'f> {
+    /// A frame was received.
     Frame(&'f Frame),
+    /// A deadline is due.
     Timeout,
+    /// The CAN controller has news.
     Bus(BusEvent),
+    /// Something outside the bus changed.
     Change,
     /// The initialisation ends at once.
     Boot,

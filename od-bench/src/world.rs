@@ -25,8 +25,9 @@ pub struct ShaftView {
 }
 
 impl VirtualDevice {
-    fn encoder(&mut self) -> Option<&mut Encoder<Shaft>> {
-        match &mut self.behaviour {
+    /// The encoder behind the dictionary, if there is one.
+    pub fn encoder(&self) -> Option<&Encoder<Shaft>> {
+        match &self.behaviour {
             Behaviour::Encoder(encoder) => Some(encoder),
             _ => None,
         }
@@ -35,7 +36,7 @@ impl VirtualDevice {
     /// Changes something outside, and lets the device notice. Answers whether there is an
     /// encoder at all.
     fn change(&mut self, now: Instant, act: impl FnOnce(&mut Encoder<Shaft>)) -> bool {
-        let Some(encoder) = self.encoder() else {
+        let Behaviour::Encoder(encoder) = &mut self.behaviour else {
             return false;
         };
         act(encoder);
@@ -45,9 +46,7 @@ impl VirtualDevice {
 
     /// Position and speed of the shaft, if the device has one.
     pub fn shaft(&self, now: Instant) -> Option<ShaftView> {
-        let Behaviour::Encoder(encoder) = &self.behaviour else {
-            return None;
-        };
+        let encoder = self.encoder()?;
         Some(ShaftView {
             turns: encoder.shaft.seen(now).fractions() as f64 / REVOLUTION,
             rpm: f64::from(encoder.shaft.milli_rpm_at(now)) / 1000.0,
@@ -57,10 +56,7 @@ impl VirtualDevice {
 
     /// The shaft as it is, for devices that share it.
     pub(super) fn shaft_now(&self) -> Option<Shaft> {
-        match &self.behaviour {
-            Behaviour::Encoder(encoder) => Some(encoder.shaft.without_counter()),
-            _ => None,
-        }
+        Some(self.encoder()?.shaft.without_counter())
     }
 
     /// Another device turned the shaft that this one sits on, too.
@@ -131,12 +127,8 @@ impl VirtualDevice {
 
     /// The switches: node ID and bit rate.
     pub fn switches(&self) -> (u8, u8) {
-        match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                (encoder.switches().node_id, encoder.switches().bit_rate)
-            }
-            _ => (0, 0),
-        }
+        let switches = self.encoder().map(Encoder::switches);
+        switches.map_or((0, 0), |of| (of.node_id, of.bit_rate))
     }
 
     /// Breaks something or mends it, by a name of [`faults::NAMES`]. Answers whether this
@@ -158,19 +150,16 @@ impl VirtualDevice {
     }
 
     fn has_fault(&self, fault: Fault) -> bool {
-        match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                let mut reports = encoder.profile().reports.iter();
-                reports.any(|report| report.fault == fault)
-            }
-            _ => false,
-        }
+        self.encoder().is_some_and(|encoder| {
+            let mut reports = encoder.profile().reports.iter();
+            reports.any(|report| report.fault == fault)
+        })
     }
 
     /// Is this broken?
     pub fn is_broken(&self, name: &str) -> bool {
-        match (&self.behaviour, faults::from_name(name)) {
-            (Behaviour::Encoder(encoder), Some(fault)) => encoder.is_broken(fault),
+        match (self.encoder(), faults::from_name(name)) {
+            (Some(encoder), Some(fault)) => encoder.is_broken(fault),
             _ => false,
         }
     }
@@ -178,10 +167,8 @@ impl VirtualDevice {
     /// The bit rate in kbit/s, where the device has one of its own: that of the last start, or
     /// what LSS activated since.
     pub fn bit_rate(&self) -> Option<u16> {
-        match &self.behaviour {
-            Behaviour::Encoder(encoder) => self.activated.or(encoder.bit_rate()),
-            _ => self.activated,
-        }
+        self.activated
+            .or_else(|| self.encoder().and_then(Encoder::bit_rate))
     }
 
     /// Bit rate in kbit/s of a code of the device (2100h), or without an object for it, of an index of
@@ -190,21 +177,19 @@ impl VirtualDevice {
         if self.profile.lss.is_some_and(|lss| lss.is_own()) {
             return od_wire::lss::kbit(code);
         }
-        let Behaviour::Encoder(encoder) = &self.behaviour else {
-            return None;
-        };
-        let rate = encoder.profile().bit_rates.get(usize::from(code)).copied();
+        let rate = self
+            .encoder()?
+            .profile()
+            .bit_rates
+            .get(usize::from(code))
+            .copied();
         rate.filter(|rate| *rate != 0)
     }
 
     /// While a shaft turns, a device whose PDOs follow their values looks at it every
     /// millisecond.
     pub(super) fn watches_shaft(&self) -> bool {
-        match &self.behaviour {
-            Behaviour::Encoder(encoder) => {
-                encoder.shaft.is_turning() && self.profile.pdo.event_on_change
-            }
-            _ => false,
-        }
+        let turns = |encoder: &Encoder<Shaft>| encoder.shaft.is_turning();
+        self.profile.pdo.event_on_change && self.encoder().is_some_and(turns)
     }
 }

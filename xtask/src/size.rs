@@ -157,16 +157,19 @@ fn json(costs: &[Cost]) -> String {
     format!("{{{}}}", programs.collect::<Vec<_>>().join(", "))
 }
 
+/// Installs the target and the emulator, if they are missing.
+pub(crate) fn prepare(repo: &Repo, console: &Console) -> Result<()> {
+    target::add(repo, console, target::BARE)?;
+    let why = "the emulator of the Cortex-M3 is missing";
+    match which(EMULATOR) {
+        Some(_) => Ok(()),
+        None => apt::install(console, &[EMULATOR], why),
+    }
+}
+
 /// Builds and runs every program.
 fn measure(repo: &Repo, console: &Console) -> Result<Vec<Cost>> {
-    target::add(repo, console, target::BARE)?;
-    if which(EMULATOR).is_none() {
-        apt::install(
-            console,
-            &[EMULATOR],
-            "the emulator of the Cortex-M3 is missing",
-        )?;
-    }
+    prepare(repo, console)?;
     let built = |level: &str| -> Result<Vec<Cost>> {
         let folder = repo.root.join("firmware");
         let mut build = cargo(&folder, &["build", "--quiet", "--release", "--bins"]);

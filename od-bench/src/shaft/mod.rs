@@ -240,15 +240,11 @@ const fn before(now: Instant, micros: u32) -> Instant {
     Instant::from_micros(now.as_micros().saturating_sub(micros as u64))
 }
 
-/// 2⁻³² revolutions in `micros` at this speed: exact to 2⁻²⁸, rounded down.
+/// 2⁻³² revolutions in `micros` at this speed, rounded down.
 #[inline]
 fn turned(milli_rpm: u32, micros: u64) -> i64 {
-    // 60·10⁹ is less than 2³⁶, so its remainders have room for 28 more bits.
     match u64::from(milli_rpm).checked_mul(micros) {
-        Some(way) => {
-            let (turns, rest) = (way / PER_REVOLUTION, way % PER_REVOLUTION);
-            (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
-        }
+        Some(way) => fractions(way / PER_REVOLUTION, way % PER_REVOLUTION),
         None => long_way(milli_rpm, micros),
     }
 }
@@ -258,8 +254,16 @@ fn long_way(milli_rpm: u32, micros: u64) -> i64 {
     let way = u128::from(milli_rpm) * u128::from(micros);
     // Revolutions past 2³² do not matter: the angle wraps there.
     let turns = (way / u128::from(PER_REVOLUTION)) as u64;
-    let rest = (way % u128::from(PER_REVOLUTION)) as u64;
-    (turns << 32 | ((rest << 28) / PER_REVOLUTION) << 4) as i64
+    fractions(turns, (way % u128::from(PER_REVOLUTION)) as u64)
+}
+
+/// 2⁻³² revolutions of whole ones and the rest of a way.
+#[inline]
+const fn fractions(turns: u64, rest: u64) -> i64 {
+    // A way of 2³⁶ at most has room for 21 bits; the other 11 are a factor of the revolution.
+    const { assert!(PER_REVOLUTION.trailing_zeros() == 11) };
+    let part = (rest << 21) / (PER_REVOLUTION >> 11);
+    (turns << 32 | part) as i64
 }
 
 #[cfg(test)]

@@ -34,7 +34,7 @@ pub(crate) const ROOMS: [Room; 15] = [
     room("devices", 6, 1_900),
     room("od-cli", 7, 2_900),
     room("playground", 7, 6_400),
-    room("firmware", 7, 1_000),
+    room("firmware", 7, 1_700),
     room("tests", 7, usize::MAX),
     Room {
         name: "xtask",

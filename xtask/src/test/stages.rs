@@ -89,6 +89,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
     stage("size", Check, "no firmware is larger than README.md says, on an emulated Cortex-M3", rust::size),
+    stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench),

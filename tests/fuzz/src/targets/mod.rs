@@ -8,7 +8,7 @@ mod eeprom;
 mod fix;
 mod lesson;
 mod logs;
-mod node;
+pub mod node;
 mod overlay;
 mod script;
 mod sdo;

@@ -30,17 +30,28 @@ fn make(random: &mut Random) -> Vec<u8> {
 }
 
 fn run(input: &[u8]) {
-    let mut steps = input.chunks_exact(STEP);
-    let Some(head) = steps.next() else {
+    let Some(head) = input.first_chunk::<STEP>() else {
         return;
     };
     let device = bench::device(usize::from(head[0]));
     let entries = device.dictionary().entries().collect::<Vec<_>>();
     let faults: Vec<&str> = device.faults();
+    let mut bus = play(input, device);
+    for entry in entries {
+        bus.with(0, |device, now| device.read(entry.address, now));
+    }
+    recovers(&mut bus, &faults);
+}
+
+/// Does with a device what the steps of an input say; its first step names the device, and does not
+/// count here.
+pub fn play(input: &[u8], device: VirtualDevice) -> Bus {
+    let entries = device.dictionary().entries().collect::<Vec<_>>();
+    let faults: Vec<&str> = device.faults();
     let mut bus = Bus::new();
     bus.add(device);
     bus.start(0);
-    for step in steps {
+    for step in input.chunks_exact(STEP).skip(1) {
         let step = step.try_into().expect("chunks are that long");
         let node = bus.devices()[0].node_id().raw();
         let before = bus.devices()[0].state();
@@ -78,10 +89,7 @@ fn run(input: &[u8]) {
         // Whatever is shown has to be there at any moment.
         let _ = (device.leds(), device.shaft(bus.now()), device.bit_rate());
     }
-    for entry in entries {
-        bus.with(0, |device, now| device.read(entry.address, now));
-    }
-    recovers(&mut bus, &faults);
+    bus
 }
 
 /// One frame, or one change outside, is answered with a few frames; in the state Stopped with

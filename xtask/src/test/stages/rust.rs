@@ -25,7 +25,7 @@ pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
         "xtask/bindgen/Cargo.toml",
     ];
     run(context, "formatting", &[&bindgen[..], &check].concat())?;
-    let firmware = ["fmt", "--manifest-path", "firmware/Cargo.toml"];
+    let firmware = ["fmt", "--all", "--manifest-path", "firmware/Cargo.toml"];
     run(context, "formatting", &[&firmware[..], &check].concat())?;
     run(
         context,
@@ -124,6 +124,23 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
     size::check(context.repo, context.console)
+}
+
+/// The conformance scripts of three devices, on an emulated microcontroller.
+pub(super) fn firmware(context: &Context<'_>) -> Result<()> {
+    size::prepare(context.repo, context.console)?;
+    let build = ["build", "--release", "--package", "odkit-firmware-twin"];
+    let mut command = cargo(&context.repo.root.join("firmware"), &build);
+    command
+        .args(["--target", target::BARE, "--target-dir"])
+        .arg(&context.repo.target);
+    context.console.run("the firmware", &mut command)?;
+    let programs = context.repo.target.join(target::BARE).join("release");
+    let mut command = cargo(&context.repo.root, &["test"]);
+    command.args(ALL).args(["--test", "firmware"]);
+    command.env("ODKIT_FIRMWARE", programs);
+    long(context, &mut command);
+    context.console.run("scripts on the firmware", &mut command)
 }
 
 pub(super) fn hosts(context: &Context<'_>) -> Result<()> {

@@ -1,0 +1,63 @@
+//! Parts of an encoder around its node: the shaft that a sensor looks at, and the EEPROM.
+
+use odkit::Instant;
+use odkit::encoder::{Angle, Counter, Fault, Gain, Motion, Sampled, Sensor};
+use odkit::storage::{Geometry, Memory, Storage, StorageError};
+
+/// A shaft of which samples come by themselves, by an interrupt: the node need not wake for them.
+pub struct Shaft(pub Sampled<Angle, 128>);
+
+impl Motion for Shaft {
+    fn angle(&mut self, now: Instant) -> Result<Angle, Fault> {
+        self.0.angle(now)
+    }
+
+    fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        self.0.speed(now, interval, gain)
+    }
+
+    fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
+        self.0.acceleration(now, interval, gain)
+    }
+
+    fn look_back(&mut self, interval: u32) {
+        self.0.look_back(interval);
+    }
+
+    fn start(&mut self, now: Instant, counter: Counter, sensor: Sensor) {
+        self.0.start(now, counter, sensor);
+    }
+
+    fn power_off(&mut self, now: Instant) {
+        self.0.power_off(now);
+    }
+}
+
+/// An EEPROM that can break: it takes no byte then.
+pub struct Eeprom<'b> {
+    /// Its content.
+    pub memory: Memory<&'b mut [u8]>,
+    /// Nothing can be written.
+    pub broken: bool,
+}
+
+impl Storage for Eeprom<'_> {
+    fn capacity(&self) -> usize {
+        self.memory.capacity()
+    }
+
+    fn geometry(&self) -> Geometry {
+        self.memory.geometry()
+    }
+
+    fn read(&mut self, offset: usize, to: &mut [u8]) -> Result<(), StorageError> {
+        self.memory.read(offset, to)
+    }
+
+    fn write(&mut self, offset: usize, bytes: &[u8]) -> Result<(), StorageError> {
+        match self.broken {
+            true => Err(StorageError::Device),
+            false => self.memory.write(offset, bytes),
+        }
+    }
+}

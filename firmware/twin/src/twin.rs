@@ -1,0 +1,320 @@
+//! Calls of a device, and its answers.
+//!
+//! The file `calls` is a row of calls: a letter, the time in microseconds (8 bytes), and the arguments; numbers are little-endian.
+//!
+//! | | call | and |
+//! |---|---|---|
+//! | `N` | a new device, without power, its EEPROM empty | node ID, 1 if it has a serial number, serial number (4) |
+//! | `E` | the EEPROM has these bytes | as many as it has |
+//! | `W` | switches and faults | node ID, bit rate, a bit for each fault (2) |
+//! | `S` | a sample of the shaft | 2⁻³² revolutions (8) |
+//! | `J` | the same, of a shaft that was moved in no time | 2⁻³² revolutions (8) |
+//! | `+`, `-` | power comes, goes | |
+//! | `F` | a frame | CAN-ID (4, bit 31: 29 bits), DLC with bit 7 for a remote frame, data (8) |
+//! | `T`, `C`, `I` | time-out, change outside, initialisation ends | |
+//! | `B` | the CAN controller has news | 0 to 4: active, warning, passive, off, overrun |
+//! | `V` | a value from the side of the device | index (2), sub-index, length, value |
+//! | `X` | an error from the side of the device | code (2), register, information (5), 1 if it comes |
+//! | `D` | all values and the EEPROM are asked for | |
+//!
+//! Each call but the first five has an answer: state, node ID, hash of the events (4), next deadline
+//! in microseconds (8), ticks of the clock that it took (4), number of frames, and the frames as
+//! above. `D` adds a hash of each value (4) and the bytes of the EEPROM.
+
+use odkit::encoder::{Angle, Encoder, EncoderProfile, Fault, Motion, Sampled, Switches};
+use odkit::storage::Memory;
+use odkit::{
+    Address, Application, BusEvent, CanId, Context, Device, Dictionary, Duration, Emcy, Frame,
+    Instant, Lent, Node, NodeId, Profile, Signals, Store,
+};
+use odkit_firmware::board;
+
+use crate::files::{Input, Output};
+use crate::parts::{Eeprom, Shaft};
+
+/// Frames of one answer; a block of 127 segments is the longest there is.
+const FRAMES: usize = 160;
+
+/// FNV-1a of 32 bits.
+struct Hash(u32);
+
+impl Hash {
+    const fn new() -> Self {
+        Self(0x811C_9DC5)
+    }
+
+    fn add(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u32::from(*byte)).wrapping_mul(0x0100_0193);
+        }
+    }
+}
+
+impl core::fmt::Write for Hash {
+    fn write_str(&mut self, text: &str) -> core::fmt::Result {
+        self.add(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// A device and its surroundings.
+struct Twin<'b, D, const PDO: usize, const SDO: usize> {
+    node: &'b mut Node<D, PDO, SDO>,
+    dictionary: Dictionary<'static>,
+    values: &'b mut [u8],
+    encoder: Encoder<Shaft>,
+    eeprom: Eeprom<'b>,
+    profile: &'static Profile,
+    family: &'static EncoderProfile,
+    calls: Input,
+    answers: Output,
+    frames: [Frame; FRAMES],
+    /// Ticks that pass between two looks at the clock.
+    overhead: u32,
+}
+
+/// Plays the calls to their end.
+pub fn run<D: Device, const PDO: usize, const SDO: usize>(
+    node: &mut Node<D, PDO, SDO>,
+    dictionary: Dictionary<'static>,
+    values: &mut [u8],
+    eeprom: &mut [u8],
+    profile: &'static Profile,
+    family: &'static EncoderProfile,
+) -> ! {
+    board::start_clock();
+    let before = board::clock();
+    let overhead = since(before);
+    let mut twin = Twin {
+        node,
+        dictionary,
+        values,
+        encoder: encoder(family, dictionary, None),
+        eeprom: Eeprom {
+            memory: Memory::new(eeprom),
+            broken: false,
+        },
+        profile,
+        family,
+        calls: Input::open(c"calls"),
+        answers: Output::open(c"answers"),
+        frames: [Frame::standard(0, &[]); FRAMES],
+        overhead,
+    };
+    while let Some(call) = twin.calls.byte() {
+        if twin.call(call).is_none() {
+            board::exit(false);
+        }
+    }
+    twin.answers.write();
+    board::exit(true)
+}
+
+/// An encoder that has no sample yet.
+fn encoder(
+    family: &'static EncoderProfile,
+    dictionary: Dictionary<'static>,
+    serial_number: Option<u32>,
+) -> Encoder<Shaft> {
+    let shaft = Sampled::new(Angle::ZERO, Duration::from_millis(1));
+    let encoder = Encoder::new(family, Shaft(shaft)).with_sensor_of(dictionary);
+    match serial_number {
+        Some(number) => encoder.with_serial_number(number),
+        None => encoder,
+    }
+}
+
+/// Ticks since a look at the clock.
+fn since(before: u32) -> u32 {
+    before.wrapping_sub(board::clock()) & 0xFF_FFFF
+}
+
+impl<D: Device, const PDO: usize, const SDO: usize> Twin<'_, D, PDO, SDO> {
+    /// Handles a call; `None` where it makes no sense.
+    fn call(&mut self, call: u8) -> Option<()> {
+        let now = Instant::from_micros(u64::from_le_bytes(self.calls.array()?));
+        match call {
+            b'N' => self.renew()?,
+            b'E' => self.calls.fill(self.eeprom.memory.bytes_mut())?,
+            b'W' => self.turn_switches()?,
+            b'S' | b'J' => {
+                let angle = i64::from_le_bytes(self.calls.array()?);
+                self.encoder.shaft.0.source = Angle::from_fractions(angle);
+                if call == b'J' {
+                    // There is no way from the last sample to this one.
+                    self.encoder.shaft.power_off(now);
+                }
+                if self.node.is_powered() {
+                    // A sample has no fault here.
+                    let _ = self.encoder.shaft.angle(now);
+                }
+            }
+            b'D' => {
+                self.answer(now, |_, _| ());
+                self.show(now)?;
+            }
+            _ => self.act(call, now)?,
+        }
+        Some(())
+    }
+
+    fn renew(&mut self) -> Option<()> {
+        let [node_id, has_number, number @ ..] = self.calls.array::<6>()?;
+        *self.node = Node::new(NodeId::new(node_id)?);
+        self.values.fill(0);
+        self.eeprom.memory.bytes_mut().fill(0xFF);
+        let number = (has_number != 0).then_some(u32::from_le_bytes(number));
+        self.encoder = encoder(self.family, self.dictionary, number);
+        Some(())
+    }
+
+    fn turn_switches(&mut self) -> Option<()> {
+        let [node_id, bit_rate, faults @ ..] = self.calls.array::<4>()?;
+        let faults = u16::from_le_bytes(faults);
+        self.encoder.set_switches(Switches { node_id, bit_rate });
+        for (at, (fault, _)) in Fault::NAMES.iter().enumerate() {
+            let broken = faults >> at & 1 != 0;
+            // A watchdog that is set twice resets twice.
+            if self.encoder.is_broken(*fault) != broken {
+                self.encoder.set_fault(*fault, broken);
+            }
+        }
+        self.eeprom.broken = self.encoder.is_broken(Fault::Memory);
+        Some(())
+    }
+
+    /// Calls that have an answer.
+    fn act(&mut self, call: u8, now: Instant) -> Option<()> {
+        match call {
+            b'F' => {
+                let frame = frame(self.calls.array()?)?;
+                self.answer(now, |node, device| node.handle_frame(device, now, &frame));
+            }
+            b'T' => self.answer(now, |node, device| node.handle_timeout(device, now)),
+            b'C' => self.answer(now, |node, device| node.handle_change(device, now)),
+            b'I' => self.answer(now, |node, device| node.boot_at_once(device, now)),
+            b'B' => {
+                let event = match self.calls.byte()? {
+                    0 => BusEvent::Active,
+                    1 => BusEvent::Warning,
+                    2 => BusEvent::Passive,
+                    3 => BusEvent::Off,
+                    _ => BusEvent::Overrun,
+                };
+                self.answer(now, |node, device| node.handle_bus(device, now, event));
+            }
+            b'+' => self.answer(now, |node, device| {
+                // The values have room.
+                let _ = node.power_on(device, now);
+            }),
+            b'-' => {
+                self.encoder.power_off(now);
+                self.answer(now, |node, _| node.power_off());
+            }
+            b'V' => {
+                let [low, high, sub, len] = self.calls.array()?;
+                let address = Address::new(u16::from_le_bytes([low, high]), sub);
+                let mut value = [0; 255];
+                let value = value.get_mut(..len.into())?;
+                self.calls.fill(value)?;
+                self.answer(now, |node, device| {
+                    // What is refused is refused on the bench, too.
+                    let _ = node.set_value(device, now, address, value);
+                });
+            }
+            b'X' => {
+                let [low, high, register, info @ .., on] = self.calls.array::<9>()?;
+                let code = u16::from_le_bytes([low, high]);
+                let error = Emcy {
+                    code,
+                    register,
+                    info,
+                };
+                self.answer(now, |node, device| {
+                    match on {
+                        0 => node.clear(device, now, error),
+                        _ => node.raise(device, now, error),
+                    };
+                });
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Makes a call of the node, takes what it sends, and writes the answer.
+    fn answer(&mut self, now: Instant, call: impl FnOnce(&mut Node<D, PDO, SDO>, &mut Lent<'_>)) {
+        let mut device = Lent {
+            dictionary: self.dictionary,
+            values: self.values,
+            application: &mut self.encoder,
+            storage: &mut self.eeprom,
+            profile: self.profile,
+        };
+        let before = board::clock();
+        call(self.node, &mut device);
+        let mut ticks = since(before).saturating_sub(self.overhead);
+        let mut events = Hash::new();
+        while let Some(event) = self.node.poll_event() {
+            // A hash takes all.
+            let _ = core::fmt::write(&mut events, format_args!("{event:?}"));
+        }
+        let mut count = 0;
+        let before = board::clock();
+        while let Some(frame) = self.node.poll_transmit(&mut device, now) {
+            if let Some(room) = self.frames.get_mut(count) {
+                *room = frame;
+                count += 1;
+            }
+        }
+        ticks += since(before).saturating_sub(self.overhead);
+        let due = self.node.poll_timeout().unwrap_or(Instant::MAX);
+        let out = &mut self.answers;
+        out.put(&[self.node.state() as u8, self.node.node_id().raw()]);
+        out.put(&events.0.to_le_bytes());
+        out.put(&due.as_micros().to_le_bytes());
+        out.put(&ticks.to_le_bytes());
+        out.put(&[count as u8]);
+        for frame in self.frames.iter().take(count) {
+            let id = frame.id().raw() | u32::from(frame.id().is_extended()) << 31;
+            out.put(&id.to_le_bytes());
+            out.put(&[frame.dlc() | u8::from(frame.is_remote()) << 7]);
+            out.put(frame.bytes());
+        }
+    }
+
+    /// Writes every value as it is now, and the EEPROM.
+    fn show(&mut self, now: Instant) -> Option<()> {
+        for entry in self.dictionary.entries() {
+            let mut store = Store::new(&self.dictionary, self.values, self.node.node_id()).ok()?;
+            if self.node.is_powered() && entry.address.index >= 0x2000 {
+                let mut context = Context {
+                    store: &mut store,
+                    now,
+                    signals: &mut Signals::default(),
+                };
+                // What cannot be had now shows as it was.
+                let _ = self.encoder.refresh(&mut context, entry.address);
+            }
+            let mut hash = Hash::new();
+            hash.add(store.bytes(&entry, &mut [0; 8]));
+            self.answers.put(&hash.0.to_le_bytes());
+        }
+        self.answers.put(self.eeprom.memory.bytes());
+        Some(())
+    }
+}
+
+/// A frame as it is written.
+fn frame(bytes: [u8; 13]) -> Option<Frame> {
+    let [a, b, c, d, dlc, data @ ..] = bytes;
+    let raw = u32::from_le_bytes([a, b, c, d]);
+    let id = match raw >> 31 {
+        0 => CanId::standard(raw as u16),
+        _ => CanId::extended(raw),
+    };
+    match dlc >> 7 {
+        0 => Some(Frame::with_dlc(id, data, dlc)),
+        _ => Frame::remote(id, dlc & 15),
+    }
+}

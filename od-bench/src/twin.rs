@@ -1,0 +1,58 @@
+//! Twin of a device: it receives the calls of the device, and may answer them elsewhere, on a
+//! microcontroller for instance.
+
+use od_model::Address;
+use od_runtime::encoder::Encoder;
+use od_runtime::storage::Storage;
+use od_runtime::{Event, Frame, Instant, NodeId};
+use od_wire::emcy::Emcy;
+use od_wire::nmt::State;
+
+use crate::shaft::Shaft;
+
+pub use crate::slave::Input;
+
+/// Call of a device, one of [`Node`](od_runtime::Node).
+#[derive(Clone, Copy, Debug)]
+pub enum Call<'a> {
+    /// Power comes; what the EEPROM is delivered with is in it.
+    PowerOn,
+    /// Power goes, or is off already.
+    PowerOff,
+    /// The node handles something.
+    Input(Input<'a>),
+    /// A value changes from the side of the device.
+    Value(Address, &'a [u8]),
+    /// An error comes (`true`) or goes from the side of the device.
+    Error(Emcy, bool),
+    /// End of the row: nothing happens.
+    End,
+}
+
+/// Device before a call: its node after the previous one, its shaft, switches and faults now.
+pub struct Before<'d> {
+    /// The NMT state.
+    pub state: State,
+    /// The active node ID.
+    pub node_id: NodeId,
+    /// Is there power?
+    pub is_powered: bool,
+    /// The next deadline of the node.
+    pub due: Option<Instant>,
+    /// The encoder behind the dictionary.
+    pub encoder: Option<&'d Encoder<Shaft>>,
+    /// The EEPROM.
+    pub storage: &'d mut dyn Storage,
+}
+
+/// Receiver of the calls of a device.
+pub trait Twin {
+    /// Receives a call, before the device does.
+    fn call(&mut self, device: Before<'_>, now: Instant, call: Call<'_>);
+
+    /// Receives a frame that the device sent because of the last call.
+    fn sent(&mut self, frame: &Frame);
+
+    /// Receives an event of the node.
+    fn happened(&mut self, event: &Event);
+}

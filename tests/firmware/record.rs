@@ -1,0 +1,118 @@
+//! Plays a script or an input of the fuzz target `node` on the bench, and logs the calls of its
+//! devices.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use od_bench::script::{Bare, Bench, Host, Script, run_on};
+use od_bench::twin::Call;
+use od_bench::{EdsOptions, VirtualDevice};
+use od_fuzz::random::Random;
+use od_fuzz::targets;
+use od_runtime::{Instant, NodeId};
+use od_tests::scripts::Header;
+
+use crate::log::{Log, Writer};
+
+/// The devices of a script; those of one name have twins.
+struct Twins<'a> {
+    folder: PathBuf,
+    name: &'a str,
+    /// Of each device on the bus.
+    logs: Vec<Option<Rc<RefCell<Log>>>>,
+}
+
+impl Host for Twins<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        let name = name.unwrap_or(self.name);
+        if name.contains('.') {
+            let path = self.folder.join(name);
+            let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+            let options = EdsOptions {
+                node_id,
+                ..EdsOptions::default()
+            };
+            self.logs.push(None);
+            let device = VirtualDevice::from_eds(&od_eds::decode(&bytes), options);
+            return device.map_err(|findings| format!("{}: {findings:?}", path.display()));
+        }
+        let device = Bare(od_devices::DEVICES).device(Some(name), node_id)?;
+        if !name.eq_ignore_ascii_case(self.name) {
+            self.logs.push(None);
+            return Ok(device);
+        }
+        let log = Rc::default();
+        self.logs.push(Some(Rc::clone(&log)));
+        Ok(device.with_twin(Box::new(Writer(log))))
+    }
+}
+
+/// Is the script one of this device?
+pub(crate) fn is_of(text: &str, name: &str) -> bool {
+    let header = Header::parse(text).unwrap_or_default();
+    let mut named = text.lines().filter_map(|line| line.strip_prefix("device "));
+    header.devices.iter().any(|one| one == name)
+        || named.any(|line| line.split_whitespace().next() == Some(name))
+}
+
+/// Plays a script; returns a log of each device of this name.
+///
+/// # Errors
+/// Why the bench cannot play it.
+pub(crate) fn record(path: &Path, text: &str, name: &str) -> Result<Vec<Log>, String> {
+    let script = Script::parse(text).map_err(|problems| format!("{problems:?}"))?;
+    let mut twins = Twins {
+        folder: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+        name,
+        logs: Vec::new(),
+    };
+    let mut bench = Bench::default();
+    run_on(&script, &mut bench, &mut twins).map_err(|stop| stop.to_string())?;
+    for (at, log) in twins.logs.iter().enumerate() {
+        if let Some(log) = log {
+            bench.bus.with(at, |device, now| end(log, device, now));
+        }
+    }
+    drop(bench);
+    let logs = twins.logs.into_iter().flatten();
+    Ok(logs.map(|log| log.take()).collect())
+}
+
+/// Ends a log: the device shows its values and its EEPROM.
+fn end(log: &RefCell<Log>, device: &mut VirtualDevice, now: Instant) {
+    device.forward(now, Call::End);
+    log.borrow_mut().end(device, now);
+}
+
+/// The log of a made input: frames that mean something more often than not, time, power, switches
+/// and faults. The shaft rests, since only the bench knows a speed exactly, and nothing breaks that
+/// is broken, since the bench does not tell such news.
+pub(crate) fn made(number: u64, name: &str) -> Log {
+    const STEP: usize = 10;
+    let make = targets::of("node").and_then(|target| target.make);
+    let mut input = make.expect("it makes its inputs")(&mut Random::of(0, number));
+    let kind = od_devices::find(name).expect("it is built in");
+    let log: Rc<RefCell<Log>> = Rc::default();
+    let device = VirtualDevice::new(kind, NodeId::ONE).with_twin(Box::new(Writer(Rc::clone(&log))));
+    let mut broken = vec![false; device.faults().len()];
+    for [act, how, fault, ..] in input.as_chunks_mut::<STEP>().0 {
+        let fault = usize::from(*fault) % broken.len();
+        let is_news = match *act % 40 {
+            38.. => false,
+            37 => std::mem::replace(&mut broken[fault], *how % 3 == 0) != (*how % 3 == 0),
+            _ => true,
+        };
+        if !is_news {
+            // Time passes instead.
+            *act = 31;
+        }
+    }
+    let mut bus = targets::node::play(&input, device);
+    bus.with(0, |device, now| end(&log, device, now));
+    log.take()
+}
