@@ -17,7 +17,15 @@ impl VirtualDevice {
     }
 
     /// Forwards a call to the twin; [`Call::End`] when there are no more.
+    #[inline]
     pub fn forward(&mut self, now: Instant, call: Call<'_>) {
+        if self.twin.is_some() {
+            self.forward_now(now, call);
+        }
+    }
+
+    #[cold]
+    fn forward_now(&mut self, now: Instant, call: Call<'_>) {
         let Some(twin) = &mut self.twin else {
             return;
         };
