@@ -12,6 +12,12 @@ pub struct Filter {
     pub mask: u32,
 }
 
+impl From<CanId> for Filter {
+    fn from(id: CanId) -> Self {
+        Self::of(id)
+    }
+}
+
 impl Filter {
     const fn of(id: CanId) -> Self {
         let mask = if id.is_extended() { 0x1FFF_FFFF } else { 0x7FF };
@@ -21,6 +27,11 @@ impl Filter {
     /// Whether frames with this CAN-ID, data or remote, pass.
     pub const fn accepts(&self, id: CanId) -> bool {
         self.id.is_extended() == id.is_extended() && (self.id.raw() ^ id.raw()) & self.mask == 0
+    }
+
+    /// Whether all that passes another one passes this one.
+    const fn covers(&self, other: &Self) -> bool {
+        self.mask & !other.mask == 0 && self.accepts(other.id)
     }
 
     /// The narrowest filter that accepts what two accept; `None` if their CAN-IDs differ in length.
@@ -78,24 +89,20 @@ impl<const N: usize> Filters<N> {
         self.filters.get(..self.len).unwrap_or_default()
     }
 
-    /// Lets this CAN-ID through, too.
-    pub fn add(&mut self, id: CanId) {
-        if self.as_slice().iter().any(|filter| filter.accepts(id)) {
+    /// Lets these frames through, too.
+    pub fn add(&mut self, new: impl Into<Filter>) {
+        let new = new.into();
+        if self.as_slice().iter().any(|filter| filter.covers(&new)) {
             return;
         }
-        let mut new = Filter::of(id);
         if self.len == N
             && let Some((first, second, joined)) = self.cheapest(&new)
         {
-            match second {
-                // The new one is a part of one that there is.
-                None => new = joined,
-                Some(second) => self.filters[second] = joined,
+            self.filters[first] = joined;
+            if let Some(second) = second {
+                self.filters[second] = new;
             }
-            self.filters[first] = new;
-            return;
-        }
-        if let Some(room) = self.filters.get_mut(self.len) {
+        } else if let Some(room) = self.filters.get_mut(self.len) {
             *room = new;
             self.len += 1;
         }
@@ -124,10 +131,10 @@ impl<const N: usize> Default for Filters<N> {
     }
 }
 
-impl<const N: usize> FromIterator<CanId> for Filters<N> {
-    fn from_iter<I: IntoIterator<Item = CanId>>(ids: I) -> Self {
+impl<const N: usize, F: Into<Filter>> FromIterator<F> for Filters<N> {
+    fn from_iter<I: IntoIterator<Item = F>>(all: I) -> Self {
         let mut filters = Self::NONE;
-        ids.into_iter().for_each(|id| filters.add(id));
+        all.into_iter().for_each(|one| filters.add(one));
         filters
     }
 }

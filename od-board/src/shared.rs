@@ -1,0 +1,172 @@
+//! A node that several tasks use, and the task that runs it, on any executor.
+
+use core::cell::RefCell;
+use core::future::Future;
+
+use embassy_futures::join::join3;
+use embassy_futures::select::{Either, select};
+use embassy_futures::yield_now;
+use embassy_sync::blocking_mutex::Mutex;
+use embassy_sync::blocking_mutex::raw::RawMutex;
+use embassy_sync::signal::Signal;
+use embassy_time::Timer;
+use od_runtime::{BusEvent, Frame, Instant};
+
+use crate::filters::{Filter, Filters};
+use crate::owner::Owner;
+use crate::port::Port;
+
+/// The receiving half of a CAN controller.
+pub trait Receive {
+    /// Waits for a frame, or for a state of the controller, such as [`BusEvent::Off`]. The future may be
+    /// dropped before it is ready; no frame may be lost with it.
+    fn receive(&mut self) -> impl Future<Output = Result<Frame, BusEvent>>;
+
+    /// Sets the acceptance filters: at the start, and when they change. A controller that has not so many
+    /// joins them, by `filters.iter().copied().collect::<Filters<4>>()`; one without filters does nothing.
+    fn filter(&mut self, filters: &[Filter]) {
+        let _ = filters;
+    }
+}
+
+/// The sending half of a CAN controller.
+pub trait Transmit {
+    /// Waits until the controller has room, and hands the frame over. Returns the frame that the
+    /// controller threw out for it, if it does so.
+    fn transmit(&mut self, frame: &Frame) -> impl Future<Output = Result<Option<Frame>, BusEvent>>;
+}
+
+/// Filters that a receiver is told, before it joins them.
+const FILTERS: usize = 16;
+
+/// An [`Owner`] that several tasks use: one is [`run`](Self::run), the others change values. It can be a
+/// `static`.
+///
+/// The lock is held for one call of the node at most, and never while anybody waits.
+pub struct Shared<M: RawMutex, B> {
+    owner: Mutex<M, RefCell<B>>,
+    /// Frames may be there to be sent.
+    frames: Signal<M, ()>,
+    /// The next deadline may be another one.
+    deadline: Signal<M, ()>,
+    /// The filters may be others.
+    filters: Signal<M, ()>,
+}
+
+impl<M: RawMutex, B: Owner> Shared<M, B> {
+    /// A node for several tasks.
+    pub const fn new(owner: B) -> Self {
+        Self {
+            owner: Mutex::new(RefCell::new(owner)),
+            frames: Signal::new(),
+            deadline: Signal::new(),
+            filters: Signal::new(),
+        }
+    }
+
+    /// Calls `act` with the node and the time. What it causes goes out at once: an event-driven TPDO of a
+    /// value that it sets, for one.
+    ///
+    /// # Panics
+    /// If `act` calls it again.
+    pub fn with<R>(&self, act: impl FnOnce(&mut B, Instant) -> R) -> R {
+        let result = self.lock(act);
+        self.filters.signal(());
+        result
+    }
+
+    fn lock<R>(&self, act: impl FnOnce(&mut B, Instant) -> R) -> R {
+        let result = self.owner.lock(|owner| {
+            let now = embassy_time::Instant::now().as_micros();
+            act(&mut owner.borrow_mut(), Instant::from_micros(now))
+        });
+        self.frames.signal(());
+        self.deadline.signal(());
+        result
+    }
+
+    /// Runs the node: sleeps until a frame, its next deadline, or a change by [`with`](Self::with). Give
+    /// it power by `with`, before or after.
+    pub async fn run(&self, receiver: &mut impl Receive, transmitter: &mut impl Transmit) -> ! {
+        join3(
+            self.receive(receiver),
+            self.transmit(transmitter),
+            self.wait(),
+        )
+        .await;
+        // None of the three ends.
+        core::future::pending().await
+    }
+
+    async fn receive(&self, receiver: &mut impl Receive) {
+        loop {
+            match select(receiver.receive(), self.filters.wait()).await {
+                Either::First(Ok(frame)) => {
+                    self.lock(|owner, now| owner.handle_frame(now, &frame));
+                }
+                Either::First(Err(event)) => {
+                    self.lock(|owner, now| owner.handle_bus(now, event));
+                    // A controller may go on saying so.
+                    yield_now().await;
+                }
+                Either::Second(()) => {}
+            }
+            let mut filters = None;
+            self.owner.lock(|owner| {
+                owner.borrow_mut().poll_wanted_ids(&mut |id| {
+                    let filters: &mut Filters<FILTERS> = filters.get_or_insert_default();
+                    filters.add(id);
+                });
+            });
+            if let Some(filters) = filters {
+                receiver.filter(filters.as_slice());
+            }
+        }
+    }
+
+    async fn transmit(&self, transmitter: &mut impl Transmit) {
+        let mut port = Port::new();
+        loop {
+            let next = self.owner.lock(|owner| {
+                let now = embassy_time::Instant::now().as_micros();
+                let next = port.peek(&mut *owner.borrow_mut(), Instant::from_micros(now));
+                next.copied()
+            });
+            let Some(frame) = next else {
+                // The deadline after the last frame, such as the end of an inhibit time.
+                self.deadline.signal(());
+                self.frames.wait().await;
+                continue;
+            };
+            match transmitter.transmit(&frame).await {
+                Ok(thrown_out) => port.sent(&frame, thrown_out),
+                Err(event) => {
+                    if event == BusEvent::Off {
+                        port.clear();
+                    }
+                    self.lock(|owner, now| owner.handle_bus(now, event));
+                    yield_now().await;
+                }
+            }
+        }
+    }
+
+    async fn wait(&self) {
+        loop {
+            let due = self.owner.lock(|owner| owner.borrow().poll_timeout());
+            let Some(due) = due else {
+                self.deadline.wait().await;
+                continue;
+            };
+            let due = due.as_micros();
+            let mut at = embassy_time::Instant::from_micros(due);
+            if at.as_micros() < due {
+                // A tick is longer than a microsecond.
+                at += embassy_time::Duration::from_ticks(1);
+            }
+            if let Either::First(()) = select(Timer::at(at), self.deadline.wait()).await {
+                self.with(|owner, now| owner.catch_up(now));
+            }
+        }
+    }
+}
