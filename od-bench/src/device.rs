@@ -15,6 +15,8 @@ use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 use crate::behaviour::Behaviour;
+#[cfg(feature = "eds")]
+use crate::clock::Clock;
 use crate::eeprom::Eeprom;
 #[cfg(feature = "eds")]
 use crate::long::{Beside, Long};
@@ -42,6 +44,8 @@ pub struct VirtualDevice {
     /// Of a device of a file.
     #[cfg(feature = "eds")]
     pub(super) long: Option<Long>,
+    #[cfg(feature = "eds")]
+    clock: Clock,
     pub(super) wanted_id: NodeId,
     pub(super) wanted_rate: Option<u16>,
     /// When the turning shaft is looked at again.
@@ -144,6 +148,8 @@ impl VirtualDevice {
             services,
             #[cfg(feature = "eds")]
             long: None,
+            #[cfg(feature = "eds")]
+            clock: Clock::default(),
             wanted_rate: None,
             look_at: None,
             activated: None,
@@ -345,6 +351,8 @@ impl VirtualDevice {
             profile,
             #[cfg(feature = "eds")]
             long,
+            #[cfg(feature = "eds")]
+            clock,
             ..
         } = self;
         if let Behaviour::Encoder(encoder) = behaviour {
@@ -356,7 +364,11 @@ impl VirtualDevice {
         #[cfg(feature = "eds")]
         let application: &mut dyn Application = match long {
             Some(long) => {
-                beside = Beside { application, long };
+                beside = Beside {
+                    application,
+                    long,
+                    clock,
+                };
                 &mut beside
             }
             None => application,

@@ -12,6 +12,8 @@ mod behaviour;
 mod bench;
 pub mod bus;
 #[cfg(feature = "eds")]
+mod clock;
+#[cfg(feature = "eds")]
 mod configured;
 mod cursor;
 mod device;

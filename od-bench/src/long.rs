@@ -1,12 +1,15 @@
 //! Strings and DOMAINs of a file's device at any length: the store has those that fit into it, and
-//! the longer ones take memory when a master writes them.
+//! the longer ones take memory when a master writes them. Beside them the clock of the device.
 
 use std::prelude::v1::*;
 
 use od_model::{Address, DataType, Entry};
 use od_runtime::{
     AbortCode, Application, Chunk, Context, Halt, Instant, NodeId, Reset, Store, Stream, StreamEnd,
+    TimeOfDay,
 };
+
+use crate::clock::Clock;
 
 /// Most bytes of a DOMAIN that a master writes, where nothing says another number.
 pub(crate) const DOMAIN_SIZE: usize = 1 << 20;
@@ -18,8 +21,8 @@ pub(crate) struct Long {
     /// [`DOMAIN_SIZE`], and for a string its room in the store.
     pub(crate) size: Option<usize>,
     values: Vec<(Address, Vec<u8>)>,
-    /// The value that a master writes now.
-    coming: Vec<u8>,
+    /// The values that masters write now, each by an SDO server of its own.
+    coming: Vec<(Address, Vec<u8>)>,
 }
 
 impl Long {
@@ -34,7 +37,18 @@ impl Long {
     #[cfg(test)]
     pub(crate) fn memory(&self) -> usize {
         let values = self.values.iter().map(|(_, value)| value.capacity());
-        values.sum::<usize>() + self.coming.capacity()
+        let coming = self.coming.iter().map(|(_, value)| value.capacity());
+        values.chain(coming).sum()
+    }
+
+    /// The part that came of a value.
+    fn coming(&mut self, address: Address) -> &mut Vec<u8> {
+        let known = self.coming.iter().position(|(own, _)| *own == address);
+        let at = known.unwrap_or_else(|| {
+            self.coming.push((address, Vec::new()));
+            self.coming.len() - 1
+        });
+        &mut self.coming[at].1
     }
 
     fn remove(&mut self, address: Address) {
@@ -76,6 +90,7 @@ fn room(entry: &Entry) -> usize {
 pub(crate) struct Beside<'d> {
     pub(crate) application: &'d mut dyn Application,
     pub(crate) long: &'d mut Long,
+    pub(crate) clock: &'d mut Clock,
 }
 
 impl Beside<'_> {
@@ -95,7 +110,7 @@ impl Beside<'_> {
 
     /// A value came whole.
     fn keep(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), Halt> {
-        let mut value = core::mem::take(&mut self.long.coming);
+        let mut value = core::mem::take(self.long.coming(address));
         value.shrink_to_fit();
         self.application.validate(cx, address, &value)?;
         let entry = cx
@@ -147,10 +162,10 @@ impl Stream for Beside<'_> {
             .find(address)
             .map_err(AbortCode::from)?;
         let limit = self.long.limit(cx.store, &entry);
-        if self.long.coming.len() + chunk.bytes.len() > limit {
+        if self.long.coming(address).len() + chunk.bytes.len() > limit {
             return Err(AbortCode::TooLong.into());
         }
-        self.long.coming.extend_from_slice(chunk.bytes);
+        self.long.coming(address).extend_from_slice(chunk.bytes);
         match chunk.last {
             true => self.keep(cx, address),
             false => Ok(()),
@@ -181,14 +196,18 @@ impl Stream for Beside<'_> {
         })?
     }
 
-    fn end(&mut self, _: &mut Context<'_, '_>, _: Address, _: StreamEnd) {
-        self.long.coming = Vec::new();
+    fn end(&mut self, _: &mut Context<'_, '_>, address: Address, _: StreamEnd) {
+        self.long.coming.retain(|(own, _)| *own != address);
     }
 }
 
 impl Application for Beside<'_> {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         self.long.reset(cx.store, reset);
+        if reset == Reset::PowerOn {
+            *self.clock = Clock::default();
+            self.clock.set(cx.now, TimeOfDay::default());
+        }
         self.application.reset(cx, reset);
     }
 
@@ -212,6 +231,9 @@ impl Application for Beside<'_> {
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         // From the side of the device it goes into the store.
         self.long.remove(address);
+        if Clock::is_configuration(address) {
+            cx.signals.wake();
+        }
         self.application.written(cx, address);
     }
 
@@ -232,6 +254,15 @@ impl Application for Beside<'_> {
     }
 
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
-        self.application.tick(cx)
+        let ticks = [self.clock.tick(cx), self.application.tick(cx)];
+        ticks.into_iter().flatten().min()
+    }
+
+    fn set_time(&mut self, cx: &mut Context<'_, '_>, time: TimeOfDay) {
+        self.clock.set(cx.now, time);
+    }
+
+    fn time(&mut self, cx: &mut Context<'_, '_>) -> Option<TimeOfDay> {
+        Some(self.clock.time(cx.now))
     }
 }

@@ -3,7 +3,7 @@
 use std::prelude::v1::*;
 
 use od_model::Dictionary;
-use od_runtime::{Device, Extras, Node, NodeId, SdoServer};
+use od_runtime::{Clocks, Device, Extras, Node, NodeId, SdoServer};
 
 use crate::slave::Slave;
 
@@ -13,6 +13,8 @@ struct Loaded;
 
 impl Device for Loaded {
     const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
 }
 
 /// PDOs each way: all that CiA 301 knows.
@@ -23,13 +25,16 @@ const LONGEST: usize = 0x1_0000;
 /// Room for as many SDO servers as a dictionary has.
 struct Room {
     servers: Vec<SdoServer<Loaded, LONGEST>>,
+    clocks: Clocks,
 }
 
 impl Extras<Loaded, LONGEST> for Room {
     const NEW: Self = Self {
         servers: Vec::new(),
+        clocks: Clocks::new(),
     };
     const SERVERS: usize = 127;
+    const CLOCKS: bool = true;
 
     fn servers(&self) -> &[SdoServer<Loaded, LONGEST>] {
         &self.servers
@@ -38,13 +43,22 @@ impl Extras<Loaded, LONGEST> for Room {
     fn servers_mut(&mut self) -> &mut [SdoServer<Loaded, LONGEST>] {
         &mut self.servers
     }
+
+    fn clocks(&self) -> Option<&Clocks> {
+        Some(&self.clocks)
+    }
+
+    fn clocks_mut(&mut self) -> Option<&mut Clocks> {
+        Some(&mut self.clocks)
+    }
 }
 
 /// Returns a node with room for what a dictionary has.
 pub(super) fn roomy(node_id: NodeId, dictionary: Dictionary<'_>) -> Box<dyn Slave> {
     let mut servers = Vec::new();
     servers.resize_with(dictionary.servers(), SdoServer::new);
-    let room = Room { servers };
+    let clocks = Clocks::new();
+    let room = Room { servers, clocks };
     Box::new(Node::<Loaded, PDOS, LONGEST, Room>::with_extras(
         node_id, room,
     ))

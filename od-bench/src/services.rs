@@ -14,8 +14,10 @@ pub struct Services {
 }
 
 /// Objects that turn a service on (CiA 301, chapter 7.5.2).
-const ON: [(u16, u16, &str); 12] = [
+const ON: [(u16, u16, &str); 14] = [
     (0x1005, 0x1005, "SYNC consumer"),
+    (0x1006, 0x1006, "SYNC producer"),
+    (0x1012, 0x1012, "TIME"),
     (0x1010, 0x1010, "save (1010h)"),
     (0x1011, 0x1011, "restore defaults (1011h)"),
     (0x1014, 0x1014, "EMCY producer"),
@@ -31,8 +33,8 @@ const ON: [(u16, u16, &str); 12] = [
 
 /// Objects of services that a node does not have.
 const MISSING: [(u16, u16, &str); 7] = [
-    (0x1006, 0x1007, "SYNC producer (1006h)"),
-    (0x1012, 0x1013, "TIME (1012h)"),
+    (0x1007, 0x1007, "synchronous window (1007h)"),
+    (0x1013, 0x1013, "high resolution time stamp (1013h)"),
     (0x1280, 0x12FF, "SDO clients (1280h to 12FFh)"),
     (0x1F20, 0x1F2F, "configuration manager (1F20h to 1F2Fh)"),
     (0x1F50, 0x1F57, "program download (1F50h to 1F57h)"),

@@ -104,11 +104,8 @@ fn device(out: &mut String, input: &Input, device: &Device, of_variant: Option<&
     let mut services = String::new();
     let depth = if of_variant.is_some() { 2 } else { 1 };
     input.services.constants(&mut services, root, depth);
-    let servers = match input.services.lacks("SERVERS") {
-        true => 0,
-        false => device.tables.dictionary().servers(),
-    };
-    node(out, root, &device.tables, &services, servers);
+    let extras = extras(input, &device.tables);
+    node(out, root, &device.tables, &services, extras);
     let mut handed_on = Vec::new();
     for item in &device.items {
         match family.iter().find(|other| other.index == item.index) {
@@ -217,18 +214,30 @@ pub const STORE_LEN: usize = DICTIONARY.store_len();
     );
 }
 
+/// Number of SDO servers past the first, if the node needs room for them, or for SYNC producer or
+/// TIME.
+fn extras(input: &Input, tables: &Tables) -> Option<usize> {
+    let dictionary = tables.dictionary();
+    let has = |index, service| dictionary.has(index) && !input.services.lacks(service);
+    let servers = match input.services.lacks("SERVERS") {
+        true => 0,
+        false => dictionary.servers(),
+    };
+    let has_clocks = has(0x1006, "SYNC_PRODUCER") || has(0x1012, "TIME");
+    (servers > 0 || has_clocks).then_some(servers)
+}
+
 /// `Node` with the sizes of the dictionary, and the type that ties the two.
-fn node(out: &mut String, root: &str, tables: &Tables, services: &str, servers: usize) {
+fn node(out: &mut String, root: &str, tables: &Tables, services: &str, extras: Option<usize>) {
     let dictionary = tables.dictionary();
     let pdos = dictionary.tpdos().max(dictionary.rpdos());
     let mut bytes = dictionary.longest();
     if dictionary.has_streams() {
         bytes = bytes.max(BLOCK);
     }
-    let extras = match servers {
-        0 => String::new(),
-        _ => format!(", {root}::Extra<Device, {bytes}, {servers}>"),
-    };
+    let extras = extras.map_or(String::new(), |servers| {
+        format!(", {root}::Extra<Device, {bytes}, {servers}>")
+    });
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]

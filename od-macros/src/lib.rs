@@ -42,7 +42,7 @@
 //!           | "without" service { "," service } ";"  the node of the device has no code for these:
 //!                        lss, segmented, block (SDO transfers), rpdos, changes (PDOs when a value
 //!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
-//!                        servers (SDO servers past the first)
+//!                        servers (SDO servers past the first), sync_producer, time
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement

@@ -11,7 +11,7 @@ use crate::report::Report;
 use crate::words;
 
 /// The services by their words, and the constants of `Device`.
-const SERVICES: [(&str, &str); 11] = [
+const SERVICES: [(&str, &str); 13] = [
     ("lss", "LSS"),
     ("segmented", "SEGMENTED"),
     ("block", "BLOCK"),
@@ -23,6 +23,8 @@ const SERVICES: [(&str, &str); 11] = [
     ("behaviour", "BEHAVIOUR"),
     ("events", "EVENTS"),
     ("servers", "SERVERS"),
+    ("sync_producer", "SYNC_PRODUCER"),
+    ("time", "TIME"),
 ];
 
 /// What a call says of services.

@@ -27,6 +27,12 @@ impl Dictionary<'_> {
         }
     }
 
+    /// Whether there is an object at `index`.
+    pub const fn has(&self, index: u16) -> bool {
+        let first = self.first(index);
+        first < self.len() && self.index_at(first) == index
+    }
+
     /// SDO servers past the default one that a node needs: up to the last object of 1201h–127Fh, 0–127.
     pub const fn servers(&self) -> usize {
         let end = self.first(0x1280);

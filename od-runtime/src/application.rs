@@ -6,6 +6,7 @@ use crate::emcy;
 use crate::fifo::Fifo;
 use crate::store::Store;
 use od_wire::emcy::Emcy;
+use od_wire::time_of_day::TimeOfDay;
 use od_wire::{AbortCode, Instant, NodeId};
 
 /// Kind of a reset (CiA 301, chapter 7.3.2).
@@ -43,6 +44,8 @@ pub struct Signals {
     pub(crate) tick: bool,
     /// The operating records are to be saved.
     pub(crate) keep: bool,
+    /// A TIME message is to be sent.
+    pub(crate) send_time: bool,
 }
 
 impl Default for Signals {
@@ -59,13 +62,14 @@ impl Signals {
             reconfigure: false,
             tick: false,
             keep: false,
+            send_time: false,
         }
     }
 
     /// Whether there is nothing to carry out.
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
-        self.errors.is_empty() && !self.reconfigure && !self.tick && !self.keep
+        self.errors.is_empty() && !self.reconfigure && !self.tick && !self.keep && !self.send_time
     }
 
     /// Reports an error: the node sends an EMCY message and updates 1001h and 1003h.
@@ -105,6 +109,12 @@ impl Signals {
     /// repeated until the next request.
     pub fn keep(&mut self) {
         self.keep = true;
+    }
+
+    /// Requests a TIME message with the time of [`Application::time`]. It goes out if bit 30 of 1012h
+    /// is set and the NMT state is Pre-operational or Operational.
+    pub fn send_time(&mut self) {
+        self.send_time = true;
     }
 
     /// Requests a call of [`Application::tick`], whose deadline may have changed.
@@ -288,6 +298,18 @@ pub trait Application {
     fn error_info(&self, store: &Store<'_>) -> [u8; 5] {
         let _ = store;
         [0; 5]
+    }
+
+    /// Receives the time of a TIME message (1012h, bit 31).
+    fn set_time(&mut self, cx: &mut Context<'_, '_>, time: TimeOfDay) {
+        let _ = (cx, time);
+    }
+
+    /// Returns the time for a TIME message that was requested with [`Signals::send_time`]; `None`:
+    /// there is none, and nothing is sent.
+    fn time(&mut self, cx: &mut Context<'_, '_>) -> Option<TimeOfDay> {
+        let _ = cx;
+        None
     }
 
     /// Acts on time or on a change outside the bus, and returns when it wants to be called next.

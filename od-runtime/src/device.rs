@@ -41,11 +41,23 @@ pub trait Device {
     const BEHAVIOUR: bool = true;
     /// Events for the host ([`Node::poll_event`](crate::Node::poll_event)).
     const EVENTS: bool = true;
-    /// SDO servers past the default one (1201h to 127Fh): on where the dictionary has one. A device
-    /// whose dictionary is known at run time says so; the node has room for them as
-    /// [`Extras`](crate::Extras).
+    /// SDO servers past the default one (1201h to 127Fh): on where the dictionary has one.
+    ///
+    /// The node has room for them, the SYNC producer and TIME as [`Extras`](crate::Extras). A device
+    /// whose dictionary is known at run time has these services where it says so.
     const SERVERS: bool = match &Self::DICTIONARY {
         Some(dictionary) => dictionary.servers() > 0,
+        None => false,
+    };
+    /// SYNC producer (1005h, 1006h, 1019h): on where the dictionary has 1006h. Otherwise bit 30 of
+    /// 1005h cannot be set (06090030h).
+    const SYNC_PRODUCER: bool = match &Self::DICTIONARY {
+        Some(dictionary) => dictionary.has(0x1006),
+        None => false,
+    };
+    /// TIME consumer and producer (1012h): on where the dictionary has 1012h.
+    const TIME: bool = match &Self::DICTIONARY {
+        Some(dictionary) => dictionary.has(0x1012),
         None => false,
     };
     /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on

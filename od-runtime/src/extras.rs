@@ -1,8 +1,11 @@
 //! Room for services that few devices have, so that a node without them pays nothing.
 
-use crate::sdo::SdoServer;
+use od_wire::CanId;
 
-/// What a node keeps for further SDO servers, as the last parameter of
+use crate::sdo::SdoServer;
+use crate::sync;
+
+/// What a node keeps for further SDO servers, SYNC producer and TIME, as the last parameter of
 /// [`Node`](crate::Node): `()` for a node without them, or an [`Extra`].
 ///
 /// `object_dictionary!` chooses it for the type `Node` of its module. A host that has memory to
@@ -12,15 +15,46 @@ pub trait Extras<D, const SDO: usize>: Sized {
     const NEW: Self;
     /// SDO servers past the default one that there is room for, 0–127.
     const SERVERS: usize;
+    /// Whether there is room for SYNC producer and TIME.
+    const CLOCKS: bool;
     /// The further SDO servers; the first is that of 1201h.
     fn servers(&self) -> &[SdoServer<D, SDO>];
     /// As [`servers`](Self::servers).
     fn servers_mut(&mut self) -> &mut [SdoServer<D, SDO>];
+    /// SYNC producer and TIME.
+    fn clocks(&self) -> Option<&Clocks>;
+    /// As [`clocks`](Self::clocks).
+    fn clocks_mut(&mut self) -> Option<&mut Clocks>;
+}
+
+/// State of SYNC producer and TIME.
+#[derive(Debug)]
+pub struct Clocks {
+    pub(crate) sync: sync::Producer,
+    /// CAN-ID of the TIME messages that the device consumes.
+    pub(crate) time_id: Option<CanId>,
+}
+
+impl Clocks {
+    /// State before power-on.
+    pub const fn new() -> Self {
+        Self {
+            sync: sync::Producer::IDLE,
+            time_id: None,
+        }
+    }
+}
+
+impl Default for Clocks {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<D, const SDO: usize> Extras<D, SDO> for () {
     const NEW: Self = ();
     const SERVERS: usize = 0;
+    const CLOCKS: bool = false;
 
     #[inline(always)]
     fn servers(&self) -> &[SdoServer<D, SDO>] {
@@ -31,19 +65,33 @@ impl<D, const SDO: usize> Extras<D, SDO> for () {
     fn servers_mut(&mut self) -> &mut [SdoServer<D, SDO>] {
         &mut []
     }
+
+    #[inline(always)]
+    fn clocks(&self) -> Option<&Clocks> {
+        None
+    }
+
+    #[inline(always)]
+    fn clocks_mut(&mut self) -> Option<&mut Clocks> {
+        None
+    }
 }
 
-/// Room for `SERVERS` further SDO servers with a buffer of `SDO` bytes each.
+/// Room for SYNC producer and TIME, and for `SERVERS` further SDO servers with a buffer of `SDO` bytes
+/// each.
 #[derive(Debug)]
 pub struct Extra<D, const SDO: usize, const SERVERS: usize> {
     servers: [SdoServer<D, SDO>; SERVERS],
+    clocks: Clocks,
 }
 
 impl<D, const SDO: usize, const SERVERS: usize> Extras<D, SDO> for Extra<D, SDO, SERVERS> {
     const NEW: Self = Self {
         servers: [const { SdoServer::new() }; SERVERS],
+        clocks: Clocks::new(),
     };
     const SERVERS: usize = SERVERS;
+    const CLOCKS: bool = true;
 
     #[inline]
     fn servers(&self) -> &[SdoServer<D, SDO>] {
@@ -53,5 +101,15 @@ impl<D, const SDO: usize, const SERVERS: usize> Extras<D, SDO> for Extra<D, SDO,
     #[inline]
     fn servers_mut(&mut self) -> &mut [SdoServer<D, SDO>] {
         &mut self.servers
+    }
+
+    #[inline]
+    fn clocks(&self) -> Option<&Clocks> {
+        Some(&self.clocks)
+    }
+
+    #[inline]
+    fn clocks_mut(&mut self) -> Option<&mut Clocks> {
+        Some(&mut self.clocks)
     }
 }

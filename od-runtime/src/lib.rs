@@ -89,16 +89,18 @@ mod real;
 mod sdo;
 pub mod storage;
 mod store;
+mod sync;
 
 // What frames and times of the node's own functions are made of.
 pub use od_wire::emcy::Emcy;
+pub use od_wire::time_of_day::TimeOfDay;
 pub use od_wire::{AbortCode, CanId, CobId, Duration, Frame, Instant, NodeId};
 
 pub use application::{
     Application, Chunk, Context, Halt, NoApplication, Reset, Signals, Stream, StreamEnd,
 };
 pub use device::{AnyDevice, Device};
-pub use extras::{Extra, Extras};
+pub use extras::{Clocks, Extra, Extras};
 pub use kind::DeviceKind;
 pub use lent::Lent;
 pub use node::{BusEvent, Event, Node, Unfit};

@@ -156,7 +156,7 @@ fn a_reason_says_what_to_write() {
     );
     assert_eq!(
         say(Unfit::SyncProducer),
-        "producing SYNC is not supported; clear bit 30 of the default value of 1005h"
+        "1005h produces SYNC by default, and the node does not; add 1006h, or clear bit 30"
     );
     assert_eq!(
         say(Unfit::from(StoreTooSmall { needed })),

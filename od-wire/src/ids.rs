@@ -81,6 +81,16 @@ impl CobId {
         self.0 & 1 << 30 != 0
     }
 
+    /// Returns whether bit 31 is set: in 1012h, the device consumes TIME.
+    pub const fn consumes_time(self) -> bool {
+        !self.is_valid()
+    }
+
+    /// Returns whether bit 30 is set: in 1012h, the device produces TIME.
+    pub const fn produces_time(self) -> bool {
+        self.produces_sync()
+    }
+
     /// Returns the CAN-ID: 29 bits with bit 29 set, else 11.
     pub const fn can_id(self) -> CanId {
         if self.0 & 1 << 29 != 0 {

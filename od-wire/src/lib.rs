@@ -28,6 +28,7 @@ pub mod lss;
 pub mod nmt;
 pub mod sdo;
 mod time;
+pub mod time_of_day;
 
 pub use abort::AbortCode;
 pub use frame::{CanId, Frame};

@@ -54,12 +54,12 @@ pub use od_model::{
     ObjectCode, Slot, typed,
 };
 pub use od_runtime::{
-    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, CobId,
+    AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, Clocks, CobId,
     CommunicationReset, Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile,
     ErrorReset, Event, Extra, Extras, Frame, Halt, Instant, LengthRule, Lent, LssProfile,
     NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore,
     SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile, StoreTooSmall,
-    Stream, StreamEnd, TextTooLong, Unfit, encoder, storage,
+    Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 

@@ -94,9 +94,11 @@ fn a_service_that_is_off_is_answered_as_one_that_the_family_lacks() {
 }
 
 odkit::object_dictionary! {
-    mod two_servers {
+    mod rich {
         add 0x1000 { name = "Device type"; type = u32; default = 0 }
         add 0x1001 { name = "Error register"; type = u8 }
+        add 0x1005 { name = "COB-ID SYNC"; type = u32; access = rw; default = 0x4000_0080 }
+        add 0x1006 { name = "SYNC period"; type = u32; access = rw; default = 5000 }
         add 0x1018 { code = record; name = "Identity object" }
         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 1 }
         add 0x1201 { code = record; name = "SDO server 2" }
@@ -106,11 +108,11 @@ odkit::object_dictionary! {
 }
 
 #[test]
-fn a_node_has_as_many_servers_as_its_dictionary() {
-    let mut node = two_servers::Node::new(NodeId::ONE);
-    let mut values = [0; two_servers::STORE_LEN];
+fn a_node_has_the_servers_and_the_sync_producer_of_its_dictionary() {
+    let mut node = rich::Node::new(NodeId::ONE);
+    let mut values = [0; rich::STORE_LEN];
     let mut device = Lent {
-        dictionary: two_servers::DICTIONARY,
+        dictionary: rich::DICTIONARY,
         values: &mut values,
         application: &mut NoApplication,
         storage: &mut Memory::new([]),
@@ -122,4 +124,9 @@ fn a_node_has_as_many_servers_as_its_dictionary() {
     node.handle_frame(&mut device, Instant::ZERO, &request);
     let answer = node.poll_transmit(&mut device, Instant::ZERO).unwrap();
     assert_eq!(answer.to_string(), "6C0#4318100101000000");
+    let at = node.poll_timeout().unwrap();
+    assert_eq!(at, Instant::from_millis(5));
+    node.handle_timeout(&mut device, at);
+    let sync = node.poll_transmit(&mut device, at).unwrap();
+    assert_eq!(sync, Frame::standard(0x80, &[]));
 }

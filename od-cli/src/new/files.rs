@@ -181,9 +181,9 @@ fn edits(dictionary: Dictionary<'_>) -> String {
     let sync = dictionary.entry(0x1005, 0);
     if let Some(cob_id) = sync.and_then(|entry| entry.default.integer(0)) {
         let cob_id = CobId::new(cob_id as u32);
-        if cob_id.produces_sync() {
+        if cob_id.produces_sync() && !dictionary.has(0x1006) {
             let consumed = cob_id.raw() & !(1 << 30);
-            lines += "        // The node does not produce SYNC.\n";
+            lines += "        // Without 1006h the node does not produce SYNC.\n";
             lines += &format!("        modify 0x1005 {{ default = {consumed:#010X} }}\n");
         }
     }

@@ -30,7 +30,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     }
 
     /// [`power_on`](Self::power_on) for a dictionary that need not fit, such as that of a file.
-    /// PDOs and SDO servers without room and the SYNC producer are not served; a value
+    /// PDOs, SDO servers and a SYNC producer without room are not served; a value
     /// longer than the SDO buffer answers with SDO abort 05040005h.
     ///
     /// # Errors
@@ -106,6 +106,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.tick_at = None;
         self.wanted_changed = true;
         self.state = State::Initialising;
+        if D::SYNC_PRODUCER {
+            self.configure_clocks(objects);
+        }
         let mut rate = None;
         if light {
             // Nothing of the device is reset, and a save goes on.
@@ -226,6 +229,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.push_error_control(0);
         self.state = State::PreOperational;
         self.event(Event::State(self.state));
+        if D::SYNC_PRODUCER || D::TIME {
+            self.configure_clocks(objects);
+        }
         self.heartbeat
             .configure(&objects.store, objects.profile(), objects.now);
         if Self::HAS_MONITOR {
@@ -265,5 +271,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         self.configure_servers(objects);
+        if D::SYNC_PRODUCER || D::TIME {
+            self.configure_clocks(objects);
+        }
     }
 }

@@ -31,6 +31,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if core::mem::take(&mut objects.outbox.signals.tick) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
+        let send_time = core::mem::take(&mut objects.outbox.signals.send_time);
+        if D::TIME && send_time {
+            self.produce_time(objects);
+        }
         // A save that goes on has the record in it.
         let keep = core::mem::take(&mut objects.outbox.signals.keep);
         if D::STORAGE && keep && objects.outbox.saving.is_none() {
@@ -121,11 +125,13 @@ fn switches<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
         .is_some_and(|(switch, _)| switch == index)
 }
 
-/// Whether it is an object that configures SYNC, a PDO or a further SDO server.
+/// Whether it is an object that configures SYNC, TIME, a PDO or a further SDO server.
 fn is_configuration<D: Device>(objects: &Objects<'_, D>, index: u16) -> bool {
     let repeat = objects.profile().pdo.repeat_counter;
     let sync_only = objects.profile().pdo.sync_only;
     matches!(index, 0x1005 | 0x1400..=0x1BFF)
+        || D::SYNC_PRODUCER && index == 0x1006
+        || D::TIME && index == 0x1012
         || D::SERVERS && matches!(index, 0x1201..=0x127F)
         || sync_only.is_some_and(|(switch, _)| switch == index)
         || repeat.is_some_and(|first| (first..first + crate::pdo::MAX).contains(&index))

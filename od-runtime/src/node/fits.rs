@@ -40,7 +40,8 @@ pub enum Unfit {
     /// The dictionary has the parameters of an SDO server (1201h–127Fh) for which the node has no
     /// room ([`Extras::SERVERS`]).
     SdoServer(u16),
-    /// The default value of 1005h has bit 30 set, and the node does not produce SYNC.
+    /// The default value of 1005h has bit 30 set, and the node does not produce SYNC: the device
+    /// switched the service off, or 1006h is missing.
     SyncProducer,
     /// The object configures a service that the device switched off ([`Device`]).
     Service(u16),
@@ -57,7 +58,7 @@ impl Unfit {
             Self::SdoServer(_) => "the node has no room for this SDO server",
             Self::Service(_) => "the dictionary has an object of a service that is switched off",
             Self::SyncProducer => {
-                "producing SYNC is not supported; clear bit 30 of the default value of 1005h"
+                "1005h produces SYNC by default, and the node does not; add 1006h, or clear bit 30"
             }
         }
     }
@@ -128,7 +129,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
                 index @ 0x1201..=0x127F if index - 0x1201 >= Self::SERVERS => {
                     return Err(Unfit::SdoServer(index));
                 }
-                0x1005 if produces_sync(entry.default) => return Err(Unfit::SyncProducer),
+                0x1005
+                    if produces_sync(entry.default)
+                        && !(D::SYNC_PRODUCER && X::CLOCKS && dictionary.has(0x1006)) =>
+                {
+                    return Err(Unfit::SyncProducer);
+                }
                 index if !Self::serves(index) => return Err(Unfit::Service(index)),
                 _ => {}
             }
@@ -145,6 +151,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         match index {
             0x100C | 0x100D => D::GUARDING,
             0x1010 | 0x1011 => D::STORAGE,
+            // As a value, it needs no service.
+            0x1012 => D::TIME || D::DICTIONARY.is_none(),
             0x1016 => D::CONSUMER,
             0x1029 => D::BEHAVIOUR,
             0x1400..=0x17FF => D::RPDOS,
@@ -154,6 +162,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
     /// [`fits`](Self::fits) for the dictionary that the compiler knows, if it knows one.
     pub(super) const fn assert_fits() {
+        assert!(
+            X::CLOCKS || !(D::SYNC_PRODUCER || D::TIME),
+            "the node has no room for the SYNC producer or TIME; its last parameter is `Extra`"
+        );
         if let Some(dictionary) = &D::DICTIONARY
             && let Err(unfit) = Self::fits(dictionary)
         {

@@ -53,6 +53,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
                 node.answer(answer);
             }
         } else if D::SERVERS && node.handle_server(&mut objects, frame) {
+        } else if D::TIME && node.time_id() == Some(id) {
+            node.handle_time(&mut objects, frame);
         } else if node.state == State::Operational {
             if id == node.sync_id {
                 node.handle_sync(&mut objects, frame);
@@ -99,6 +101,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if node.tick_at.is_some_and(|at| at <= now) {
             node.tick_at = objects.application(|application, context| application.tick(context));
         }
+        node.produce_sync(&mut objects);
         if node.state == State::Operational {
             node.each_tpdo(|pdo| pdo.handle_timeout(&mut objects));
         }
@@ -235,6 +238,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             [counter] => Some(*counter),
             _ => return,
         };
+        self.sync(objects, counter);
+    }
+
+    /// A SYNC, of another node or of this one.
+    #[inline]
+    pub(super) fn sync(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
         if D::RPDOS {
             for pdo in self.rpdos() {
                 pdo.sync(objects);

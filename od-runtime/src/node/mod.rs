@@ -10,6 +10,7 @@
 
 mod boot;
 mod bus;
+mod clocks;
 mod controller;
 mod effects;
 mod errors;
@@ -258,6 +259,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         self.state = state;
         self.event(Event::State(state));
+        if D::SYNC_PRODUCER {
+            self.configure_clocks(objects);
+        }
         match state {
             State::Operational => self.start_pdos(objects),
             _ => self.stop_pdos(),

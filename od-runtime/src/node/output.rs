@@ -135,6 +135,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::BLOCK || D::STREAMS {
             consider(self.sdo.deadline());
         }
+        if D::SYNC_PRODUCER {
+            consider(self.sync_deadline());
+        }
         if D::SERVERS {
             consider(self.servers_deadline());
         }

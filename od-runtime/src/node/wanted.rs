@@ -43,6 +43,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                     .filter_map(|pdo| pdo.received_by())
                     .filter(|_| D::RPDOS),
             )
+            .chain(self.time_id().filter(|_| D::TIME))
             .chain(
                 self.extras
                     .servers()

@@ -7,6 +7,7 @@ use od_model::typed::MapEntry;
 use crate::device::Device;
 use crate::profile::Profile;
 use crate::store::{Store, little_endian};
+use crate::sync;
 use od_wire::{AbortCode, CobId};
 
 /// The signature that a write to 1010h or 1011h has to carry, in the order of the bus.
@@ -44,9 +45,25 @@ pub(super) fn check<D: Device>(
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
         (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
-        // The device produces no SYNC, so bit 30 cannot be set (chapter 7.5.2.5).
-        (0x1005, 0) if cob_id.produces_sync() => Err(AbortCode::ValueRange),
+        // A device that produces no SYNC cannot have bit 30 set (chapter 7.5.2.5).
+        (0x1005, 0) if cob_id.produces_sync() && !produces_sync::<D>(store) => {
+            Err(AbortCode::ValueRange)
+        }
+        (0x1005, 0) if D::SYNC_PRODUCER && is_in_use(store, index, cob_id, PRODUCER) => {
+            Err(AbortCode::ValueRange)
+        }
         (0x1005, 0) => check_cob_id(false),
+        (0x1012, 0) if D::TIME && is_in_use(store, index, cob_id, PRODUCER | CONSUMER) => {
+            Err(AbortCode::ValueRange)
+        }
+        (0x1012, 0) if D::TIME => check_cob_id(false),
+        (0x1019, 0) if has::<D>(0x1019) && !sync::is_overflow(value as u8) => {
+            Err(AbortCode::ValueRange)
+        }
+        // SYNC may be on its way (chapter 7.5.2.22).
+        (0x1019, 0) if has::<D>(0x1019) && store.unsigned(0x1006, 0) != 0 => {
+            Err(AbortCode::DeviceState)
+        }
         // A node has one heartbeat time (chapter 7.5.2.13).
         (0x1016, 1..) if is_watched_elsewhere(store, sub, value) => Err(AbortCode::Incompatible),
         (0x1014, 0) | (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => check_cob_id(true),
@@ -78,6 +95,29 @@ pub(super) fn check<D: Device>(
         }
         _ => Ok(()),
     }
+}
+
+/// Bits of 1005h and 1012h.
+const PRODUCER: u32 = 1 << 30;
+const CONSUMER: u32 = 1 << 31;
+
+/// Whether the device can produce SYNC: it has the period, too.
+fn produces_sync<D: Device>(store: &Store<'_>) -> bool {
+    D::SYNC_PRODUCER && store.try_unsigned(0x1006, 0).is_some()
+}
+
+/// Whether the dictionary may have an object, as far as the compiler knows.
+const fn has<D: Device>(index: u16) -> bool {
+    match &D::DICTIONARY {
+        Some(dictionary) => dictionary.has(index),
+        None => true,
+    }
+}
+
+/// Whether one of these bits is set and stays set, and the CAN-ID would change.
+fn is_in_use(store: &Store<'_>, index: u16, new: CobId, bits: u32) -> bool {
+    let old = store.unsigned(index, 0) as u32;
+    old & bits != 0 && new.raw() & bits != 0 && (old ^ new.raw()) & 0x3FFF_FFFF != 0
 }
 
 /// Whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.

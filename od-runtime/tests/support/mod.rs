@@ -133,6 +133,8 @@ pub struct Full;
 
 impl Device for Full {
     const SERVERS: bool = true;
+    const SYNC_PRODUCER: bool = true;
+    const TIME: bool = true;
 }
 
 /// Its buffer is shorter than the DOMAIN 2003h: what runs over is tested, too.

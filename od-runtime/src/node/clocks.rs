@@ -1,0 +1,103 @@
+//! SYNC producer and TIME: what few nodes tell the others, and what they are told.
+
+use od_wire::nmt::State;
+use od_wire::time_of_day::TimeOfDay;
+use od_wire::{CanId, CobId, Frame, Instant};
+
+use super::{Machines, Node};
+use crate::device::Device;
+use crate::extras::Extras;
+use crate::lent::Lent;
+use crate::objects::Objects;
+
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+    /// Sends a TIME message with what [`Application::time`](crate::Application::time) returns, as
+    /// [`Signals::send_time`](crate::Signals::send_time) does. Returns whether it goes out: bit 30 of
+    /// 1012h is set, and the NMT state is Pre-operational or Operational.
+    pub fn send_time(&mut self, device: &mut Lent<'_>, now: Instant) -> bool {
+        let Some((node, mut objects)) = self.open(device, now) else {
+            return false;
+        };
+        let sent = D::TIME && node.produce_time(&mut objects);
+        node.finish(&mut objects);
+        sent
+    }
+}
+
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+    /// SYNC and TIME are services of Pre-operational and Operational (CiA 301, table 37).
+    fn is_communicating(&self) -> bool {
+        matches!(self.state, State::PreOperational | State::Operational)
+    }
+
+    /// Reads the objects of SYNC producer and TIME again.
+    pub(super) fn configure_clocks(&mut self, objects: &Objects<'_, D>) {
+        let may_send = self.is_communicating();
+        let Some(clocks) = self.extras.clocks_mut() else {
+            return;
+        };
+        if D::SYNC_PRODUCER {
+            clocks.sync.configure(&objects.store, objects.now, may_send);
+        }
+        if D::TIME {
+            let cob_id = objects.store.try_unsigned(0x1012, 0);
+            let cob_id = cob_id.map(|raw| CobId::new(raw as u32));
+            let consumed = cob_id.filter(|cob_id| cob_id.consumes_time());
+            clocks.time_id = consumed.map(CobId::can_id);
+        }
+    }
+
+    /// When the next SYNC of this node is due.
+    #[inline]
+    pub(super) fn sync_deadline(&self) -> Option<Instant> {
+        self.extras.clocks()?.sync.deadline()
+    }
+
+    /// Sends the SYNC that is due; the node's own PDOs act on it, too.
+    #[inline]
+    pub(super) fn produce_sync(&mut self, objects: &mut Objects<'_, D>) {
+        if !D::SYNC_PRODUCER {
+            return;
+        }
+        let Some(clocks) = self.extras.clocks_mut() else {
+            return;
+        };
+        let Some(counter) = clocks.sync.handle_timeout(objects.now) else {
+            return;
+        };
+        if self.mute.is_some() {
+            return;
+        }
+        self.out.push(match counter {
+            Some(counter) => Frame::of(self.sync_id, &[counter]),
+            None => Frame::of(self.sync_id, &[]),
+        });
+        if self.state == State::Operational {
+            self.sync(objects, counter);
+        }
+    }
+
+    /// The CAN-ID of the TIME messages that the device consumes.
+    #[inline]
+    pub(super) fn time_id(&self) -> Option<CanId> {
+        self.extras.clocks()?.time_id
+    }
+
+    /// A TIME message: the application gets the time.
+    #[inline(never)]
+    pub(super) fn handle_time(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
+        if let Some(time) = TimeOfDay::parse(frame.data()) {
+            objects.application(|application, context| application.set_time(context, time));
+        }
+    }
+
+    /// Sends the application's time.
+    pub(super) fn produce_time(&mut self, objects: &mut Objects<'_, D>) -> bool {
+        let cob_id = CobId::new(objects.store.unsigned(0x1012, 0) as u32);
+        if !cob_id.produces_time() || !self.is_communicating() || self.mute.is_some() {
+            return false;
+        }
+        let time = objects.application(|application, context| application.time(context));
+        time.is_some_and(|time| self.out.push(Frame::of(cob_id.can_id(), &time.emit())))
+    }
+}

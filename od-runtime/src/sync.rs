@@ -1,0 +1,71 @@
+//! SYNC producer (CiA 301, chapter 7.2.5, and objects 1005h, 1006h, 1019h).
+
+use od_wire::{CobId, Instant};
+
+use crate::store::Store;
+
+/// State of the producer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Producer {
+    /// 1006h in microseconds; 0 while it does not produce.
+    period_us: u32,
+    next: Instant,
+    /// 1019h: 0 or 2 to 240.
+    overflow: u8,
+    /// Counter of the last SYNC; 0 before the first one.
+    counter: u8,
+}
+
+impl Producer {
+    pub(crate) const IDLE: Self = Self {
+        period_us: 0,
+        next: Instant::MAX,
+        overflow: 0,
+        counter: 0,
+    };
+
+    /// Reads its objects again. The first SYNC comes a period after the producer starts, or has
+    /// another period; the counter begins at 1 whenever it starts.
+    pub(crate) fn configure(&mut self, store: &Store<'_>, now: Instant, may_send: bool) {
+        let is_on = CobId::new(store.unsigned(0x1005, 0) as u32).produces_sync();
+        let period_us = match is_on && may_send {
+            true => store.unsigned(0x1006, 0) as u32,
+            false => 0,
+        };
+        if period_us == self.period_us {
+            return;
+        }
+        if period_us == 0 || self.period_us == 0 {
+            self.counter = 0;
+            let overflow = store.unsigned(0x1019, 0) as u8;
+            self.overflow = if is_overflow(overflow) { overflow } else { 0 };
+        }
+        self.period_us = period_us;
+        self.next = now.plus_micros(period_us.into());
+    }
+
+    /// When the next SYNC is due.
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        (self.period_us > 0).then_some(self.next)
+    }
+
+    /// The SYNC that is due: its counter, if it has one.
+    pub(crate) fn handle_timeout(&mut self, now: Instant) -> Option<Option<u8>> {
+        let at = self.deadline().filter(|at| *at <= now)?;
+        self.next = at.next_period(self.period_us.into(), now);
+        if self.overflow == 0 {
+            return Some(None);
+        }
+        self.counter = if self.counter >= self.overflow {
+            1
+        } else {
+            self.counter + 1
+        };
+        Some(Some(self.counter))
+    }
+}
+
+/// Whether 1019h can have the value; 1 and 241 to 255 are reserved.
+pub(crate) const fn is_overflow(value: u8) -> bool {
+    matches!(value, 0 | 2..=240)
+}
