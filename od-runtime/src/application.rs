@@ -38,14 +38,8 @@ pub struct Context<'c, 'a> {
 pub struct Signals {
     /// Errors that came or went, in order.
     pub(crate) errors: emcy::Changes,
-    /// Communication objects were changed by the application itself.
-    pub(crate) reconfigure: bool,
-    /// The application's own deadline may have moved.
-    pub(crate) tick: bool,
-    /// The operating records are to be saved.
-    pub(crate) keep: bool,
-    /// A TIME message is to be sent.
-    pub(crate) send_time: bool,
+    /// The constants of the type, one bit each.
+    requests: u8,
 }
 
 impl Default for Signals {
@@ -55,21 +49,34 @@ impl Default for Signals {
 }
 
 impl Signals {
+    /// Communication objects were changed by the application itself.
+    pub(crate) const RECONFIGURE: u8 = 1;
+    /// The application's own deadline may have moved.
+    pub(crate) const TICK: u8 = 2;
+    /// The operating records are to be saved.
+    pub(crate) const KEEP: u8 = 4;
+    /// A TIME message is to be sent.
+    pub(crate) const SEND_TIME: u8 = 8;
+
     /// No requests.
     pub const fn new() -> Self {
         Self {
             errors: Fifo::new(emcy::NO_CHANGE),
-            reconfigure: false,
-            tick: false,
-            keep: false,
-            send_time: false,
+            requests: 0,
         }
     }
 
     /// Whether there is nothing to carry out.
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
-        self.errors.is_empty() && !self.reconfigure && !self.tick && !self.keep && !self.send_time
+        self.errors.is_empty() && self.requests == 0
+    }
+
+    /// Whether there is a request of this kind, which is carried out then.
+    pub(crate) fn take(&mut self, request: u8) -> bool {
+        let found = self.requests & request != 0;
+        self.requests &= !request;
+        found
     }
 
     /// Reports an error: the node sends an EMCY message and updates 1001h and 1003h.
@@ -102,24 +109,24 @@ impl Signals {
     /// Reports that the application changed communication objects (1000h–1FFFh); the services
     /// read them again.
     pub fn reconfigure(&mut self) {
-        self.reconfigure = true;
+        self.requests |= Self::RECONFIGURE;
     }
 
     /// Requests a save of the operating records (hours, counters) only. A failed save is not
     /// repeated until the next request.
     pub fn keep(&mut self) {
-        self.keep = true;
+        self.requests |= Self::KEEP;
     }
 
     /// Requests a TIME message with the time of [`Application::time`]. It goes out if bit 30 of 1012h
     /// is set and the NMT state is Pre-operational or Operational.
     pub fn send_time(&mut self) {
-        self.send_time = true;
+        self.requests |= Self::SEND_TIME;
     }
 
     /// Requests a call of [`Application::tick`], whose deadline may have changed.
     pub fn wake(&mut self) {
-        self.tick = true;
+        self.requests |= Self::TICK;
     }
 }
 

@@ -3,6 +3,7 @@
 use od_wire::nmt::State;
 
 use super::{Event, Machines};
+use crate::application::Signals;
 use crate::device::Device;
 use crate::error_control;
 use crate::extras::Extras;
@@ -28,15 +29,15 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[cold]
     fn empty_outbox(&mut self, objects: &mut Objects<'_, D>) {
         self.apply_effects(objects);
-        if core::mem::take(&mut objects.outbox.signals.tick) {
+        if objects.outbox.signals.take(Signals::TICK) {
             self.tick_at = objects.application(|application, context| application.tick(context));
         }
-        let send_time = core::mem::take(&mut objects.outbox.signals.send_time);
+        let send_time = objects.outbox.signals.take(Signals::SEND_TIME);
         if D::TIME && send_time {
             self.produce_time(objects);
         }
         // A save that goes on has the record in it.
-        let keep = core::mem::take(&mut objects.outbox.signals.keep);
+        let keep = objects.outbox.signals.take(Signals::KEEP);
         if D::STORAGE && keep && objects.outbox.saving.is_none() {
             objects.refresh_life_record();
             let profile = &objects.profile().store;
@@ -72,8 +73,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     fn apply_effects(&mut self, objects: &mut Objects<'_, D>) {
         let overflow = core::mem::take(&mut objects.outbox.overflow);
-        let mut communication =
-            core::mem::take(&mut objects.outbox.signals.reconfigure) || overflow;
+        let mut communication = objects.outbox.signals.take(Signals::RECONFIGURE) || overflow;
         let mut heartbeat = overflow;
         let mut monitor = overflow;
         while let Some(effect) = objects.outbox.effects.pop() {

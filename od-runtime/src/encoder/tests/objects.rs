@@ -15,7 +15,7 @@ fn the_trace_of_the_manual() {
     assert_eq!(bench.read(0x6509, 0), 0x1000_0000 - 0x3_CAC9);
     bench.write(0x6200, 0, 5).unwrap();
     assert_eq!(bench.read(0x1800, 5), 5);
-    assert!(core::mem::take(&mut bench.signals.reconfigure));
+    assert!(bench.signals.take(crate::application::Signals::RECONFIGURE));
     // 1011h takes the values back, then says so; the two timers are one value to it.
     bench.with(|encoder, cx| {
         cx.store.reset(|row| row.index() >= 0x1800);
