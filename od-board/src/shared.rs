@@ -39,6 +39,9 @@ pub trait Transmit {
 /// Filters that a receiver is told, before it joins them.
 const FILTERS: usize = 16;
 
+/// Time after which the node is asked again while the controller has no room.
+const AGAIN: embassy_time::Duration = embassy_time::Duration::from_millis(1);
+
 /// An [`Owner`] that several tasks use: one is [`run`](Self::run), the others change values. It can be a
 /// `static`.
 ///
@@ -125,7 +128,7 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
     }
 
     async fn transmit(&self, transmitter: &mut impl Transmit) {
-        let mut port = Port::new();
+        let (mut port, mut has_sent) = (Port::new(), false);
         loop {
             let next = self.owner.lock(|owner| {
                 let now = embassy_time::Instant::now().as_micros();
@@ -133,13 +136,18 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
                 next.copied()
             });
             let Some(frame) = next else {
-                // The deadline after the last frame, such as the end of an inhibit time.
-                self.deadline.signal(());
+                if core::mem::take(&mut has_sent) {
+                    // The deadline after a frame is another one, such as the end of an inhibit time.
+                    self.deadline.signal(());
+                }
                 self.frames.wait().await;
                 continue;
             };
             match transmitter.transmit(&frame).await {
-                Ok(thrown_out) => port.sent(&frame, thrown_out),
+                Ok(thrown_out) => {
+                    port.sent(&frame, thrown_out);
+                    has_sent = true;
+                }
                 Err(event) => {
                     if event == BusEvent::Off {
                         port.clear();
@@ -153,20 +161,31 @@ impl<M: RawMutex, B: Owner> Shared<M, B> {
 
     async fn wait(&self) {
         loop {
-            let due = self.owner.lock(|owner| owner.borrow().poll_timeout());
-            let Some(due) = due else {
+            // Most signals are about the deadline that is looked at here.
+            self.deadline.reset();
+            let now = embassy_time::Instant::now();
+            let due = self.owner.lock(|owner| {
+                let (mut owner, now) = (owner.borrow_mut(), Instant::from_micros(now.as_micros()));
+                if owner.poll_timeout().is_some_and(|at| at <= now) {
+                    owner.handle_timeout(now);
+                    self.frames.signal(());
+                    self.filters.signal(());
+                }
+                owner.poll_timeout()
+            });
+            let Some(due) = due.map(Instant::as_micros) else {
                 self.deadline.wait().await;
                 continue;
             };
-            let due = due.as_micros();
             let mut at = embassy_time::Instant::from_micros(due);
-            if at.as_micros() < due {
+            if due <= now.as_micros() {
+                // A PDO is due, and the controller has no room; other things may become due.
+                at = now + AGAIN;
+            } else if at.as_micros() < due {
                 // A tick is longer than a microsecond.
                 at += embassy_time::Duration::from_ticks(1);
             }
-            if let Either::First(()) = select(Timer::at(at), self.deadline.wait()).await {
-                self.with(|owner, now| owner.catch_up(now));
-            }
+            select(Timer::at(at), self.deadline.wait()).await;
         }
     }
 }
