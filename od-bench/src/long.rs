@@ -215,6 +215,10 @@ impl Application for Beside<'_> {
         self.application.node_id(store)
     }
 
+    fn is_live(&self, address: Address) -> bool {
+        self.application.is_live(address)
+    }
+
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         self.application.refresh(cx, address)
     }

@@ -6,7 +6,6 @@ use crate::address::Address;
 use crate::entry::{Entry, Missing, Object, Slot};
 use crate::index;
 use crate::row::Row;
-use crate::types::DataType;
 use crate::value::{Literal, Range};
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
@@ -149,8 +148,8 @@ impl<'a> Dictionary<'a> {
     /// The row of the value at a position.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn row(&self, position: usize) -> Option<Row> {
-        self.rows.get(position).copied()
+    pub fn row(&self, position: usize) -> Option<&'a Row> {
+        self.rows.get(position)
     }
 
     /// The rows, by ascending address.
@@ -165,24 +164,6 @@ impl<'a> Dictionary<'a> {
     #[inline(always)]
     pub const fn pool(&self) -> &'a [u32] {
         self.pool
-    }
-
-    /// The rows of an object, by ascending sub-index.
-    #[doc(hidden)]
-    pub fn rows_of(&self, index: u16) -> &'a [Row] {
-        let rows = self.rows.get(self.first(index)..).unwrap_or_default();
-        let count = rows.iter().take_while(|row| row.index() == index).count();
-        rows.get(..count).unwrap_or_default()
-    }
-
-    /// The default of a string; empty for a number.
-    #[doc(hidden)]
-    pub fn default_bytes(&self, row: Row) -> &'a [u8] {
-        let range = row.range(self.pool);
-        match row.data_type() {
-            DataType::VisibleString => self.text(range).as_bytes(),
-            _ => self.blob(range),
-        }
     }
 
     /// The object at `index`.
@@ -241,7 +222,7 @@ impl<'a> Dictionary<'a> {
     /// [`Missing`] says whether the object or only the sub-index is absent.
     pub fn find(&self, address: Address) -> Result<Entry, Missing> {
         let (position, row) = self.locate(address)?;
-        Ok(self.unpack(position, row))
+        Ok(self.unpack(position, *row))
     }
 
     /// The position of an address and its row, of which most reads need only
@@ -251,7 +232,7 @@ impl<'a> Dictionary<'a> {
     /// As for [`find`](Self::find).
     #[doc(hidden)]
     #[inline(always)] // into the one read that masters ask for all day
-    pub fn locate(&self, address: Address) -> Result<(usize, Row), Missing> {
+    pub fn locate(&self, address: Address) -> Result<(usize, &'a Row), Missing> {
         match index::position(self.buckets, self.rows, address) {
             Some(both) => Ok(both),
             None => Err(self.missing(address)),
@@ -264,8 +245,16 @@ impl<'a> Dictionary<'a> {
     /// As for [`find`](Self::find).
     #[doc(hidden)]
     #[inline(never)]
-    pub fn row_of(&self, address: Address) -> Result<Row, Missing> {
+    pub fn row_of(&self, address: Address) -> Result<&'a Row, Missing> {
         self.locate(address).map(|(_, row)| row)
+    }
+
+    /// The row of a number in the store that a master may read and one frame carries.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn plain_row(&self, address: Address) -> Option<&'a Row> {
+        let (_, row) = index::position(self.buckets, self.rows, address)?;
+        matches!(row.plain().len, 1..=4).then_some(row)
     }
 
     #[cold]
@@ -397,32 +386,5 @@ impl Iterator for Objects<'_> {
         let object = self.dictionary.object_at(self.next)?;
         self.next += usize::from(object.count);
         Some(object)
-    }
-}
-
-impl PartialEq for Dictionary<'_> {
-    /// Object by object: names, types, access, limits, defaults, groups. The
-    /// places of texts in the arena and of values in the store do not matter.
-    fn eq(&self, other: &Self) -> bool {
-        let literal = |a: Literal, b: Literal| match (a, b) {
-            (Literal::Text(a), Literal::Text(b)) => self.text(a) == other.text(b),
-            (Literal::Bytes(a), Literal::Bytes(b)) => self.blob(a) == other.blob(b),
-            (a, b) => a == b,
-        };
-        self.len() == other.len()
-            && self.objects().len() == other.objects().len()
-            && self.objects().zip(other.objects()).all(|(a, b)| {
-                (a.index, a.code) == (b.index, b.code)
-                    && a.count == b.count
-                    && self.text(a.name) == other.text(b.name)
-            })
-            && self.entries().zip(other.entries()).all(|(a, b)| {
-                (a.address, a.data_type, a.access, a.mappable, a.group)
-                    == (b.address, b.data_type, b.access, b.mappable, b.group)
-                    && self.text(a.name) == other.text(b.name)
-                    && literal(a.default, b.default)
-                    && literal(a.low, b.low)
-                    && literal(a.high, b.high)
-            })
     }
 }

@@ -50,7 +50,11 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
 
 /// The row with this address, and its position.
 #[inline(always)]
-pub(crate) fn position(buckets: &[u16], rows: &[Row], address: Address) -> Option<(usize, Row)> {
+pub(crate) fn position<'a>(
+    buckets: &[u16],
+    rows: &'a [Row],
+    address: Address,
+) -> Option<(usize, &'a Row)> {
     let key = address.key();
     let Some(mask) = buckets.len().checked_sub(1) else {
         return search(rows, key);
@@ -59,7 +63,7 @@ pub(crate) fn position(buckets: &[u16], rows: &[Row], address: Address) -> Optio
     loop {
         let position = usize::from(*buckets.get(at & mask)?);
         // An empty bucket is past the last row.
-        let row = *rows.get(position)?;
+        let row = rows.get(position)?;
         if row.key() == key {
             return Some((position, row));
         }
@@ -69,9 +73,9 @@ pub(crate) fn position(buckets: &[u16], rows: &[Row], address: Address) -> Optio
 
 /// The search among more rows than buckets can name; they are sorted.
 #[cold]
-fn search(rows: &[Row], key: u32) -> Option<(usize, Row)> {
+fn search(rows: &[Row], key: u32) -> Option<(usize, &Row)> {
     let position = rows.partition_point(|row| row.key() < key);
-    let row = *rows.get(position)?;
+    let row = rows.get(position)?;
     (row.key() == key).then_some((position, row))
 }
 
@@ -103,7 +107,7 @@ mod tests {
             fill(&mut buckets, &rows);
             for (at, row) in rows.iter().enumerate() {
                 let found = position(&buckets, &rows, address(row.key()));
-                assert_eq!(found, Some((at, *row)));
+                assert_eq!(found, Some((at, row)));
                 let next = address(row.key() + 1);
                 assert_eq!(position(&buckets, &rows, next), None);
             }

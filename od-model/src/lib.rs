@@ -24,6 +24,7 @@ mod needs;
 mod restricted;
 #[doc(hidden)]
 pub mod row;
+mod same;
 pub mod typed;
 mod types;
 mod value;

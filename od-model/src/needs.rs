@@ -1,9 +1,10 @@
-//! Sizes that a node needs to serve a dictionary, known at compile time.
+//! What a node needs of a dictionary: sizes that are known at compile time, rows and their defaults.
 
 use crate::access::Access;
 use crate::dictionary::Dictionary;
 use crate::entry::Entry;
-use crate::value::Literal;
+use crate::row::Row;
+use crate::types::DataType;
 
 impl Dictionary<'_> {
     /// Number of TPDOs that a node needs: up to the last object of 1800h–19FFh, 0–512.
@@ -48,7 +49,7 @@ impl Dictionary<'_> {
         let mut longest = 0;
         let mut at = 0;
         while at < self.len() {
-            let len = self.at(at).longest();
+            let len = self.rows()[at].longest(self.pool());
             if len > longest {
                 longest = len;
             }
@@ -63,7 +64,7 @@ impl Dictionary<'_> {
     pub const fn has_streams(&self) -> bool {
         let mut at = 0;
         while at < self.len() {
-            if self.at(at).is_streamed() {
+            if self.rows()[at].is_streamed() {
                 return true;
             }
             at += 1;
@@ -72,25 +73,50 @@ impl Dictionary<'_> {
     }
 }
 
-impl Entry {
-    /// Whether it is a string or domain without a place in the store, which an application streams.
+impl<'a> Dictionary<'a> {
+    /// The rows of an object, by ascending sub-index.
+    #[doc(hidden)]
+    pub fn rows_of(&self, index: u16) -> &'a [Row] {
+        let rows = self.rows().get(self.first(index)..).unwrap_or_default();
+        let count = rows.iter().take_while(|row| row.index() == index).count();
+        rows.get(..count).unwrap_or_default()
+    }
+
+    /// The default of a string; empty for a number.
+    #[doc(hidden)]
+    pub fn default_bytes(&self, row: &Row) -> &'a [u8] {
+        let range = row.range(self.pool());
+        match row.data_type() {
+            DataType::VisibleString => self.text(range).as_bytes(),
+            _ => self.blob(range),
+        }
+    }
+}
+
+impl Row {
+    /// As [`Entry::is_streamed`].
     pub const fn is_streamed(&self) -> bool {
-        self.is_variable() && self.slot.len == 0 && !matches!(self.access, Access::Const)
+        self.is_variable() && !self.is_stored() && !self.is_const()
     }
 
     /// Bytes of the longest value that the entry can have, without the two of a string's length
     /// in the store; the seven of a segment where the value is streamed.
-    pub const fn longest(&self) -> usize {
-        if let Some(size) = self.data_type.size() {
-            return size;
+    const fn longest(&self, pool: &[u32]) -> usize {
+        if !self.is_variable() {
+            return self.size();
         }
-        let capacity = self.slot.len.saturating_sub(2) as usize;
-        match self.default {
-            Literal::Text(range) | Literal::Bytes(range) if range.len as usize > capacity => {
-                range.len as usize
-            }
+        let capacity = self.slot(pool).len.saturating_sub(2) as usize;
+        match self.range(pool).len as usize {
+            len if len > capacity => len,
             _ if self.is_streamed() => 7,
             _ => capacity,
         }
+    }
+}
+
+impl Entry {
+    /// Whether it is a string or domain without a place in the store, which an application streams.
+    pub const fn is_streamed(&self) -> bool {
+        self.is_variable() && self.slot.len == 0 && !matches!(self.access, Access::Const)
     }
 }

@@ -252,6 +252,14 @@ pub trait Application {
         None
     }
 
+    /// Returns whether [`refresh`](Self::refresh) may have something to do for the value at an
+    /// address. Asked after each [`reset`](Self::reset), for all values from 2000h on: a value that is
+    /// not live is read without a call of the application. All are, unless this is implemented.
+    fn is_live(&self, address: Address) -> bool {
+        let _ = address;
+        true
+    }
+
     /// Updates the value at `address`, which an SDO or a PDO is about to read.
     ///
     /// # Errors
@@ -331,4 +339,8 @@ pub trait Application {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoApplication;
 
-impl Application for NoApplication {}
+impl Application for NoApplication {
+    fn is_live(&self, _: Address) -> bool {
+        false
+    }
+}

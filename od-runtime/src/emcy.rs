@@ -1,5 +1,6 @@
 //! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
+use crate::deadline::Deadline;
 use crate::fifo::Fifo;
 use crate::profile::ErrorReset;
 use crate::store::Store;
@@ -177,21 +178,29 @@ impl Producer {
         }
         let cob_id = cob_id(store);
         let emcy = self.waiting.pop()?;
-        let inhibit = store.unsigned(0x1015, 0) * 100;
+        let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
         self.blocked_until = now.plus_micros(inhibit);
         cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))
     }
 
     /// When [`poll`](Self::poll) is due, if something waits.
-    pub(crate) fn deadline(&self) -> Option<Instant> {
-        (!self.waiting.is_empty()).then_some(self.blocked_until)
+    pub(crate) fn deadline(&self) -> Deadline {
+        match self.waiting.is_empty() {
+            true => Deadline::NEVER,
+            false => Deadline::at(self.blocked_until),
+        }
+    }
+
+    /// Whether something waits.
+    #[inline]
+    pub(crate) const fn is_waiting(&self) -> bool {
+        !self.waiting.is_empty()
     }
 }
 
 /// 1014h, if the device has it and it is valid.
 pub(crate) fn cob_id(store: &Store<'_>) -> Option<CobId> {
-    let raw = store.try_unsigned(0x1014, 0)?;
-    let cob_id = CobId::new(raw as u32);
+    let cob_id = CobId::new(store.word(0x1014, 0, 1 << 31));
     cob_id.is_valid().then_some(cob_id)
 }
 
@@ -202,9 +211,9 @@ fn log(store: &mut Store<'_>, code: u16) {
         [.., last] => last.address().sub,
         [] => return,
     };
-    let count = (store.unsigned(0x1003, 0) as u8).min(capacity);
+    let count = (store.word(0x1003, 0, 0) as u8).min(capacity);
     for sub in (1..=count.min(capacity.saturating_sub(1))).rev() {
-        let older = store.unsigned(0x1003, sub);
+        let older = store.word(0x1003, sub, 0).into();
         store.set_unsigned(Address::new(0x1003, sub + 1), older);
     }
     if capacity > 0 {

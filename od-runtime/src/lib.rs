@@ -71,6 +71,7 @@
 extern crate std;
 
 mod application;
+mod deadline;
 mod device;
 mod emcy;
 pub mod encoder;

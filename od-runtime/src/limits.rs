@@ -21,7 +21,7 @@ pub(crate) enum Outside {
 }
 
 /// Checks a value against the limits of an entry. `bytes` has the entry's length.
-pub(crate) fn check(store: &Store<'_>, row: Row, bytes: &[u8]) -> Result<(), Outside> {
+pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Outside> {
     let kind = row.data_type().kind();
     if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
         return Err(Outside::NotAllowed);

@@ -127,7 +127,7 @@ pub struct StoreProfile {
 impl StoreProfile {
     /// Every value for which `which` is true becomes what the device was delivered with.
     #[inline(never)]
-    pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(Row) -> bool) {
+    pub fn reset(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         store.reset(which);
         if let Some((address, node_id)) = self.node_id
             && let Ok(row) = store.dictionary().row_of(address)

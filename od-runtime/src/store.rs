@@ -98,10 +98,10 @@ impl<'a> Store<'a> {
     }
 
     /// Every value for which `which` is true becomes its default.
-    pub fn reset(&mut self, mut which: impl FnMut(Row) -> bool) {
+    pub fn reset(&mut self, mut which: impl FnMut(&Row) -> bool) {
         for row in self.dictionary.rows() {
-            if which(*row) {
-                self.reset_row(*row);
+            if which(row) {
+                self.reset_row(row);
             }
         }
     }
@@ -115,7 +115,7 @@ impl<'a> Store<'a> {
 
     /// One value becomes its default.
     #[inline(never)]
-    pub(crate) fn reset_row(&mut self, row: Row) {
+    pub(crate) fn reset_row(&mut self, row: &Row) {
         // A number of one word, as most are, is written as it stands.
         let mut number = [0; 8];
         let bytes = default_bytes(self.dictionary, row, self.node_id, &mut number);
@@ -130,7 +130,7 @@ impl<'a> Store<'a> {
     }
 
     /// Whether the value is its default.
-    pub(crate) fn has_default(&self, row: Row) -> bool {
+    pub(crate) fn has_default(&self, row: &Row) -> bool {
         let (mut a, mut b) = ([0; 8], [0; 8]);
         self.value(row, &mut a) == default_bytes(self.dictionary, row, self.node_id, &mut b)
     }
@@ -206,7 +206,7 @@ impl<'a> Store<'a> {
 
     /// As [`bytes`](Self::bytes).
     #[inline(never)]
-    pub(crate) fn value<'b>(&'b self, row: Row, number: &'b mut [u8; 8]) -> &'b [u8] {
+    pub(crate) fn value<'b>(&'b self, row: &Row, number: &'b mut [u8; 8]) -> &'b [u8] {
         if row.is_variable() {
             return variable(self.dictionary, self.values, row);
         }
@@ -227,7 +227,7 @@ impl<'a> Store<'a> {
 
     /// As [`put`](Self::put).
     #[inline(never)]
-    pub(crate) fn put_row(&mut self, row: Row, bytes: &[u8]) -> Result<(), AbortCode> {
+    pub(crate) fn put_row(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let room = self.room(row, bytes.len())?;
         room.iter_mut()
             .zip(bytes)
@@ -236,7 +236,7 @@ impl<'a> Store<'a> {
     }
 
     /// The place for a value of this length, which a string has from now on; to be filled at once.
-    pub(crate) fn room(&mut self, row: Row, len: usize) -> Result<&mut [u8], AbortCode> {
+    pub(crate) fn room(&mut self, row: &Row, len: usize) -> Result<&mut [u8], AbortCode> {
         let slot = row.slot(self.dictionary.pool());
         let to = slot_mut(self.values, slot)
             .filter(|to| !to.is_empty())
@@ -269,9 +269,18 @@ impl<'a> Store<'a> {
         Some(self.number_of(row))
     }
 
+    /// The low 32 bits of the number at an address; `missing` without such an object.
+    #[inline(never)]
+    pub(crate) fn word(&self, index: u16, sub: u8, missing: u32) -> u32 {
+        match self.dictionary.row_of(Address::new(index, sub)) {
+            Ok(row) => self.number_of(row) as u32,
+            Err(_) => missing,
+        }
+    }
+
     /// The number of the value of a row, little-endian, eight bytes at most.
     #[inline(never)]
-    pub(crate) fn number_of(&self, row: Row) -> u64 {
+    pub(crate) fn number_of(&self, row: &Row) -> u64 {
         little_endian(self.value(row, &mut [0; 8]))
     }
 
@@ -321,7 +330,7 @@ fn slot_mut(values: &mut [u8], slot: Slot) -> Option<&mut [u8]> {
 
 /// A string: two bytes of length, then the bytes; the default where nothing is stored.
 #[inline(never)]
-fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], row: Row) -> &'b [u8] {
+fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], row: &Row) -> &'b [u8] {
     match slot(values, row.slot(dictionary.pool())) {
         Some([low, high, rest @ ..]) => {
             let len = usize::from(u16::from_le_bytes([*low, *high]));
@@ -334,7 +343,7 @@ fn variable<'b>(dictionary: &Dictionary<'b>, values: &'b [u8], row: Row) -> &'b 
 #[inline(never)]
 fn default_bytes<'b>(
     dictionary: &Dictionary<'b>,
-    row: Row,
+    row: &Row,
     node_id: NodeId,
     number: &'b mut [u8; 8],
 ) -> &'b [u8] {

@@ -2,8 +2,8 @@
 #![no_std]
 #![no_main]
 
-use odkit::storage::Memory;
-use odkit::{Application, Context, Emcy, Instant, Lent, NodeId, Profile};
+use odkit::storage::NoStorage;
+use odkit::{Address, Application, Context, Emcy, Instant, Lent, NodeId, Profile};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, sdo};
 
@@ -50,6 +50,10 @@ odkit::object_dictionary! {
 struct Thermometer;
 
 impl Application for Thermometer {
+    fn is_live(&self, _: Address) -> bool {
+        false
+    }
+
     fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
         let inputs = cx.store.get(thermometer::INPUTS);
         cx.store.set(thermometer::INPUTS, inputs ^ 1);
@@ -91,7 +95,7 @@ extern "C" fn main() -> ! {
         dictionary: thermometer::DICTIONARY,
         values: VALUES.take(),
         application: &mut Thermometer,
-        storage: &mut Memory::new([]),
+        storage: &mut NoStorage,
         profile: &PROFILE,
     };
     master::run(

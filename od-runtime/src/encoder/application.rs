@@ -8,7 +8,7 @@ use super::configure::STEPS;
 use super::faults::{self, Faults};
 use super::motion::Motion;
 use super::object::Role;
-use super::profile::{EncoderProfile, Options};
+use super::profile::Options;
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
@@ -29,7 +29,6 @@ impl<M: Motion> Application for Encoder<M> {
             }
         }
         self.position = position_handle(cx.store);
-        self.live = live_bits(self.profile);
         self.agree_on_links(cx.store);
         // What 6001h is without the gear was loaded.
         self.output = None;
@@ -50,6 +49,10 @@ impl<M: Motion> Application for Encoder<M> {
         switches.or_else(|| NodeId::new(u8::try_from(store.unsigned(at.index, at.sub)).ok()?))
     }
 
+    fn is_live(&self, address: Address) -> bool {
+        address.index == POSITION || self.profile.role(address).is_some_and(Role::is_live)
+    }
+
     #[inline]
     fn refresh(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<(), AbortCode> {
         if address.index == POSITION {
@@ -57,8 +60,8 @@ impl<M: Motion> Application for Encoder<M> {
                 let angle = self.sense(cx);
                 cx.store.set(handle, self.scale.position(angle));
             }
-        } else if self.live & live_bit(address.index) != 0
-            && let Some(role) = self.profile.role(address)
+        } else if let Some(role) = self.profile.role(address)
+            && role.is_live()
         {
             self.show(cx, address, role);
         }
@@ -240,19 +243,6 @@ fn only(is_known: bool) -> Result<(), AbortCode> {
     } else {
         Err(AbortCode::ValueRange)
     }
-}
-
-/// The indices of live objects as a set that may name a few others, too: most reads are of
-/// objects that are not live, and one look tells.
-fn live_bits(profile: &EncoderProfile) -> u64 {
-    let live = profile.objects.iter().filter(|(_, role)| role.is_live());
-    live.fold(0, |bits, (at, _)| bits | live_bit(at.index))
-}
-
-/// An index as one of 64 bits.
-#[inline]
-const fn live_bit(index: u16) -> u64 {
-    1 << ((index as u32).wrapping_mul(0x9E37_79B9) >> 26)
 }
 
 /// The handle of 6004h, whatever its width; it lies in the store where it lies.

@@ -45,8 +45,6 @@ pub struct Encoder<M> {
     pub(super) output: Option<(u64, u64)>,
     /// 6001h as it was when `output` was engaged; the object shows what the gear makes of it.
     pub(super) own_steps: u64,
-    /// Which objects are live, see `application`.
-    pub(super) live: u64,
     /// The last angle that the sensor told.
     pub(super) angle: Angle,
     /// When power went.
@@ -89,7 +87,6 @@ impl<M: Motion> Encoder<M> {
             output: None,
             own_steps: 0,
             position: None,
-            live: 0,
             angle: Angle::ZERO,
             off: None,
             started: None,

@@ -1,5 +1,6 @@
 //! Heartbeat consumer (CiA 301, chapter 7.2.8.2.2; object 1016h).
 
+use crate::deadline::Deadline;
 use crate::store::Store;
 use od_wire::{Instant, NodeId};
 
@@ -10,16 +11,16 @@ const WATCHED: usize = 8;
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Watch {
     node: u8,
-    period_us: u64,
-    deadline: Option<Instant>,
     lost: bool,
+    period_ms: u16,
+    deadline: Deadline,
 }
 
 const NOBODY: Watch = Watch {
     node: 0,
-    period_us: 0,
-    deadline: None,
     lost: false,
+    period_ms: 0,
+    deadline: Deadline::NEVER,
 };
 
 /// The nodes that are watched.
@@ -45,13 +46,13 @@ impl Consumer {
             let Some(raw) = store.try_unsigned(0x1016, sub) else {
                 break;
             };
-            let (node, period_us) = ((raw >> 16) as u8, (raw & 0xFFFF) * 1000);
-            let active = enabled && period_us > 0 && NodeId::new(node).is_some();
-            let (node, period_us) = if active { (node, period_us) } else { (0, 0) };
-            if (node, period_us) != (watch.node, watch.period_us) {
+            let (node, period_ms) = ((raw >> 16) as u8, raw as u16);
+            let active = enabled && period_ms > 0 && NodeId::new(node).is_some();
+            let (node, period_ms) = if active { (node, period_ms) } else { (0, 0) };
+            if (node, period_ms) != (watch.node, watch.period_ms) {
                 *watch = Watch {
                     node,
-                    period_us,
+                    period_ms,
                     ..NOBODY
                 };
             }
@@ -68,21 +69,21 @@ impl Consumer {
         self.watches
             .iter_mut()
             .take(self.count)
-            .filter(|watch| watch.period_us > 0)
+            .filter(|watch| watch.period_ms > 0)
     }
 
     pub(super) fn heartbeat(&mut self, node: u8, now: Instant) {
         for watch in self.watches().filter(|watch| watch.node == node) {
             watch.lost = false;
-            watch.deadline = Some(now.plus_micros(watch.period_us));
+            watch.deadline = Deadline::at(now.plus_millis(watch.period_ms.into()));
         }
     }
 
     #[inline]
     pub(super) fn handle_timeout(&mut self, now: Instant) {
         for watch in self.watches() {
-            if watch.deadline.is_some_and(|at| at <= now) {
-                watch.deadline = None;
+            if watch.deadline.is_due(now) {
+                watch.deadline = Deadline::NEVER;
                 watch.lost = true;
             }
         }
@@ -94,11 +95,8 @@ impl Consumer {
     }
 
     #[inline]
-    pub(super) fn deadline(&self) -> Option<Instant> {
-        self.watches
-            .iter()
-            .take(self.count)
-            .filter_map(|watch| watch.deadline)
-            .min()
+    pub(super) fn deadline(&self) -> Deadline {
+        let watches = self.watches.iter().take(self.count);
+        watches.fold(Deadline::NEVER, |first, watch| first.or(watch.deadline))
     }
 }

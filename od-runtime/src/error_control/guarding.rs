@@ -1,5 +1,6 @@
 //! Node and life guarding (CiA 301, chapter 7.2.8.2.1; objects 100Ch and 100Dh).
 
+use crate::deadline::Deadline;
 use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
@@ -10,9 +11,9 @@ pub(super) struct Guard {
     enabled: bool,
     toggle: bool,
     /// Guard time × life time factor; 0: the master is not watched.
-    life_us: u64,
+    life_ms: u32,
     /// The master is lost then; set by its first request.
-    deadline: Option<Instant>,
+    deadline: Deadline,
     lost: bool,
 }
 
@@ -21,20 +22,20 @@ impl Guard {
         Self {
             enabled: false,
             toggle: false,
-            life_us: 0,
-            deadline: None,
+            life_ms: 0,
+            deadline: Deadline::NEVER,
             lost: false,
         }
     }
 
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
-        let life_us = store.unsigned(0x100C, 0) * store.unsigned(0x100D, 0) * 1000;
-        if !enabled || life_us == 0 {
-            self.deadline = None;
+        let life_ms = (store.unsigned(0x100C, 0) * store.unsigned(0x100D, 0)) as u32;
+        if !enabled || life_ms == 0 {
+            self.deadline = Deadline::NEVER;
             self.lost = false;
         }
         self.enabled = enabled;
-        self.life_us = life_us;
+        self.life_ms = life_ms;
     }
 
     pub(super) fn request(&mut self, state: State, now: Instant) -> Option<u8> {
@@ -42,7 +43,10 @@ impl Guard {
             return None;
         }
         self.lost = false;
-        self.deadline = (self.life_us > 0).then(|| now.plus_micros(self.life_us));
+        self.deadline = match self.life_ms {
+            0 => Deadline::NEVER,
+            life => Deadline::at(now.plus_millis(life.into())),
+        };
         let answer = state as u8 | u8::from(self.toggle) << 7;
         self.toggle = !self.toggle;
         Some(answer)
@@ -50,8 +54,8 @@ impl Guard {
 
     #[inline]
     pub(super) fn handle_timeout(&mut self, now: Instant) {
-        if self.deadline.is_some_and(|at| at <= now) {
-            self.deadline = None;
+        if self.deadline.is_due(now) {
+            self.deadline = Deadline::NEVER;
             self.lost = true;
         }
     }
@@ -62,7 +66,7 @@ impl Guard {
     }
 
     #[inline]
-    pub(super) fn deadline(&self) -> Option<Instant> {
+    pub(super) fn deadline(&self) -> Deadline {
         self.deadline
     }
 }

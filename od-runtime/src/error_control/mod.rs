@@ -10,6 +10,7 @@ mod heartbeat;
 
 pub(crate) use heartbeat::Producer;
 
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::Profile;
 use crate::store::Store;
@@ -20,10 +21,12 @@ use od_wire::{CanId, Instant, NodeId};
 ///
 /// CiA 301: guarding while 1017h is 0. A family may have a switch for it instead, which
 /// leaves nothing of the heartbeat, neither producer nor consumer.
-pub(crate) fn guards(store: &Store<'_>, profile: &Profile) -> bool {
+pub(crate) fn guards<D: Device>(store: &Store<'_>, profile: &Profile) -> bool {
     match profile.guarding_switch {
-        Some((index, mask)) => store.unsigned(index, 0) & u64::from(mask) != 0,
-        None => store.unsigned(0x1017, 0) == 0 && store.try_unsigned(0x100C, 0).is_some(),
+        Some((index, mask)) => store.word(index, 0, 0) & mask != 0,
+        None => {
+            D::GUARDING && store.word(0x1017, 0, 0) == 0 && store.try_unsigned(0x100C, 0).is_some()
+        }
     }
 }
 
@@ -60,7 +63,7 @@ impl Monitor {
 
     /// Reads 100Ch, 100Dh and 1016h again.
     pub(crate) fn configure<D: Device>(&mut self, store: &Store<'_>, profile: &Profile) {
-        let guards = guards(store, profile);
+        let guards = guards::<D>(store, profile);
         if D::GUARDING {
             self.guard.configure(store, guards);
         }
@@ -114,14 +117,12 @@ impl Monitor {
 
     /// When somebody is lost unless heard of.
     #[inline]
-    pub(crate) fn deadline<D: Device>(&self) -> Option<Instant> {
-        let guard = self.guard.deadline().filter(|_| D::GUARDING);
-        let consumer = if D::CONSUMER {
-            self.consumer.deadline()
-        } else {
-            None
-        };
-        let deadlines = [guard, consumer];
-        deadlines.into_iter().flatten().min()
+    pub(crate) fn deadline<D: Device>(&self) -> Deadline {
+        match (D::GUARDING, D::CONSUMER) {
+            (true, true) => self.guard.deadline().or(self.consumer.deadline()),
+            (true, false) => self.guard.deadline(),
+            (false, true) => self.consumer.deadline(),
+            (false, false) => Deadline::NEVER,
+        }
     }
 }

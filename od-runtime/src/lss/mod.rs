@@ -213,7 +213,7 @@ impl Slave {
                 return error::NOT_SUPPORTED;
             }
         }
-        let ours = |row: Row| [profile.node_id, profile.bit_rate].contains(&row.address());
+        let ours = |row: &Row| [profile.node_id, profile.bit_rate].contains(&row.address());
         let profile = objects.profile();
         match image::save_only(objects.storage, &objects.store, &profile.store, &ours) {
             Ok(()) => error::NONE,

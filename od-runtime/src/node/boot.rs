@@ -4,8 +4,10 @@ use od_model::row::Row;
 use od_wire::nmt::State;
 use od_wire::{CobId, Instant, NodeId};
 
+use super::ear::Ear;
 use super::{BusEvent, Event, Machines, Node, Unfit};
 use crate::application::Reset;
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::lent::Lent;
@@ -46,6 +48,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let objects = device.objects(node.node_id, now, &mut self.outbox);
         let mut objects = objects.ok_or(StoreTooSmall { needed })?;
         node.now = now;
+        node.next = Instant::ZERO;
         node.powered = true;
         node.mute = None;
         node.discard_frames();
@@ -59,7 +62,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// [`NmtProfile::reset_node_us`]: crate::NmtProfile::reset_node_us
     pub fn boot_at_once(&mut self, device: &mut Lent<'_>, now: Instant) {
         if let Some((node, mut objects)) = self.open(device, now)
-            && node.boot_at.is_some()
+            && node.boot_at.is_set()
         {
             node.boot_up(&mut objects);
         }
@@ -70,13 +73,15 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         self.outbox.saving = None;
         let node = &mut self.machines;
         node.powered = false;
-        node.save_at = None;
+        node.save_at = Deadline::NEVER;
+        node.next = Instant::ZERO;
+        node.ear = Ear::DEAF;
         node.discard_frames();
         node.emcy.reset();
         node.forget_transfers();
         node.stop_pdos();
         node.state = State::Initialising;
-        node.boot_at = None;
+        node.boot_at = Deadline::NEVER;
     }
 }
 
@@ -103,7 +108,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.bus = BusEvent::Active;
         self.reset_due = false;
         self.lost = false;
-        self.tick_at = None;
+        self.tick_at = Deadline::NEVER;
         self.wanted_changed = true;
         self.state = State::Initialising;
         if D::SYNC_PRODUCER {
@@ -116,7 +121,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         } else {
             // A save that was not complete will not be; `load` finds out.
             objects.outbox.saving = None;
-            self.save_at = None;
+            self.save_at = Deadline::NEVER;
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
             } else {
@@ -130,7 +135,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if let Some(rate) = rate {
             self.event(Event::BitRate(rate));
         }
-        self.boot_at = Some(objects.now.plus_micros(delay.into()));
+        self.boot_at = Deadline::at(objects.now.plus_micros(delay.into()));
+        self.listen(objects);
         if delay == 0 {
             self.boot_up(objects);
         }
@@ -175,7 +181,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         // bus with, or all that can be saved or written; it leaves the errors that last.
         let lss = objects.profile().lss;
         let scope = objects.profile().nmt.reset_communication;
-        let which = |row: Row| {
+        let which = |row: &Row| {
             let address = row.address();
             let starts_with = |lss: LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {
@@ -216,29 +222,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         objects.application(|application, context| application.reset(context, reset));
+        objects.look_for_live();
     }
 
     /// The end of initialisation: services take their configuration, the boot-up message
     /// goes out, Pre-operational begins.
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
-        self.boot_at = None;
+        self.boot_at = Deadline::NEVER;
         if self.unconfigured {
-            return;
+            return self.listen(objects);
         }
         self.configure(objects);
         self.push_error_control(0);
         self.state = State::PreOperational;
+        self.listen(objects);
         self.event(Event::State(self.state));
         if D::SYNC_PRODUCER || D::TIME {
             self.configure_clocks(objects);
         }
         self.heartbeat
-            .configure(&objects.store, objects.profile(), objects.now);
+            .configure::<D>(&objects.store, objects.profile(), objects.now);
         if Self::HAS_MONITOR {
             self.monitor
                 .configure::<D>(&objects.store, objects.profile());
         }
-        self.tick_at = objects.application(|application, context| application.tick(context));
+        self.tick(objects);
         let self_start = objects.profile().nmt.self_start;
         if self_start.is_some_and(|switch| objects.has_bits(switch)) {
             self.enter(objects, State::Operational);
@@ -251,8 +259,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// Every service reads its objects again.
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
-        let sync = objects.store.try_unsigned(0x1005, 0).unwrap_or(0x80);
-        self.sync_id = CobId::new(sync as u32).can_id();
+        self.sync_id = CobId::new(objects.store.word(0x1005, 0, 0x80)).can_id();
         let dictionary = objects.store.dictionary();
         self.tpdo_count = dictionary.tpdos().min(PDO);
         self.rpdo_count = dictionary.rpdos().min(PDO);
@@ -261,10 +268,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 tpdo.start(objects);
             }
         }
-        let mut tpdos = self.tpdo.iter().take(self.tpdo_count);
-        self.watches_changes = D::CHANGES
-            && objects.profile().pdo.event_on_change
-            && tpdos.any(pdo::Tpdo::watches_changes);
+        if D::CHANGES && objects.profile().pdo.event_on_change {
+            let mut tpdos = self.tpdo.iter().take(self.tpdo_count);
+            self.watches_changes = tpdos.clone().any(pdo::Tpdo::watches_changes);
+            self.watches_live = tpdos.any(pdo::Tpdo::watches_live);
+        }
         if D::RPDOS {
             for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
                 rpdo.configure(objects, number as u16);
@@ -274,5 +282,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::SYNC_PRODUCER || D::TIME {
             self.configure_clocks(objects);
         }
+        self.listen(objects);
     }
 }

@@ -103,11 +103,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         // The error behaviour may have led to another state, but not back to the bus.
         self.stop_pdos();
+        self.listen(objects);
     }
 
     /// The CAN controller restarted, and the NMT state goes on.
     fn come_back(&mut self, objects: &mut Objects<'_, D>) {
         self.mute = None;
+        self.listen(objects);
         self.event(Event::BusOn);
         self.emcy.set_silent(&mut objects.store, 0);
         self.take_state(objects, BusEvent::Active);
@@ -122,7 +124,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// A switch delay of LSS is over.
-    pub(super) fn end_mute(&mut self) {
+    pub(super) fn end_mute(&mut self, objects: &Objects<'_, D>) {
         let Some(mute) = self.mute.take() else { return };
         if let Some(bit_rate) = mute.bit_rate() {
             self.event(Event::BitRate(bit_rate));
@@ -134,6 +136,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 });
             }
         }
+        self.listen(objects);
     }
 
     /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN

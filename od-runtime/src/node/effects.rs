@@ -1,9 +1,12 @@
 //! Effects of a call: services read changed objects again, saves end, errors go out.
 
+use od_wire::Instant;
 use od_wire::nmt::State;
 
+use super::ear::Ear;
 use super::{Event, Machines};
 use crate::application::Signals;
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::error_control;
 use crate::extras::Extras;
@@ -21,16 +24,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if !objects.outbox.is_empty() {
             self.empty_outbox(objects);
         }
-        if D::CHANGES && self.watches_changes && self.state == State::Operational {
+        if D::CHANGES && self.watches_changes {
+            self.notice_changes(objects);
+        }
+    }
+
+    #[inline(never)]
+    fn notice_changes(&mut self, objects: &mut Objects<'_, D>) {
+        if self.state == State::Operational {
             self.each_tpdo(|pdo| pdo.notice_change(objects));
         }
     }
 
+    /// Asks the application what is due.
+    #[inline(never)]
+    pub(super) fn tick(&mut self, objects: &mut Objects<'_, D>) {
+        let at = objects.application(|application, context| application.tick(context));
+        self.tick_at = Deadline::of(at);
+    }
+
     #[cold]
     fn empty_outbox(&mut self, objects: &mut Objects<'_, D>) {
+        self.next = Instant::ZERO;
         self.apply_effects(objects);
         if objects.outbox.signals.take(Signals::TICK) {
-            self.tick_at = objects.application(|application, context| application.tick(context));
+            self.tick(objects);
         }
         let send_time = objects.outbox.signals.take(Signals::SEND_TIME);
         if D::TIME && send_time {
@@ -46,12 +64,16 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         self.take_errors(objects);
+        // A frame that filled it made the node listen to everything.
+        if self.ear.codes == Ear::EVERYTHING {
+            self.listen(objects);
+        }
     }
 
     /// A save that took its time is complete: its request is answered, and the one behind it.
     #[cold]
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
-        self.save_at = None;
+        self.save_at = Deadline::NEVER;
         let Some(done) = objects.complete_save() else {
             return;
         };
@@ -88,7 +110,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 Effect::Saved(sub) => Event::Saved(sub),
                 Effect::NotSaved => Event::NotSaved,
                 Effect::Saving => {
-                    self.save_at = objects.outbox.saving.map(|saving| saving.due);
+                    self.save_at = Deadline::of(objects.outbox.saving.map(|saving| saving.due));
                     continue;
                 }
                 Effect::Restored(sub) => {
@@ -103,7 +125,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         if heartbeat {
             self.heartbeat
-                .configure(&objects.store, objects.profile(), objects.now);
+                .configure::<D>(&objects.store, objects.profile(), objects.now);
         }
         if Self::HAS_MONITOR && monitor {
             self.wanted_changed = true;

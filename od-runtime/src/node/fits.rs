@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use od_model::{Dictionary, Literal};
+use od_model::Dictionary;
 use od_wire::CobId;
 
 use super::Node;
@@ -124,13 +124,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         let mut at = 0;
         while at < dictionary.len() {
-            let entry = dictionary.at(at);
-            match entry.address.index {
+            let row = dictionary.rows()[at];
+            match row.index() {
                 index @ 0x1201..=0x127F if index - 0x1201 >= Self::SERVERS => {
                     return Err(Unfit::SdoServer(index));
                 }
                 0x1005
-                    if produces_sync(entry.default)
+                    if CobId::new(row.default(dictionary.pool(), 0) as u32).produces_sync()
                         && !(D::SYNC_PRODUCER && X::CLOCKS && dictionary.has(0x1006)) =>
                 {
                     return Err(Unfit::SyncProducer);
@@ -171,14 +171,5 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         {
             panic!("{}", unfit.reason());
         }
-    }
-}
-
-/// Whether a default value of 1005h has bit 30 set.
-const fn produces_sync(default: Literal) -> bool {
-    match default {
-        Literal::Unsigned(raw) => CobId::new(raw as u32).produces_sync(),
-        Literal::NodeId(offset) => CobId::new(offset).produces_sync(),
-        _ => false,
     }
 }

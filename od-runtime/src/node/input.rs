@@ -2,9 +2,11 @@
 
 use od_wire::emcy::Emcy;
 use od_wire::nmt::{self, Command, State};
+use od_wire::sdo::expedited_upload;
 use od_wire::{CanId, Frame, Instant};
 
 use super::controller::Mute;
+use super::ear::Ear;
 use super::{Machines, Node};
 use crate::application::Reset;
 use crate::device::Device;
@@ -13,12 +15,56 @@ use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::lss::{self, Action};
 use crate::objects::Objects;
-use crate::pdo::Received;
+use crate::pdo::{self, Received};
+use crate::store::little_endian;
+
+/// The CAN-ID of NMT commands.
+const NMT: CanId = CanId::standard(0);
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Handles a frame that was received.
     #[inline]
     pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {
+        let node = &mut self.machines;
+        node.now = node.now.max(now);
+        let id = frame.id();
+        if !node.ear.hears(id) {
+            return;
+        }
+        self.receive(device, frame);
+    }
+
+    /// A frame that is for this node: what comes all day, or any other.
+    #[inline(never)]
+    fn receive(&mut self, device: &mut Lent<'_>, frame: &Frame) {
+        let node = &mut self.machines;
+        let id = frame.id();
+        // Some devices have to look at more than the frame.
+        let is_seldom = frame.is_remote() || id == NMT || node.ear.codes == Ear::EVERYTHING;
+        let is_whole = device.values.len() >= device.dictionary.store_len();
+        if !is_seldom && is_whole && id == node.ear.sdo {
+            let quick = node.sdo.quick(frame).and_then(|address| {
+                let row = device.dictionary.plain_row(address)?;
+                let is_quick = address.index != 0x1003 && !self.outbox.is_live(address);
+                let slot = row.plain();
+                let at = slot.offset as usize;
+                let value = device.values.get(at..at + usize::from(slot.len))?;
+                is_quick.then_some((address, little_endian(value) as u32, slot.len))
+            });
+            if let Some((address, value, len)) = quick {
+                node.sdo.begin(address);
+                return node.answer(expedited_upload(address, len as u8, value));
+            }
+        } else if !is_seldom && id == node.ear.sync && node.count_sync(frame) {
+            return;
+        }
+        self.handle_seldom(device, frame);
+    }
+
+    /// Any frame.
+    #[inline(never)]
+    fn handle_seldom(&mut self, device: &mut Lent<'_>, frame: &Frame) {
+        let now = self.machines.now;
         let Some((node, mut objects)) = self.open(device, now) else {
             return;
         };
@@ -26,7 +72,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return node.handle_unconfigured(&mut objects, frame);
         }
         let id = frame.id();
-        if id == CanId::standard(0) {
+        if id == NMT {
             if !frame.is_remote() {
                 node.handle_nmt(&mut objects, frame);
             }
@@ -55,14 +101,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         } else if D::SERVERS && node.handle_server(&mut objects, frame) {
         } else if D::TIME && node.time_id() == Some(id) {
             node.handle_time(&mut objects, frame);
-        } else if node.state == State::Operational {
-            if id == node.sync_id {
-                node.handle_sync(&mut objects, frame);
-            } else if D::RPDOS {
-                node.handle_rpdo(&mut objects, frame);
-            }
-        } else {
+        } else if node.state != State::Operational {
             return;
+        } else if id == node.sync_id {
+            node.handle_sync(&mut objects, frame);
+        } else if D::RPDOS {
+            node.handle_rpdo(&mut objects, frame);
         }
         node.finish(&mut objects);
         node.reset_if_due(&mut objects);
@@ -72,15 +116,25 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// later.
     #[inline]
     pub fn handle_timeout(&mut self, device: &mut Lent<'_>, now: Instant) {
+        let node = &mut self.machines;
+        node.now = node.now.max(now);
+        if node.now < node.next && !node.watches_live {
+            return;
+        }
+        self.handle_due(device, now);
+    }
+
+    #[inline(never)]
+    fn handle_due(&mut self, device: &mut Lent<'_>, now: Instant) {
         let Some((node, mut objects)) = self.open(device, now) else {
             return;
         };
         let now = objects.now;
-        if node.boot_at.is_some_and(|at| at <= now) {
+        if node.boot_at.is_due(now) {
             node.boot_up(&mut objects);
         }
         if node.mute.is_some_and(|mute| mute.until <= now) {
-            node.end_mute();
+            node.end_mute(&objects);
         }
         if node.heartbeat.handle_timeout(now) {
             node.push_error_control(node.state as u8);
@@ -95,11 +149,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.monitor.handle_timeout::<D>(now);
             node.poll_monitor(&mut objects);
         }
-        if D::STORAGE && node.save_at.is_some_and(|at| at <= now) {
+        if D::STORAGE && node.save_at.is_due(now) {
             node.end_save(&mut objects);
         }
-        if node.tick_at.is_some_and(|at| at <= now) {
-            node.tick_at = objects.application(|application, context| application.tick(context));
+        if node.tick_at.is_due(now) {
+            node.tick(&mut objects);
         }
         node.produce_sync(&mut objects);
         if node.state == State::Operational {
@@ -107,6 +161,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         node.finish(&mut objects);
         node.reset_if_due(&mut objects);
+        node.next = node.timers().moment();
     }
 
     /// Tells the application that the world outside the bus changed (shaft, faults, switches).
@@ -117,7 +172,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if node.state == State::Initialising {
             return;
         }
-        node.tick_at = objects.application(|application, context| application.tick(context));
+        node.tick(&mut objects);
         if let Some(answer) = node.sdo.handle_change(&mut objects) {
             node.answer(answer);
         }
@@ -184,6 +239,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                     bit_rate: u16::from(bit_rate) + 1,
                     silence_ms,
                 });
+                self.listen(objects);
             }
         }
         self.finish(objects);
@@ -228,6 +284,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
             self.pdo_pending |= pdo.is_pending();
         }
+    }
+
+    /// SYNC, where nothing has to be done for it now. Returns whether that is so.
+    #[inline(always)]
+    fn count_sync(&mut self, frame: &Frame) -> bool {
+        let (tpdos, rpdos) = (&self.tpdo, &self.rpdo);
+        let only_counts = frame.dlc() <= 1
+            && tpdos
+                .iter()
+                .take(self.tpdo_count)
+                .all(pdo::Tpdo::only_counts)
+            && !(D::RPDOS && rpdos.iter().any(pdo::Rpdo::is_waiting));
+        if only_counts {
+            let mut pending = self.pdo_pending;
+            for pdo in self.tpdos() {
+                pending |= pdo.count_sync();
+            }
+            self.pdo_pending = pending;
+        }
+        only_counts
     }
 
     /// SYNC: with a counter of one byte or without.

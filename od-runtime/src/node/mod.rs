@@ -12,6 +12,7 @@ mod boot;
 mod bus;
 mod clocks;
 mod controller;
+mod ear;
 mod effects;
 mod errors;
 mod event;
@@ -25,6 +26,7 @@ mod wanted;
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
+use crate::deadline::Deadline;
 use crate::device::{AnyDevice, Device};
 use crate::extras::Extras;
 use crate::fifo::Fifo;
@@ -68,9 +70,13 @@ struct Machines<D, const PDO: usize, const SDO: usize, X> {
     powered: bool,
     now: Instant,
     /// Boot-up is due then; only while initialising.
-    boot_at: Option<Instant>,
-    tick_at: Option<Instant>,
+    boot_at: Deadline,
+    tick_at: Deadline,
+    /// The first of all deadlines but those of frames that wait; [`Instant::ZERO`]: not known, and
+    /// [`Instant::MAX`]: never.
+    next: Instant,
     sync_id: CanId,
+    ear: ear::Ear,
     out: Fifo<Frame, 8>,
     /// The frame before those of `out`, if it is an SDO response: its data as one word. Most
     /// frames are, and this way they do not go through memory in pieces.
@@ -89,7 +95,7 @@ struct Machines<D, const PDO: usize, const SDO: usize, X> {
     /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
     lost: bool,
     /// A save is complete then.
-    save_at: Option<Instant>,
+    save_at: Deadline,
     emcy: emcy::Producer,
     tpdo: [pdo::Tpdo; PDO],
     tpdo_count: usize,
@@ -97,6 +103,8 @@ struct Machines<D, const PDO: usize, const SDO: usize, X> {
     rpdo_count: usize,
     /// There is a TPDO that is sent when a mapped value changes.
     watches_changes: bool,
+    /// Such a value may change without a word to the node.
+    watches_live: bool,
     /// A TPDO may be waiting to be sent.
     pdo_pending: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
@@ -177,6 +185,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return None;
         }
         machines.now = machines.now.max(now);
+        machines.next = Instant::ZERO;
         let objects = device.objects(machines.node_id, machines.now, &mut self.outbox)?;
         Some((machines, objects))
     }
@@ -192,9 +201,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             state: State::Initialising,
             powered: false,
             now: Instant::ZERO,
-            boot_at: None,
-            tick_at: None,
+            boot_at: Deadline::NEVER,
+            tick_at: Deadline::NEVER,
+            next: Instant::ZERO,
             sync_id: CanId::standard(0),
+            ear: ear::Ear::DEAF,
             out: Fifo::new(Frame::standard(0, &[])),
             answer: None,
             events: Fifo::new(Event::State(State::Initialising)),
@@ -206,13 +217,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             bus: BusEvent::Active,
             reset_due: false,
             lost: false,
-            save_at: None,
+            save_at: Deadline::NEVER,
             emcy: emcy::Producer::new(),
             tpdo: [pdo::Tpdo::NONE; PDO],
             tpdo_count: 0,
             rpdo: [pdo::Rpdo::NONE; PDO],
             rpdo_count: 0,
             watches_changes: false,
+            watches_live: false,
             pdo_pending: false,
             wanted_changed: false,
             extras,
@@ -232,7 +244,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// It has started, and waits for LSS to give it a node ID.
     fn is_unconfigured(&self) -> bool {
-        self.unconfigured && self.boot_at.is_none() && self.mute.is_none()
+        self.unconfigured && !self.boot_at.is_set() && self.mute.is_none()
     }
 
     /// The TPDOs that the dictionary has.
@@ -269,6 +281,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if state == State::Stopped {
             self.cut_transfers(objects);
         }
+        self.listen(objects);
     }
 
     fn start_pdos(&mut self, objects: &mut Objects<'_, D>) {

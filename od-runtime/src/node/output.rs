@@ -3,11 +3,15 @@
 use od_wire::nmt::State;
 use od_wire::{Frame, Instant};
 
+use super::ear::Ear;
 use super::{Event, Machines, Node};
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
+use crate::pdo;
+use crate::store::Store;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
@@ -26,30 +30,53 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return Some(frame);
         }
         if node.pdo_pending
-            || node.emcy.deadline().is_some()
-            || D::BLOCK && node.sdo.is_sending()
-            || node.is_server_sending()
+            && let Some(frame) = self.poll_pdo(device, now)
         {
+            return Some(frame);
+        }
+        let node = &mut self.machines;
+        if node.emcy.is_waiting() || D::BLOCK && node.sdo.is_sending() || node.is_server_sending() {
             return self.poll_services(device, now);
+        }
+        if node.next == Instant::ZERO {
+            node.next = node.timers().moment();
         }
         None
     }
 
-    /// Returns the next frame that no request asked for: PDO, EMCY message, block segment.
+    /// Returns the next PDO that is ready.
+    #[inline(never)]
+    fn poll_pdo(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
+        let node = &mut self.machines;
+        let now = now.max(node.now);
+        let node_id = node.node_id;
+        let pdos = node.tpdo.get_mut(..node.tpdo_count)?;
+        // One that the inhibit time holds back stays pending.
+        let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready(now)) else {
+            node.pdo_pending = pdos.iter().any(pdo::Tpdo::is_pending);
+            return None;
+        };
+        if pdo.is_live() {
+            let mut objects: Objects<'_, D> = device.objects(node_id, now, &mut self.outbox)?;
+            pdo.refresh(&mut objects);
+            if !objects.outbox.is_empty() {
+                // What the application has to say of the values comes with the next call.
+                node.next = Instant::ZERO;
+                node.ear.codes = Ear::EVERYTHING;
+            }
+        }
+        let store = Store::new(&device.dictionary, device.values, node_id).ok()?;
+        let frame = pdo.send(&store, now);
+        node.pdo_pending = pdos.iter().any(pdo::Tpdo::is_pending);
+        Some(frame)
+    }
+
+    /// Returns the next frame that no request asked for but a PDO: EMCY message, block segment.
     #[inline(never)]
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let now = now.max(node.now);
         let mut objects: Objects<'_, D> = device.objects(node.node_id, now, &mut self.outbox)?;
-        if node.pdo_pending {
-            let mut pdos = node.tpdos().iter_mut();
-            let frame = pdos.find_map(|pdo| pdo.poll(&mut objects));
-            // Those before the one that was sent are not ready.
-            node.pdo_pending = pdos.any(|pdo| pdo.is_ready(now));
-            if frame.is_some() {
-                return frame;
-            }
-        }
         if node.sends_emcy() {
             let frame = node.emcy.poll(&objects.store, now);
             if frame.is_some() {
@@ -57,6 +84,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             }
         }
         if D::BLOCK {
+            node.next = Instant::ZERO;
             if let Some(segment) = node.sdo.poll(&mut objects) {
                 return Some(node.response(segment));
             }
@@ -114,45 +142,54 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         matches!(self.state, State::PreOperational | State::Operational) && self.mute.is_none()
     }
 
+    #[inline(never)]
     fn deadline(&self) -> Option<Instant> {
         if !self.powered {
             return None;
         }
-        let mut next = None;
-        let mut consider = |at: Option<Instant>| {
-            next = match (next, at) {
-                (Some(next), Some(at)) => Some(at.min(next)),
-                (next, at) => next.or(at),
-            }
+        let mut first = match self.next {
+            Instant::ZERO => self.timers(),
+            next => Deadline::at(next),
         };
-        consider(self.boot_at);
-        consider(self.tick_at);
-        consider(self.heartbeat.deadline());
-        if Self::HAS_MONITOR {
-            consider(self.monitor.deadline::<D>());
-        }
-        consider(self.mute.map(|mute| mute.until));
-        if D::BLOCK || D::STREAMS {
-            consider(self.sdo.deadline());
-        }
-        if D::SYNC_PRODUCER {
-            consider(self.sync_deadline());
-        }
-        if D::SERVERS {
-            consider(self.servers_deadline());
-        }
-        if D::STORAGE {
-            consider(self.save_at);
-        }
         if self.sends_emcy() {
-            consider(self.emcy.deadline());
+            first = first.or(self.emcy.deadline());
         }
         if self.state == State::Operational && self.mute.is_none() {
             for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
-                consider(pdo.deadline());
+                first = first.or(pdo.ready_at());
             }
         }
         // A host that came to the end of time would be called back there for ever.
-        next.filter(|at| *at < Instant::MAX)
+        first.is_set().then(|| first.moment())
+    }
+
+    /// The first deadline of all that is not a frame that waits.
+    #[inline(never)]
+    pub(super) fn timers(&self) -> Deadline {
+        let mut first = self.boot_at.or(self.tick_at).or(self.heartbeat.deadline());
+        if Self::HAS_MONITOR {
+            first = first.or(self.monitor.deadline::<D>());
+        }
+        if let Some(mute) = self.mute {
+            first = first.or(Deadline::at(mute.until));
+        }
+        if D::BLOCK || D::STREAMS {
+            first = first.or(self.sdo.deadline());
+        }
+        if D::SYNC_PRODUCER {
+            first = first.or(Deadline::of(self.sync_deadline()));
+        }
+        if D::SERVERS {
+            first = first.or(self.servers_deadline());
+        }
+        if D::STORAGE {
+            first = first.or(self.save_at);
+        }
+        if self.state == State::Operational && self.mute.is_none() {
+            for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
+                first = first.or(pdo.deadline());
+            }
+        }
+        first
     }
 }

@@ -1,9 +1,10 @@
 //! The SDO servers past the default one (1201h to 127Fh; CiA 301, chapter 7.5.2.33).
 
 use od_model::Address;
-use od_wire::{AbortCode, Frame, Instant};
+use od_wire::{AbortCode, Frame};
 
 use super::Machines;
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::objects::Objects;
@@ -184,9 +185,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// When one of them has something to do.
-    pub(super) fn servers_deadline(&self) -> Option<Instant> {
+    pub(super) fn servers_deadline(&self) -> Deadline {
         let servers = self.extras.servers().iter();
-        servers.filter_map(|one| one.server.deadline()).min()
+        servers.fold(Deadline::NEVER, |first, one| {
+            first.or(one.server.deadline())
+        })
     }
 
     fn send(&mut self, frame: Option<Frame>) {

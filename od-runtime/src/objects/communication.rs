@@ -32,28 +32,29 @@ pub(super) const fn is_mapping_count(address: Address) -> bool {
 
 /// Checks a value that a master wants to write to an object below 2000h. `bytes` has the
 /// entry's length.
+#[inline(never)]
 pub(super) fn check<D: Device>(
     store: &Store<'_>,
     profile: &Profile,
-    row: Row,
+    row: &Row,
     bytes: &[u8],
 ) -> Result<(), AbortCode> {
     let Address { index, sub } = row.address();
-    let value = little_endian(bytes);
-    let cob_id = CobId::new(value as u32);
-    let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, cob_id, has_valid_bit);
+    // What is longer than a word (of a dictionary of somebody's own) is too great.
+    let value = u32::try_from(little_endian(bytes)).unwrap_or(u32::MAX);
+    let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
         (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
         // A device that produces no SYNC cannot have bit 30 set (chapter 7.5.2.5).
-        (0x1005, 0) if cob_id.produces_sync() && !produces_sync::<D>(store) => {
+        (0x1005, 0) if CobId::new(value).produces_sync() && !produces_sync::<D>(store) => {
             Err(AbortCode::ValueRange)
         }
-        (0x1005, 0) if D::SYNC_PRODUCER && is_in_use(store, index, cob_id, PRODUCER) => {
+        (0x1005, 0) if D::SYNC_PRODUCER && is_in_use(store, index, value, PRODUCER) => {
             Err(AbortCode::ValueRange)
         }
         (0x1005, 0) => check_cob_id(false),
-        (0x1012, 0) if D::TIME && is_in_use(store, index, cob_id, PRODUCER | CONSUMER) => {
+        (0x1012, 0) if D::TIME && is_in_use(store, index, value, PRODUCER | CONSUMER) => {
             Err(AbortCode::ValueRange)
         }
         (0x1012, 0) if D::TIME => check_cob_id(false),
@@ -65,11 +66,16 @@ pub(super) fn check<D: Device>(
             Err(AbortCode::DeviceState)
         }
         // A node has one heartbeat time (chapter 7.5.2.13).
-        (0x1016, 1..) if is_watched_elsewhere(store, sub, value) => Err(AbortCode::Incompatible),
-        (0x1014, 0) | (0x1400..=0x15FF | 0x1800..=0x19FF, 1) => check_cob_id(true),
+        (0x1016, 1..) if D::CONSUMER && is_watched_elsewhere(store, sub, value) => {
+            Err(AbortCode::Incompatible)
+        }
+        (0x1014, 0) | (0x1800..=0x19FF, 1) => check_cob_id(true),
         // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
         (0x1201..=0x127F, 1 | 2) if D::SERVERS => check_cob_id(true),
-        (0x1400..=0x15FF, 2) if matches!(value, 241..=253) => Err(AbortCode::ValueRange),
+        (0x1400..=0x15FF, 1) if D::RPDOS => check_cob_id(true),
+        (0x1400..=0x15FF, 2) if D::RPDOS && matches!(value, 241..=253) => {
+            Err(AbortCode::ValueRange)
+        }
         (0x1800..=0x19FF, 2) => {
             let mut types = profile.pdo.tpdo_types.iter();
             if types.any(|(low, high)| (*low..=*high).contains(&(value as u8))) {
@@ -84,14 +90,14 @@ pub(super) fn check<D: Device>(
         }
         (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => check_mapping_count(store, index, value),
         (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
-            if store.unsigned(index, 0) != 0 {
+            if store.word(index, 0, 0) != 0 {
                 return Err(profile.sdo.mapping_in_use);
             }
             // An entry that maps nothing can be written; it cannot be counted.
             if value == 0 {
                 return Ok(());
             }
-            check_mapped(store, index, value as u32).map(|_| ())
+            check_mapped(store, index, value).map(|_| ())
         }
         _ => Ok(()),
     }
@@ -115,17 +121,17 @@ const fn has<D: Device>(index: u16) -> bool {
 }
 
 /// Whether one of these bits is set and stays set, and the CAN-ID would change.
-fn is_in_use(store: &Store<'_>, index: u16, new: CobId, bits: u32) -> bool {
-    let old = store.unsigned(index, 0) as u32;
-    old & bits != 0 && new.raw() & bits != 0 && (old ^ new.raw()) & 0x3FFF_FFFF != 0
+fn is_in_use(store: &Store<'_>, index: u16, new: u32, bits: u32) -> bool {
+    let old = store.word(index, 0, 0);
+    old & bits != 0 && new & bits != 0 && (old ^ new) & 0x3FFF_FFFF != 0
 }
 
 /// Whether another sub-index of 1016h than `sub` has a time for the node of `value`, which has one.
-fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u64) -> bool {
+fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u32) -> bool {
     let (node, time) = (value >> 16 & 0xFF, value & 0xFFFF);
     let mut others = (1..=0x7F).filter(|other| *other != sub);
     let same = |other: u8| {
-        let entry = store.unsigned(0x1016, other);
+        let entry = store.word(0x1016, other, 0);
         entry >> 16 & 0xFF == node && entry & 0xFFFF != 0
     };
     time != 0 && (1..=127).contains(&node) && others.any(same)
@@ -133,14 +139,15 @@ fn is_watched_elsewhere(store: &Store<'_>, sub: u8, value: u64) -> bool {
 
 /// A COB-ID: its bits agree, it is not one that CiA 301 keeps for itself, and it
 /// changes only while bit 31 is set (unless the family allows more).
+#[inline(never)]
 fn check_cob_id(
     store: &Store<'_>,
     profile: &Profile,
-    row: Row,
-    new: CobId,
+    row: &Row,
+    new: u32,
     has_valid_bit: bool,
 ) -> Result<(), AbortCode> {
-    let old = CobId::new(store.number_of(row) as u32);
+    let (old, new) = (CobId::new(store.number_of(row) as u32), CobId::new(new));
     let valid = new.is_valid() || !has_valid_bit;
     if !new.is_consistent() || (valid && new.is_restricted()) {
         return Err(AbortCode::ValueRange);
@@ -154,13 +161,12 @@ fn check_cob_id(
 
 /// Whether the PDO of a communication parameter exists (bit 31 of its COB-ID clear).
 fn is_valid(store: &Store<'_>, parameter: u16) -> bool {
-    let cob_id = store.try_unsigned(parameter, 1);
-    cob_id.is_some_and(|raw| CobId::new(raw as u32).is_valid())
+    CobId::new(store.word(parameter, 1, 1 << 31)).is_valid()
 }
 
 /// Sub-index 0 of a mapping: 0 switches it off, a count needs that many entries that
 /// exist, can be mapped, and together fit into a frame (chapter 7.5.2.36).
-fn check_mapping_count(store: &Store<'_>, index: u16, count: u64) -> Result<(), AbortCode> {
+fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), AbortCode> {
     let mut bits = 0;
     for sub in 1..=count.min(0xFF) as u8 {
         let raw = store.try_unsigned(index, sub);
@@ -175,6 +181,7 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u64) -> Result<(), 
 
 /// One entry of the mapping object at `index`: what it names exists, can be mapped in this
 /// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
+#[inline(never)]
 pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<MapEntry, AbortCode> {
     let mapped = MapEntry::parse(raw);
     let transmits = index >= 0x1A00;

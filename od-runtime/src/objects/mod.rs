@@ -16,7 +16,7 @@ use crate::storage::{Storage, image};
 use crate::store::Store;
 use od_wire::{AbortCode, Instant};
 
-use outbox::Saving;
+use outbox::{Saving, live_bit};
 
 pub(crate) use communication::check_mapped;
 pub(crate) use outbox::{Effect, Outbox};
@@ -59,7 +59,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// Whether one of these bits of an object is set.
     pub(crate) fn has_bits(&self, (index, bits): (u16, u32)) -> bool {
-        self.store.unsigned(index, 0) & u64::from(bits) != 0
+        self.store.word(index, 0, 0) & bits != 0
     }
 
     /// Calls the application with its context.
@@ -77,13 +77,12 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// The row of the value at an address.
-    pub(crate) fn row(&self, address: Address) -> Result<Row, AbortCode> {
+    pub(crate) fn row(&self, address: Address) -> Result<&'c Row, AbortCode> {
         Ok(self.store.dictionary().row_of(address)?)
     }
 
     /// The bytes of a readable object, brought up to date. `number` is room for a
     /// value that is not in the store.
-    #[inline(always)] // into the one way from an SDO request to its answer
     pub(crate) fn read<'b>(
         &'b mut self,
         address: Address,
@@ -110,7 +109,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// Whether a value that is not plain (a number in the store) can be read from the store.
     #[inline(never)]
-    fn check_special(&mut self, row: Row) -> Result<(), Unread> {
+    fn check_special(&mut self, row: &Row) -> Result<(), Unread> {
         if !row.readable() {
             return Err(Unread::Abort(AbortCode::WriteOnly));
         }
@@ -121,7 +120,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Whether the application streams the value.
-    pub(crate) fn streams(&mut self, row: Row) -> bool {
+    pub(crate) fn streams(&mut self, row: &Row) -> bool {
         D::STREAMS && row.is_variable() && self.application.stream(row.address()).is_some()
     }
 
@@ -142,19 +141,38 @@ impl<'c, D: Device> Objects<'c, D> {
         self.outbox.effect(Effect::Written(address));
     }
 
+    /// Asks the application which values are live. The communication area is the services' own;
+    /// nothing in it is.
+    pub(crate) fn look_for_live(&mut self) {
+        let rows = self.store.dictionary().rows().iter();
+        let own = rows.filter(|row| row.index() >= 0x2000);
+        let live = own.filter(|row| self.application.is_live(row.address()));
+        self.outbox.live = live.fold(0, |bits, row| bits | live_bit(row.address()));
+    }
+
+    /// Whether the application may have to bring a value up to date.
+    #[inline(always)]
+    pub(crate) fn is_live(&self, address: Address) -> bool {
+        self.outbox.is_live(address)
+    }
+
     /// Has the application bring a live value up to date.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn refresh(&mut self, address: Address) -> Result<(), AbortCode> {
-        // The communication area is the services' own; nothing in it is live.
-        if address.index < 0x2000 {
-            return Ok(());
+        match self.is_live(address) {
+            true => self.refresh_live(address),
+            false => Ok(()),
         }
+    }
+
+    #[inline(never)]
+    fn refresh_live(&mut self, address: Address) -> Result<(), AbortCode> {
         self.application(|application, context| application.refresh(context, address))
     }
 
     /// Returns the row of a value, if it can be written.
     #[inline(never)]
-    pub(crate) fn writable(&self, address: Address) -> Result<Row, AbortCode> {
+    pub(crate) fn writable(&self, address: Address) -> Result<&'c Row, AbortCode> {
         let row = self.row(address)?;
         match row.writable() {
             true => Ok(row),
@@ -164,7 +182,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// Returns how many of `len` bytes the value accepts.
     #[inline(never)]
-    pub(crate) fn fit(&self, row: Row, len: usize) -> Result<usize, AbortCode> {
+    pub(crate) fn fit(&self, row: &Row, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile().sdo.length;
         let (low, high) = match row.size() {
             0 => {
@@ -196,7 +214,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     #[inline(never)]
-    fn change(&mut self, row: Row, bytes: &[u8]) -> Result<(), AbortCode> {
+    fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let address = row.address();
         let len = self.fit(row, bytes.len())?;
         let bytes = bytes.get(..len).unwrap_or(bytes);
@@ -251,7 +269,7 @@ impl<'c, D: Device> Objects<'c, D> {
         image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
         self.storage_is_sound();
         if profile.restore == crate::profile::Restore::AtOnce {
-            let which = |row| image::restores(profile, row, sub);
+            let which = |row: &Row| image::restores(profile, row, sub);
             profile.reset(&mut self.store, &which);
             self.application(|application, context| application.reset(context, Reset::Defaults));
         }
@@ -337,7 +355,7 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Updates the operating records before they are saved.
     pub(crate) fn refresh_life_record(&mut self) {
         for row in self.store.dictionary().rows() {
-            if image::is_life_record(*row) {
+            if image::is_life_record(row) {
                 // A value that cannot be updated is saved as it is.
                 let _ = self.refresh(row.address());
             }
@@ -348,7 +366,7 @@ impl<'c, D: Device> Objects<'c, D> {
     #[inline(never)]
     fn unused_error(&self, address: Address) -> Result<(), AbortCode> {
         match self.profile().sdo.unused_error {
-            Some(code) if u64::from(address.sub) > self.store.unsigned(0x1003, 0) => Err(code),
+            Some(code) if u32::from(address.sub) > self.store.word(0x1003, 0, 0) => Err(code),
             _ => Ok(()),
         }
     }

@@ -36,6 +36,14 @@ pub(crate) struct Outbox {
     pub(crate) saving: Option<Saving>,
     /// The request that began it is answered when it is complete.
     pub(crate) answer_later: bool,
+    /// A set of live values that may name a few others, too: bits by [`live_bit`].
+    pub(super) live: u32,
+}
+
+/// An address as one of 32 bits.
+#[inline(always)]
+pub(super) const fn live_bit(address: Address) -> u32 {
+    1 << (address.key().wrapping_mul(0x9E37_79B1) >> 27)
 }
 
 /// A save that takes its time.
@@ -57,12 +65,19 @@ impl Outbox {
             overflow: false,
             saving: None,
             answer_later: false,
+            live: 0,
         }
     }
 
     #[inline]
     pub(crate) const fn is_empty(&self) -> bool {
         self.effects.is_empty() && self.signals.is_idle()
+    }
+
+    /// Whether the application may have to bring the value at an address up to date.
+    #[inline(always)]
+    pub(crate) const fn is_live(&self, address: Address) -> bool {
+        self.live & live_bit(address) != 0 && address.index >= 0x2000
     }
 
     pub(super) fn effect(&mut self, effect: Effect) {

@@ -1,36 +1,29 @@
-//! Mapping of a PDO, read from its object once and kept.
+//! Mapping of a PDO: read from its object once, and kept.
 
 use od_model::row::Row;
+use od_model::typed::MapEntry;
 
 use crate::device::Device;
 use crate::objects::{Objects, check_mapped};
+use crate::store::{Store, little_endian};
 
-/// Entries that are kept; a mapping of more (of BOOLEANs, say) is read from its object each time.
+/// Entries that are kept; more (BOOLEANs, say) are read from the mapping object each time.
 const KEPT: usize = 8;
 
-/// One mapped value: the position of its entry in the dictionary, and its length.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Mapped {
-    /// One more than the position in the dictionary's entries; [`DUMMY`] for bits that nobody reads.
-    entry: u32,
-    bits: u8,
-}
-
-const DUMMY: u32 = 0;
-
-const NOTHING: Mapped = Mapped {
-    entry: DUMMY,
-    bits: 0,
-};
+/// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nobody
+/// reads, and above them its length in bits.
+type Mapped = u32;
 
 /// The mapping of one PDO.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Mapping {
     object: u16,
     count: u8,
     /// Length of the frame in bytes.
     len: u8,
     kept: [Mapped; KEPT],
+    /// The application brings one of the values up to date.
+    is_live: bool,
 }
 
 impl Mapping {
@@ -39,109 +32,137 @@ impl Mapping {
         object: 0,
         count: 0,
         len: 0,
-        kept: [NOTHING; KEPT],
+        kept: [0; KEPT],
+        is_live: false,
     };
 
-    /// Reads the mapping object at `object`. One that does not hold (an EDS that maps what
-    /// is not there) is an empty one: the PDO is off.
-    pub(super) fn load<D: Device>(objects: &Objects<'_, D>, object: u16) -> Self {
-        let count = objects.store.unsigned(object, 0).min(64) as u8;
-        let mut mapping = Self {
-            object,
-            count,
-            ..Self::NONE
-        };
+    /// Reads the mapping object at `object`. Answers whether it is another one than before. One
+    /// that does not hold (an EDS that maps what is not there) is an empty one: the PDO is off.
+    #[inline(never)]
+    pub(super) fn load<D: Device>(&mut self, objects: &Objects<'_, D>, object: u16) -> bool {
+        let store = &objects.store;
+        let count = store.word(object, 0, 0).min(64) as u8;
+        let mut changed = self.object != object || self.count != count;
+        (self.object, self.count, self.is_live) = (object, count, false);
         let mut bits = 0u32;
         for sub in 1..=count {
-            let Some(mapped) = mapping.mapped(objects, sub) else {
-                return Self::NONE;
+            let raw = store.word(object, sub, 0);
+            let Ok(MapEntry { address, .. }) = check_mapped(store, object, raw) else {
+                bits = u32::MAX;
+                break;
             };
-            bits += u32::from(mapped.bits);
-            if let Some(kept) = mapping.kept.get_mut(usize::from(sub) - 1) {
+            self.is_live |= objects.is_live(address);
+            bits += raw & 0xFF;
+            if let Some(kept) = self.kept.get_mut(usize::from(sub) - 1) {
+                let mapped = mapped(store, raw);
+                changed |= *kept != mapped;
                 *kept = mapped;
+            } else {
+                // What is not kept may be another value.
+                changed = true;
             }
         }
         if bits > 64 {
-            return Self::NONE;
+            changed = self.len != 0;
+            (self.count, bits) = (0, 0);
         }
-        mapping.len = bits.div_ceil(8) as u8;
-        mapping
+        self.len = bits.div_ceil(8) as u8;
+        changed
     }
 
     /// Length of the frame in bytes; 0 where nothing is mapped.
-    #[inline]
+    #[inline(always)]
     pub(super) fn len(&self) -> u8 {
         self.len
     }
 
-    fn mapped<D: Device>(&self, objects: &Objects<'_, D>, sub: u8) -> Option<Mapped> {
-        let raw = objects.store.try_unsigned(self.object, sub)? as u32;
-        let repr = check_mapped(&objects.store, self.object, raw).ok()?;
-        let entry = match objects.store.dictionary().locate(repr.address) {
-            Ok((at, _)) => at as u32 + 1,
-            Err(_) => DUMMY,
-        };
-        Some(Mapped {
-            entry,
-            bits: repr.bits,
-        })
+    /// Whether the application brings a mapped value up to date.
+    #[inline(always)]
+    pub(super) fn is_live(&self) -> bool {
+        self.is_live
     }
 
-    /// Every mapped value in the order of the frame, with its first bit.
-    #[inline]
-    fn each<'c, D: Device>(
-        &self,
-        objects: &mut Objects<'c, D>,
-        mut each: impl FnMut(&mut Objects<'c, D>, Option<(usize, Row)>, usize, usize),
-    ) {
-        let mut first = 0;
-        for at in 0..usize::from(self.count) {
-            let mapped = match self.kept.get(at) {
-                Some(kept) => *kept,
-                // The object has not changed since `load`, so the entry is still there.
-                None => self.mapped(objects, at as u8 + 1).unwrap_or(NOTHING),
-            };
-            let at = (mapped.entry as usize).wrapping_sub(1);
-            let row = objects.store.dictionary().row(at);
-            let bits = usize::from(mapped.bits);
-            each(objects, row.map(|row| (at, row)), first, bits);
-            first += bits;
+    /// The row of a mapped value, if it has one, and its bits.
+    #[inline(always)]
+    fn value<'a>(&self, store: &Store<'a>, at: u8) -> (Option<&'a Row>, u32) {
+        let mapped = match self.kept.get(usize::from(at)) {
+            Some(mapped) => *mapped,
+            // The object has not changed since `load`, so the entry is still there.
+            None => mapped(store, store.word(self.object, at + 1, 0)),
+        };
+        let position = (mapped as usize & 0xFF_FFFF).wrapping_sub(1);
+        (store.dictionary().row(position), mapped >> 24)
+    }
+
+    /// Has the application bring the live values up to date.
+    #[inline(never)]
+    pub(super) fn refresh<D: Device>(&self, objects: &mut Objects<'_, D>) {
+        for at in 0..self.count {
+            if let (Some(row), _) = self.value(&objects.store, at) {
+                // A PDO has no way to say that a value could not be had; it takes the last one.
+                let _ = objects.refresh(row.address());
+            }
         }
     }
 
-    /// Returns the frame's bytes with the current values, live ones updated.
-    #[inline]
-    pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
-        let mut data = 0u64;
-        self.each(objects, |objects, row, first, bits| {
-            let Some((_, row)) = row else { return };
-            // A PDO has no way to say that a value could not be had; it takes the last one.
-            let _ = objects.refresh(row.address());
-            let value = objects.store.number_of(row);
-            data |= (value & mask(bits)) << first.min(63);
-        });
+    /// Returns the frame's bytes with the values of the store.
+    #[inline(never)]
+    pub(super) fn read(&self, store: &Store<'_>) -> [u8; 8] {
+        let (mut data, mut first) = (0u64, 0);
+        for at in 0..self.count {
+            let (row, bits) = self.value(store, at);
+            if let Some(row) = row {
+                let value = match store.slot(row.plain()) {
+                    [] => store.number_of(row),
+                    bytes => little_endian(bytes),
+                };
+                data |= cut(value, bits) << (first & 63);
+            }
+            first += bits;
+        }
         data.to_le_bytes()
+    }
+
+    /// Returns the frame's bytes with the current values, live ones updated.
+    pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
+        if self.is_live {
+            self.refresh(objects);
+        }
+        self.read(&objects.store)
     }
 
     /// Writes the frame's bytes into the objects, each by the rules of its own; one that
     /// refuses its value keeps the old one.
+    #[inline(never)]
     pub(super) fn apply<D: Device>(&self, objects: &mut Objects<'_, D>, data: [u8; 8]) {
-        let data = u64::from_le_bytes(data);
-        self.each(objects, |objects, row, first, bits| {
-            let Some((_, row)) = row else { return };
-            let value = data >> first.min(63) & mask(bits);
-            let size = bits.div_ceil(8).min(8);
-            let _ = objects.write(row.address(), &value.to_le_bytes()[..size]);
-        });
+        let mut data = u64::from_le_bytes(data);
+        for at in 0..self.count {
+            let (row, bits) = self.value(&objects.store, at);
+            if let Some(row) = row {
+                let value = cut(data, bits).to_le_bytes();
+                let value = value.get(..row.size()).unwrap_or_default();
+                let _ = objects.write(row.address(), value);
+            }
+            data = data.checked_shr(bits).unwrap_or(0);
+        }
     }
 }
 
-/// The low `bits` bits.
-#[inline]
-const fn mask(bits: usize) -> u64 {
-    if bits >= 64 {
-        u64::MAX
-    } else {
-        (1 << bits) - 1
+/// What an entry of a mapping object means.
+fn mapped(store: &Store<'_>, raw: u32) -> Mapped {
+    let MapEntry { address, bits } = MapEntry::parse(raw);
+    let row = match store.dictionary().locate(address) {
+        Ok((at, _)) => at as u32 + 1,
+        Err(_) => 0,
+    };
+    u32::from(bits) << 24 | row & 0xFF_FFFF
+}
+
+/// The bits that are mapped; only a BOOLEAN is no whole number of bytes.
+#[inline(always)]
+const fn cut(value: u64, bits: u32) -> u64 {
+    match bits {
+        1 => value & 1,
+        _ => value,
     }
 }

@@ -6,7 +6,7 @@ use crate::objects::Objects;
 use od_wire::{CanId, CobId, Frame};
 
 /// An RPDO with what its objects say, and a frame that waits for SYNC.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Rpdo {
     valid: bool,
     cob_id: CobId,
@@ -37,31 +37,16 @@ impl Rpdo {
     /// Reads the objects of RPDO `number` again; a frame that waits for SYNC stays where
     /// they say what they said.
     pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) {
-        let new = Self {
-            waiting: self.waiting,
-            ..Self::load(objects, number)
-        };
-        if new != *self {
-            *self = Self {
-                waiting: None,
-                ..new
-            };
-        }
-    }
-
-    /// Reads the objects of RPDO `number` (0 is 1400h and 1600h).
-    fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
         let parameter = 0x1400 + number;
         let store = &objects.store;
-        let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
-        let mapping = Mapping::load(objects, 0x1600 + number);
-        Self {
-            valid: cob_id.is_valid() && mapping.len() > 0,
-            cob_id,
-            synchronous: store.unsigned(parameter, 2) <= 240,
-            mapping,
-            waiting: None,
+        let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
+        let synchronous = store.word(parameter, 2, 0) <= 240;
+        let changed = self.mapping.load(objects, 0x1600 + number);
+        if changed || (cob_id, synchronous) != (self.cob_id, self.synchronous) {
+            self.waiting = None;
         }
+        self.valid = cob_id.is_valid() && self.mapping.len() > 0;
+        (self.cob_id, self.synchronous) = (cob_id, synchronous);
     }
 
     /// Whether it receives frames with this CAN-ID.
@@ -97,6 +82,12 @@ impl Rpdo {
         if let Some(data) = self.waiting.take() {
             self.mapping.apply(objects, data);
         }
+    }
+
+    /// Whether a frame waits for SYNC.
+    #[inline(always)]
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.waiting.is_some()
     }
 
     /// Operational ends.

@@ -1,8 +1,10 @@
 //! One TPDO: when it is sent, and with what.
 
 use super::mapping::Mapping;
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::Objects;
+use crate::store::Store;
 use od_wire::{CanId, CobId, Frame, Instant};
 
 /// Transmission types of CiA 301 (table 72).
@@ -18,21 +20,23 @@ mod kind {
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Config {
     valid: bool,
-    cob_id: CobId,
     kind: u8,
-    event_us: u64,
-    inhibit_us: u64,
     repeat: u8,
     sync_start: u8,
-    mapping: Mapping,
+    cob_id: CobId,
+    /// In milliseconds.
+    event: u32,
+    /// In units of 100 µs.
+    inhibit: u32,
 }
 
 /// TPDO: its configuration and its state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tpdo {
     config: Config,
+    mapping: Mapping,
     /// The next tick of the event timer.
-    event_at: Option<Instant>,
+    event_at: Deadline,
     inhibited_until: Instant,
     /// To be sent as soon as the inhibit time allows.
     pending: bool,
@@ -50,43 +54,40 @@ pub(crate) struct Tpdo {
 impl Config {
     const NONE: Self = Self {
         valid: false,
-        cob_id: CobId::new(0),
         kind: 0,
-        event_us: 0,
-        inhibit_us: 0,
         repeat: 0,
         sync_start: 0,
-        mapping: Mapping::NONE,
+        cob_id: CobId::new(0),
+        event: 0,
+        inhibit: 0,
     };
 
+    /// Reads the objects of TPDO `number`, but for its mapping.
+    #[inline(never)]
     fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
-        let (parameter, mapping) = (0x1800 + number, 0x1A00 + number);
+        let parameter = 0x1800 + number;
         let store = &objects.store;
-        let cob_id = CobId::new(store.try_unsigned(parameter, 1).unwrap_or(1 << 31) as u32);
+        let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
         let repeat = objects
             .profile()
             .pdo
             .repeat_counter
             .map(|first| first + number);
-        let mapping = Mapping::load(objects, mapping);
-        let kind = store.unsigned(parameter, 2) as u8;
+        let kind = store.word(parameter, 2, 0) as u8;
         let sync_only = objects
             .profile()
             .pdo
             .sync_only
-            .is_some_and(|(index, bits)| {
-                store.unsigned(index, 0) & u64::from(bits) == u64::from(bits)
-            });
+            .is_some_and(|(index, bits)| store.word(index, 0, 0) & bits == bits);
         let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
         Self {
-            valid: cob_id.is_valid() && mapping.len() > 0 && allowed,
-            cob_id,
+            valid: cob_id.is_valid() && allowed,
             kind,
-            inhibit_us: store.unsigned(parameter, 3) * 100,
-            event_us: store.unsigned(parameter, 5) * 1000,
-            sync_start: store.unsigned(parameter, 6) as u8,
-            repeat: repeat.map_or(0, |index| store.unsigned(index, 0) as u8),
-            mapping,
+            repeat: repeat.map_or(0, |index| store.word(index, 0, 0) as u8),
+            sync_start: store.word(parameter, 6, 0) as u8,
+            cob_id,
+            event: store.word(parameter, 5, 0),
+            inhibit: store.word(parameter, 3, 0),
         }
     }
 }
@@ -95,7 +96,8 @@ impl Tpdo {
     /// One that does not exist.
     pub(crate) const NONE: Self = Self {
         config: Config::NONE,
-        event_at: None,
+        mapping: Mapping::NONE,
+        event_at: Deadline::NEVER,
         inhibited_until: Instant::ZERO,
         pending: false,
         syncs: 0,
@@ -108,16 +110,23 @@ impl Tpdo {
     /// Reads the objects of TPDO `number` (0 is 1800h and 1A00h) again. Answers whether
     /// they say something else than before; only then the TPDO restarts.
     pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) -> bool {
-        let config = Config::load(objects, number);
-        let changed = config != self.config;
+        let mut config = Config::load(objects, number);
+        let mut changed = self.mapping.load(objects, 0x1A00 + number);
+        config.valid &= self.mapping.len() > 0;
+        changed |= config != self.config;
         if changed {
-            *self = Self {
-                config,
-                ..Self::NONE
-            };
+            self.config = config;
+            self.stop();
+            self.inhibited_until = Instant::ZERO;
+            self.syncs = 0;
+            self.waits_for_start = false;
+            self.repeats_left = 0;
+            self.last = [0; 8];
+            self.sampled = false;
         }
         changed
     }
+
     fn is_cyclic(&self) -> bool {
         (1..=kind::LAST_CYCLIC).contains(&self.config.kind)
     }
@@ -134,10 +143,12 @@ impl Tpdo {
         self.waits_for_start = self.config.sync_start != 0;
         self.sampled = false;
         self.inhibited_until = objects.now;
-        self.event_at = (self.config.valid && self.is_event_driven() && self.config.event_us > 0)
-            .then(|| objects.now.plus_micros(self.config.event_us));
+        self.event_at = Deadline::NEVER;
+        if self.config.valid && self.is_event_driven() && self.config.event > 0 {
+            self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
+        }
         if self.config.valid {
-            self.last = self.config.mapping.sample(objects);
+            self.last = self.mapping.sample(objects);
         }
     }
 
@@ -149,7 +160,7 @@ impl Tpdo {
 
     /// Operational ends.
     pub(crate) fn stop(&mut self) {
-        self.event_at = None;
+        self.event_at = Deadline::NEVER;
         self.pending = false;
     }
 
@@ -168,12 +179,35 @@ impl Tpdo {
     pub(crate) fn request<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
         if self.config.kind <= kind::SYNC_RTR {
             if !self.sampled {
-                self.last = self.config.mapping.sample(objects);
+                self.last = self.mapping.sample(objects);
             }
             return Some(self.frame(self.last));
         }
         self.pending = true;
         None
+    }
+
+    /// Whether a SYNC is no more than [counted](Self::count_sync).
+    #[inline(always)]
+    pub(crate) fn only_counts(&self) -> bool {
+        match self.config.kind {
+            _ if !self.config.valid => true,
+            kind::ACYCLIC | kind::SYNC_RTR => false,
+            _ => self.config.repeat == 0 && !self.waits_for_start,
+        }
+    }
+
+    /// SYNC came. Returns whether the PDO is due.
+    #[inline(always)]
+    pub(crate) fn count_sync(&mut self) -> bool {
+        if self.config.valid && self.is_cyclic() {
+            self.syncs += 1;
+            if self.syncs >= self.config.kind {
+                self.syncs = 0;
+                self.pending = true;
+            }
+        }
+        self.pending
     }
 
     /// SYNC came, with its counter if it had one.
@@ -191,11 +225,11 @@ impl Tpdo {
         }
         match self.config.kind {
             kind::SYNC_RTR => {
-                self.last = self.config.mapping.sample(objects);
+                self.last = self.mapping.sample(objects);
                 self.sampled = true;
             }
             kind::ACYCLIC => {
-                let data = self.config.mapping.sample(objects);
+                let data = self.mapping.sample(objects);
                 self.pending = data != self.last || !self.sampled;
             }
             _ if self.is_cyclic() => {
@@ -213,7 +247,7 @@ impl Tpdo {
     #[inline]
     fn due<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if self.config.repeat != 0 {
-            let data = self.config.mapping.sample(objects);
+            let data = self.mapping.sample(objects);
             if data != self.last {
                 self.last = data;
                 self.repeats_left = self.config.repeat;
@@ -229,8 +263,8 @@ impl Tpdo {
     /// The event timer, if its tick has come.
     #[inline]
     pub(crate) fn handle_timeout<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
-        if let Some(at) = self.event_at.filter(|at| *at <= objects.now) {
-            self.event_at = Some(at.next_period(self.config.event_us, objects.now));
+        if self.event_at.is_due(objects.now) {
+            self.event_at = self.event_at.next_period(self.config.event, objects.now);
             self.due(objects);
         }
     }
@@ -240,36 +274,53 @@ impl Tpdo {
         self.config.valid && self.is_event_driven()
     }
 
+    /// Whether a mapped value changes without a word to the node.
+    pub(crate) fn watches_live(&self) -> bool {
+        self.watches_changes() && self.mapping.is_live()
+    }
+
     /// Marks it as pending if a mapped value has changed that it is sent for.
     pub(crate) fn notice_change<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
         if self.watches_changes() && !self.pending {
-            self.pending = self.config.mapping.sample(objects) != self.last;
+            self.pending = self.mapping.sample(objects) != self.last;
         }
     }
 
-    /// When it has something to do.
+    /// The next tick of its event timer.
     #[inline]
-    pub(crate) fn deadline(&self) -> Option<Instant> {
-        match (self.pending, self.event_at) {
-            (true, Some(event)) => Some(event.min(self.inhibited_until)),
-            (true, None) => Some(self.inhibited_until),
-            (false, event) => event,
+    pub(crate) fn deadline(&self) -> Deadline {
+        self.event_at
+    }
+
+    /// When what is pending can be sent.
+    pub(crate) fn ready_at(&self) -> Deadline {
+        match self.pending {
+            true => Deadline::at(self.inhibited_until),
+            false => Deadline::NEVER,
         }
     }
 
-    /// The frame, if one is to be sent and the inhibit time has passed.
+    /// Whether the application has to bring a value up to date before it is sent.
+    #[inline(always)]
+    pub(crate) fn is_live(&self) -> bool {
+        self.mapping.is_live()
+    }
+
+    /// Has the application bring the live values up to date.
+    pub(crate) fn refresh<D: Device>(&self, objects: &mut Objects<'_, D>) {
+        self.mapping.refresh(objects);
+    }
+
+    /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
     #[inline]
-    pub(crate) fn poll<D: Device>(&mut self, objects: &mut Objects<'_, D>) -> Option<Frame> {
-        if !self.is_ready(objects.now) {
-            return None;
-        }
+    pub(crate) fn send(&mut self, store: &Store<'_>, now: Instant) -> Frame {
         self.pending = false;
-        self.last = self.config.mapping.sample(objects);
+        self.last = self.mapping.read(store);
         self.sampled = true;
         if self.is_event_driven() || self.config.kind == kind::RTR {
-            self.inhibited_until = objects.now.plus_micros(self.config.inhibit_us);
+            self.inhibited_until = now.plus_micros(u64::from(self.config.inhibit) * 100);
         }
-        Some(self.frame(self.last))
+        self.frame(self.last)
     }
 
     /// Something waits to be sent, now or later.
@@ -285,6 +336,6 @@ impl Tpdo {
     }
 
     fn frame(&self, data: [u8; 8]) -> Frame {
-        Frame::with_dlc(self.config.cob_id.can_id(), data, self.config.mapping.len())
+        Frame::with_dlc(self.config.cob_id.can_id(), data, self.mapping.len())
     }
 }

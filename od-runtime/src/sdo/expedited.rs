@@ -10,7 +10,7 @@ use crate::profile::SdoProfile;
 /// missing was not given.
 pub(super) fn len(
     profile: &SdoProfile,
-    row: Row,
+    row: &Row,
     size: Option<u32>,
     dlc: u8,
 ) -> Result<usize, AbortCode> {

@@ -18,11 +18,12 @@ use core::marker::PhantomData;
 use od_model::Address;
 
 use crate::application::{Halt, StreamEnd};
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::{Objects, Unread};
 use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
-use od_wire::{AbortCode, Instant};
+use od_wire::{AbortCode, Frame, Instant};
 
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
@@ -62,15 +63,15 @@ pub(crate) struct Server<D, const N: usize> {
     window: Window<N>,
     /// The application streams the value of the transfer.
     is_streaming: bool,
-    deadline: Option<Instant>,
-    /// A frame needs a closer look: it is the next segment of a block, whatever it says, has to
-    /// wait, or ends a stream.
+    deadline: Deadline,
+    /// A frame needs a closer look: a block transfer is under way, whose segments may look like requests,
+    /// the frame has to wait, or it ends a stream.
     is_busy: bool,
     late: Late,
 }
 
 /// Response of the server, if there is one, or the reason why it does not come.
-type Answer = Result<Option<Response>, Halt>;
+type Answer = Result<Option<[u8; 8]>, Halt>;
 
 impl<D, const N: usize> Server<D, N> {
     pub(crate) const fn idle() -> Self {
@@ -80,7 +81,7 @@ impl<D, const N: usize> Server<D, N> {
             address: Address::new(0, 0),
             window: Window::new(),
             is_streaming: false,
-            deadline: None,
+            deadline: Deadline::NEVER,
             is_busy: false,
             late: Late::NONE,
         }
@@ -106,12 +107,39 @@ impl<D: Device, const N: usize> Server<D, N> {
     #[inline]
     fn reset(&mut self) {
         self.transfer = Transfer::None;
-        self.deadline = None;
+        self.deadline = Deadline::NEVER;
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.
-    #[inline(always)]
     pub(crate) fn handle(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
+        match self.is_quick(data) {
+            true => self.handle_upload(objects, data, dlc),
+            false => self.handle_other(objects, data, dlc),
+        }
+    }
+
+    /// Whether this is a request for an upload that nothing stands in the way of.
+    #[inline(always)]
+    pub(crate) fn is_quick(&self, data: &[u8; 8]) -> bool {
+        data[0] >> 5 == 2 && !self.is_busy
+    }
+
+    /// The address of such a request that is a whole frame.
+    #[inline(always)]
+    pub(crate) fn quick(&self, frame: &Frame) -> Option<Address> {
+        let data = frame.bytes();
+        let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
+        (self.is_quick(data) && frame.dlc() == 8).then_some(address)
+    }
+
+    /// A request for an upload.
+    #[inline(never)]
+    pub(crate) fn handle_upload(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
@@ -121,27 +149,25 @@ impl<D: Device, const N: usize> Server<D, N> {
             return None;
         }
         let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
-        match data[0] {
-            // What masters ask for all day comes first.
-            0x40..=0x5F if !self.is_busy => {
-                self.begin(address);
-                match self.upload(objects, address) {
-                    Ok(answer) => Some(answer),
-                    Err(Unread::Abort(code)) => Some(self.abort(objects, code)),
-                    Err(Unread::Streamed) => self.handle_streamed(objects, data, dlc),
-                }
-            }
-            _ => self.handle_other(objects, data, dlc),
+        self.begin(address);
+        match self.upload(objects, address) {
+            Ok(answer) => Some(answer),
+            Err(Unread::Abort(code)) => Some(self.abort(objects, code)),
+            Err(Unread::Streamed) => self.handle_streamed(objects, data, dlc),
         }
     }
 
+    /// Any other request.
     #[inline(never)]
-    fn handle_other(
+    pub(crate) fn handle_other(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
+        if dlc < objects.profile().sdo.min_dlc {
+            return None;
+        }
         if (D::STORAGE || D::STREAMS) && self.late.is_awaited() {
             self.late.hold(data, dlc);
             if D::STREAMS && data[0] == ABORT && self.late.awaits_stream() {
@@ -157,7 +183,7 @@ impl<D: Device, const N: usize> Server<D, N> {
             {
                 self.block_segment(objects, data)
             }
-            _ if D::STREAMS && data[0] >> 5 == 2 => {
+            _ if (D::STREAMS || D::BLOCK) && data[0] >> 5 == 2 => {
                 self.close(objects, StreamEnd::Replaced);
                 self.is_busy = false;
                 return self.handle(objects, data, dlc);
@@ -179,10 +205,10 @@ impl<D: Device, const N: usize> Server<D, N> {
         let is_late = D::STORAGE && core::mem::take(&mut objects.outbox.answer_later);
         let answer = match answer {
             Ok(Some(response)) if is_late => {
-                self.late = Late::new(response.emit());
+                self.late = Late::new(response);
                 None
             }
-            Ok(response) => response.map(Response::emit),
+            Ok(response) => response,
             Err(Halt::Abort(code)) => Some(self.abort(objects, code)),
             Err(Halt::Until(at)) => {
                 if D::STREAMS {
@@ -201,17 +227,26 @@ impl<D: Device, const N: usize> Server<D, N> {
             self.transfer,
             Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
         );
-        self.deadline = is_block.then(|| now.plus_micros(BLOCK_TIMEOUT_US));
+        self.deadline = match is_block {
+            true => Deadline::at(now.plus_micros(BLOCK_TIMEOUT_US)),
+            false => Deadline::NEVER,
+        };
     }
 
     /// Finds out whether the next frame needs a closer look.
     fn look(&mut self) {
-        self.is_busy = self.takes_anything() || self.streams();
+        self.is_busy = self.takes_anything()
+            || self.streams()
+            || D::BLOCK
+                && matches!(
+                    self.transfer,
+                    Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
+                );
     }
 
     /// A new transfer takes the place of one that was not finished.
     #[inline]
-    fn begin(&mut self, address: Address) {
+    pub(crate) fn begin(&mut self, address: Address) {
         self.reset();
         self.address = address;
     }
@@ -222,7 +257,6 @@ impl<D: Device, const N: usize> Server<D, N> {
         self.address = address;
     }
 
-    #[inline(always)]
     fn upload(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -232,13 +266,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         let mut number = [0; 8];
         let bytes = objects.read(address, &mut number)?;
         match *bytes {
-            // What most objects are goes the straight way.
-            [a, b, c, d] => Ok(expedited_upload(
-                address,
-                4,
-                u32::from_le_bytes([a, b, c, d]),
-            )),
-            [_] | [_, _] | [_, _, _] => Ok(expedited_upload(
+            [_] | [_, _] | [_, _, _] | [_, _, _, _] => Ok(expedited_upload(
                 address,
                 bytes.len() as u8,
                 little_endian(bytes) as u32,
@@ -361,13 +389,13 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// When a block transfer gives up, or a stream is asked again.
     #[inline]
-    pub(crate) fn deadline(&self) -> Option<Instant> {
+    pub(crate) fn deadline(&self) -> Deadline {
         self.deadline
     }
 
     /// Gives up a block transfer whose client is gone; asks a stream again.
     pub(crate) fn handle_timeout(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        if self.deadline.is_none_or(|at| at > objects.now) {
+        if !self.deadline.is_due(objects.now) {
             return None;
         }
         if D::STREAMS && self.late.awaits_stream() {

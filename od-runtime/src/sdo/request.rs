@@ -37,7 +37,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 }
                 self.open_download(objects, size)?;
                 self.transfer = Transfer::Download(Download::new(size));
-                Ok(Some(Response::InitiateDownload { address }))
+                Ok(Some(Response::InitiateDownload { address }.emit()))
             }
             (Request::UploadSegment { toggle }, Transfer::Upload(upload)) if D::SEGMENTED => {
                 upload.check(toggle)?;
@@ -50,7 +50,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 if upload.is_over() {
                     self.close(objects, StreamEnd::Complete);
                 }
-                Ok(Some(segment))
+                Ok(Some(segment.emit()))
             }
             (Request::DownloadSegment(segment), Transfer::Download(download)) if D::SEGMENTED => {
                 let mut download = *download;
@@ -69,7 +69,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                     self.transfer = Transfer::Download(download);
                 }
                 let toggle = segment.toggle;
-                Ok(Some(Response::DownloadSegment { toggle }))
+                Ok(Some(Response::DownloadSegment { toggle }.emit()))
             }
             (Request::Abort { code, .. }, _) => {
                 self.close(objects, StreamEnd::Cancelled(code));
@@ -88,11 +88,14 @@ impl<D: Device, const N: usize> Server<D, N> {
                 block_upload::check(block_size)?;
                 let len = self.open_upload(objects)?;
                 self.transfer = Transfer::BlockUpload(BlockUpload::new(len, crc, block_size));
-                Ok(Some(Response::InitiateBlockUpload {
-                    address,
-                    crc: true,
-                    size: Some(len as u32),
-                }))
+                Ok(Some(
+                    Response::InitiateBlockUpload {
+                        address,
+                        crc: true,
+                        size: Some(len as u32),
+                    }
+                    .emit(),
+                ))
             }
             (Request::StartBlockUpload, Transfer::BlockUpload(block)) if D::BLOCK => {
                 block.start()?;
@@ -101,7 +104,7 @@ impl<D: Device, const N: usize> Server<D, N> {
             (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block))
                 if D::BLOCK =>
             {
-                Ok(block.acknowledged(ack, block_size)?)
+                Ok(block.acknowledged(ack, block_size)?.map(Response::emit))
             }
             (Request::EndBlockUpload, Transfer::BlockUpload(block))
                 if D::BLOCK && block.is_complete() =>
@@ -116,18 +119,21 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.open_download(objects, size)?;
                 let block = BlockDownload::new(N, crc, size);
                 self.transfer = Transfer::BlockDownload(block);
-                Ok(Some(Response::InitiateBlockDownload {
-                    address,
-                    crc: true,
-                    block_size: block.block_size(),
-                }))
+                Ok(Some(
+                    Response::InitiateBlockDownload {
+                        address,
+                        crc: true,
+                        block_size: block.block_size(),
+                    }
+                    .emit(),
+                ))
             }
             (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block))
                 if D::BLOCK =>
             {
                 let len = block.end(&self.window, unused, crc)?;
                 self.complete(objects, len)?;
-                Ok(Some(Response::EndBlockDownload))
+                Ok(Some(Response::EndBlockDownload.emit()))
             }
             (_, transfer) => {
                 if matches!(transfer, Transfer::None) {
@@ -172,7 +178,7 @@ impl<D: Device, const N: usize> Server<D, N> {
             self.window.put(bytes)?;
             self.complete(objects, len)?;
         }
-        Ok(Some(Response::InitiateDownload { address }))
+        Ok(Some(Response::InitiateDownload { address }.emit()))
     }
 
     /// A value is to be written, if it may be, and there is room for it.
@@ -230,7 +236,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         let Transfer::BlockDownload(block) = &mut self.transfer else {
             return Ok(None);
         };
-        Ok(Some(block.confirm(self.window.room())))
+        Ok(Some(block.confirm(self.window.room()).emit()))
     }
 
     /// A download is complete with the first `len` bytes of the buffer: they are written, and

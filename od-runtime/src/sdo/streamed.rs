@@ -7,6 +7,7 @@ use super::late::{Held, Late};
 use super::segmented::Upload;
 use super::{Answer, Server, Transfer};
 use crate::application::{Chunk, Halt, StreamEnd};
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::Objects;
 use crate::store::little_endian;
@@ -53,11 +54,14 @@ impl<D: Device, const N: usize> Server<D, N> {
         } else {
             return Err(AbortCode::UnsupportedAccess.into());
         }
-        Ok(Some(Response::InitiateUpload {
-            address,
-            size: Some(len as u32),
-            expedited,
-        }))
+        Ok(Some(
+            Response::InitiateUpload {
+                address,
+                size: Some(len as u32),
+                expedited,
+            }
+            .emit(),
+        ))
     }
 
     /// Has the value from `at` on in the buffer: seven bytes or more, or all that is left of its `len`
@@ -131,7 +135,7 @@ impl<D: Device, const N: usize> Server<D, N> {
     /// The stream cannot serve this request, or the next segment, before this moment.
     pub(super) fn await_stream(&mut self, at: Instant, held: Option<Held>) {
         self.late = Late::stream(held);
-        self.deadline = Some(at);
+        self.deadline = Deadline::at(at);
     }
 
     /// The stream is asked again.

@@ -72,7 +72,7 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
     let mut bytes = layout::header(word);
     let mut i = 0;
     while i < dictionary.len() {
-        let row = dictionary.rows()[i];
+        let row = &dictionary.rows()[i];
         if is_saved(row) {
             let len = row.slot(dictionary.pool()).len as usize;
             bytes += RECORD + if len < MAX_VALUE { len } else { MAX_VALUE };
@@ -123,7 +123,7 @@ pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
     profile: &StoreProfile,
-    which: &dyn Fn(Row) -> bool,
+    which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
     let banks = survey(storage, store)?;
     let mut skipped = 0u16;
@@ -134,7 +134,7 @@ pub fn load(
             continue;
         }
         let row = store.dictionary().row_of(record.address).ok();
-        match row.filter(|row| is_saved(*row)) {
+        match row.filter(|row| is_saved(row)) {
             Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => {}
             // A string goes straight to its place: there is no room for it on a small stack.
             Some(row) if row.is_variable() && record.len <= MAX_VALUE => {
@@ -234,7 +234,7 @@ pub fn save_only(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     profile: &StoreProfile,
-    which: &dyn Fn(Row) -> bool,
+    which: &dyn Fn(&Row) -> bool,
 ) -> Result<(), StorageError> {
     let banks = survey(storage, store)?;
     let next = Next {

@@ -7,14 +7,14 @@ use crate::store::{Store, little_endian};
 use od_wire::CobId;
 
 /// Returns the bytes that are saved instead of the value; `None`: the value is saved.
-pub(super) fn difference(store: &Store<'_>, row: Row, rule: SavedCobIds) -> Option<[u8; 8]> {
+pub(super) fn difference(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> Option<[u8; 8]> {
     let default = default(store, row, rule)?;
     Some(store.number_of(row).wrapping_sub(default).to_le_bytes())
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID
 /// can have: with another node ID it may have left the 11 bits.
-pub(super) fn restore(store: &Store<'_>, row: Row, rule: SavedCobIds, bytes: &mut [u8]) -> bool {
+pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &mut [u8]) -> bool {
     let Some(default) = default(store, row, rule) else {
         return true;
     };
@@ -26,7 +26,7 @@ pub(super) fn restore(store: &Store<'_>, row: Row, rule: SavedCobIds, bytes: &mu
 }
 
 /// The default that counts, if the value is kept as a difference.
-fn default(store: &Store<'_>, row: Row, rule: SavedCobIds) -> Option<u64> {
+fn default(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> Option<u64> {
     let follows = !row.is_variable() && row.follows_node_id();
     let default = row.default(store.dictionary().pool(), store.node_id().raw());
     (follows && rule == SavedCobIds::Difference).then_some(default)

@@ -28,7 +28,7 @@ pub(super) enum Fate {
 /// Recipe of the next set.
 pub(super) struct Next<'n> {
     /// Decides for an address; without an entry where no object of the dictionary saves it.
-    pub(super) plan: &'n dyn Fn(Address, Option<Row>) -> Fate,
+    pub(super) plan: &'n dyn Fn(Address, Option<&Row>) -> Fate,
     /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
     pub(super) own: [Option<u8>; 2],
     /// Values after an interrupted save.
@@ -171,11 +171,11 @@ impl Set<'_> {
             }
         }
         let mut records = self.banks.records();
-        let rows = self.store.dictionary().rows().iter().copied();
-        let mut rows = rows.filter(|row| is_saved(*row));
+        let rows = self.store.dictionary().rows().iter();
+        let mut rows = rows.filter(|row| is_saved(row));
         let (mut record, mut row) = (records.next(storage)?, rows.next());
         loop {
-            let addresses = [record.map(|old| old.address), row.map(Row::address)];
+            let addresses = [record.map(|old| old.address), row.map(|row| row.address())];
             let Some(address) = addresses.into_iter().flatten().min() else {
                 return Ok(());
             };

@@ -1,0 +1,58 @@
+//! A moment at which something is due, or none.
+
+use od_wire::Instant;
+
+/// When something is due. Never is all zeros, so that a static node takes no flash; the end of time
+/// is never, too.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Deadline(u64);
+
+impl Deadline {
+    /// Nothing is due.
+    pub(crate) const NEVER: Self = Self(0);
+
+    /// Due at this moment.
+    #[inline(always)]
+    pub(crate) const fn at(at: Instant) -> Self {
+        Self(at.as_micros().wrapping_add(1))
+    }
+
+    /// Due at this moment, if there is one.
+    #[inline(always)]
+    pub(crate) fn of(at: Option<Instant>) -> Self {
+        at.map_or(Self::NEVER, Self::at)
+    }
+
+    /// Whether something will be due.
+    #[inline(always)]
+    pub(crate) const fn is_set(self) -> bool {
+        self.0 != 0
+    }
+
+    /// Whether it is due by now.
+    #[inline(always)]
+    pub(crate) const fn is_due(self, now: Instant) -> bool {
+        self.is_set() && self.0 - 1 <= now.as_micros()
+    }
+
+    /// The earlier one of two.
+    #[inline(always)]
+    pub(crate) const fn or(self, other: Self) -> Self {
+        match self.0.wrapping_sub(1) <= other.0.wrapping_sub(1) {
+            true => self,
+            false => other,
+        }
+    }
+
+    /// The next one of a period in milliseconds that had one here, after `now`.
+    #[inline(never)]
+    pub(crate) const fn next_period(self, millis: u32, now: Instant) -> Self {
+        Self::at(self.moment().next_period(millis as u64 * 1000, now))
+    }
+
+    /// The moment; the end of time for never.
+    #[inline(always)]
+    pub(crate) const fn moment(self) -> Instant {
+        Instant::from_micros(self.0.wrapping_sub(1))
+    }
+}
