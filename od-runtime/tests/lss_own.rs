@@ -132,3 +132,14 @@ fn reset_communication_makes_the_pending_node_id_the_active_one() {
     assert_eq!(bench.ask("000#8207"), "708#00");
     assert_eq!(bench.ask("000#8108"), "707#00", "it was not stored");
 }
+
+#[test]
+fn the_configuration_state_outlasts_nmt_commands() {
+    let mut bench = bench(NodeId::new(7));
+    bench.power_on();
+    bench.send(CONFIGURATION);
+    for command in ["000#0207", "000#0107", "000#8007", "000#0207", "000#8007"] {
+        bench.send(command);
+        assert_eq!(bench.ask("7E5#5E00000000000000"), "7E4#5E07000000000000");
+    }
+}
