@@ -50,6 +50,7 @@ const NO_ERROR: Emcy = Emcy {
 const NO_NEWS: Outcome = Outcome {
     is_news: false,
     set: 0,
+    is_dropped: false,
 };
 
 /// The emergency producer.
@@ -69,6 +70,8 @@ pub(crate) struct Outcome {
     pub(crate) is_news: bool,
     /// Bits of 1001h that became set.
     pub(crate) set: u8,
+    /// It has no message: so many wait for the inhibit time already.
+    pub(crate) is_dropped: bool,
 }
 
 impl Producer {
@@ -89,7 +92,8 @@ impl Producer {
     /// Takes a change over into 1001h and 1003h.
     ///
     /// `send` is false where the NMT state or 1014h forbids the frame; the log
-    /// in 1003h is kept all the same.
+    /// in 1003h is kept all the same. Messages that wait for the inhibit time keep their order; the
+    /// seventeenth is dropped, and an event says so.
     pub(crate) fn change(
         &mut self,
         store: &mut Store<'_>,
@@ -126,16 +130,16 @@ impl Producer {
         };
         let register = self.show(store);
         let is_last = reset == ErrorReset::EachError || self.active.is_empty();
-        if send && (code != 0 || is_last) {
-            self.waiting.push(Emcy {
-                code,
-                register,
-                info,
-            });
-        }
+        let message = Emcy {
+            code,
+            register,
+            info,
+        };
+        let is_due = send && (code != 0 || is_last);
         Outcome {
             is_news: true,
             set: register & !before,
+            is_dropped: is_due && !self.waiting.push(message),
         }
     }
 

@@ -2,7 +2,7 @@
 
 mod support;
 use od_model::{Access, DataType};
-use od_runtime::{Application, Context, Emcy, Instant};
+use od_runtime::{Application, Context, Emcy, Event, Instant};
 use support::{Bench, Row, rows, unsigned};
 
 /// A device whose faults the test sets from outside.
@@ -145,4 +145,55 @@ fn an_emcy_that_waits_goes_out_after_the_boot_up() {
         [(60, "701#00".into()), (60, "081#3055010102030405".into()),],
         "the inhibit time ends at 50 ms, while the node initialises"
     );
+}
+
+#[test]
+fn errors_wait_for_the_inhibit_time_in_their_order() {
+    // 100 ms, in units of 100 us.
+    let mut bench = bench(&[(
+        0x1015,
+        0,
+        DataType::Unsigned16,
+        Access::Rw,
+        false,
+        unsigned(1000),
+    )]);
+    let message = |code: u16| format!("081#{:04X}010102030405", code.swap_bytes());
+    let mut dropped = Vec::new();
+    for code in 0x2001..=0x2014u16 {
+        bench.application.raise.push(error(code, 1));
+        let sent = bench.change();
+        assert_eq!(sent.len(), usize::from(code == 0x2001), "{code:X}");
+        while let Some(event) = bench.node.poll_event() {
+            dropped.extend((event == Event::EmcyDropped).then_some(code));
+        }
+    }
+    // 16 wait, and an event tells of each for which there is no room.
+    assert_eq!(dropped, [0x2012, 0x2013, 0x2014]);
+    let later = (0x2002..=0x2011).map(|code| (u64::from(code - 0x2001) * 100, message(code)));
+    assert_eq!(bench.wait(10_000), later.collect::<Vec<_>>());
+    assert_eq!(
+        bench.ask("601#4003100100000000"),
+        "581#4303100114200000",
+        "the log has it"
+    );
+}
+
+#[test]
+fn the_inhibit_time_is_in_units_of_100_microseconds() {
+    let mut bench = bench(&[(
+        0x1015,
+        0,
+        DataType::Unsigned16,
+        Access::Rw,
+        false,
+        unsigned(25),
+    )]);
+    bench
+        .application
+        .raise
+        .extend([error(0x2001, 1), error(0x2002, 1)]);
+    assert_eq!(bench.change().len(), 1);
+    let at = bench.node.poll_timeout();
+    assert_eq!(at, Some(bench.now.plus_micros(2_500)));
 }

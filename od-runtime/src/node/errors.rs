@@ -114,6 +114,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                     Change::Cleared { code, .. } => Event::ErrorCleared(code),
                 });
             }
+            if outcome.is_dropped {
+                self.event(Event::EmcyDropped);
+            }
         }
         let lost = core::mem::take(&mut self.lost);
         if set != 0 || lost {

@@ -45,4 +45,7 @@ pub enum Event {
     Error(Emcy),
     /// The error with this code went.
     ErrorCleared(u16),
+    /// 16 EMCY messages wait for the inhibit time (1015h), so that of the error that came or went
+    /// before this event is dropped. 1001h and 1003h have it.
+    EmcyDropped,
 }

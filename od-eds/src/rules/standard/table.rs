@@ -234,6 +234,7 @@ const TABLE: &[Standard] = &[
     array(0x1027, "module list", Unsigned16, Ro),
     array(0x1028, "emergency consumer object", Unsigned32, Rw),
     array(0x1029, "error behavior object", Unsigned8, Rw),
+    var(0x102A, "NMT inhibit time", Unsigned16, Rw),
     record(0x1200, 0x127F, "SDO server parameter", SDO_SERVER),
     record(0x1280, 0x12FF, "SDO client parameter", SDO_CLIENT),
     record(0x1400, 0x15FF, "RPDO communication parameter", RPDO),
@@ -287,7 +288,7 @@ mod tests {
             assert_eq!(of(entry.first).map(|found| found.name), Some(entry.name));
             assert_eq!(of(entry.last).map(|found| found.name), Some(entry.name));
         }
-        for index in [0x0FFF, 0x1004, 0x102A, 0x1300, 0x1C00, 0x2000] {
+        for index in [0x0FFF, 0x1004, 0x102B, 0x1300, 0x1C00, 0x2000] {
             assert!(of(index).is_none(), "{index:04X}");
         }
     }
