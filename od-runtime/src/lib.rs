@@ -86,6 +86,7 @@ mod node;
 mod objects;
 mod pdo;
 mod profile;
+pub mod program;
 mod real;
 mod sdo;
 pub mod storage;

@@ -59,7 +59,7 @@ pub use od_runtime::{
     ErrorReset, Event, Extra, Extras, Frame, Halt, Instant, LengthRule, Lent, LssProfile,
     NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore,
     SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile, StoreTooSmall,
-    Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, storage,
+    Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, program, storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 

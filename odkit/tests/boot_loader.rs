@@ -42,7 +42,7 @@ fn round_trip(rig: &mut Rig, len: usize) {
         Event::Read(read, Ok(program)),
     ];
     assert!(rig.run() == expected, "{len} bytes");
-    assert_eq!(rig.loader.program, Some(len));
+    assert_eq!(rig.len(), Some(len));
 }
 
 #[test]
@@ -102,10 +102,15 @@ fn one_byte_more_than_the_flash_has() {
     // 65,534 bytes came.
     assert_eq!(rig.ask("0901020300000000"), "80501F0112000706");
     assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::TooLong)]);
-    assert_eq!(rig.loader.program, None);
+    assert_eq!(rig.len(), None);
 }
 
 impl Rig {
+    /// Bytes of the program in the flash.
+    fn len(&self) -> Option<usize> {
+        self.loader.program().map(|program| program.len as usize)
+    }
+
     /// The device receives a request; its answers before time goes on, without the identifier.
     fn send(&mut self, hex: &str) -> Vec<String> {
         let byte = |at| u8::from_str_radix(&hex[2 * at..2 * at + 2], 16).expect("hex");
@@ -197,12 +202,12 @@ fn the_master_waits_while_the_flash_is_busy() {
     assert_eq!(rig.send(&segment(147, 0x80 | 20)), ["A2146B0000000000"]);
     assert_eq!(rig.send(&end(1025)), [""; 0]);
     assert_eq!(
-        (rig.loader.program, rig.due()),
+        (rig.len(), rig.due()),
         (None, Some(Instant::from_micros(81_200)))
     );
     rig.wait_until(Instant::from_micros(81_200));
     assert_eq!(rig.answers(), ["A100000000000000"]);
-    assert_eq!(rig.loader.program, Some(1025));
+    assert_eq!(rig.len(), Some(1025));
     assert_eq!(rig.loader.ends, [StreamEnd::Complete]);
 }
 
@@ -229,14 +234,14 @@ fn an_abort_in_the_middle_is_told() {
     let mut rig = Rig::begun();
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
     assert_eq!(rig.loader.ends, [StreamEnd::Cancelled(0x0800_0000)]);
-    assert_eq!(rig.loader.program, None);
+    assert_eq!(rig.len(), None);
     assert_eq!(rig.ask("40501F0100000000"), "80501F0124000008");
     // Also while the stream is awaited: nothing comes when the flash is ready.
     let mut rig = Rig::new();
     rig.send("27501F0141424300");
     assert_eq!(rig.send("80501F0100000008"), [""; 0]);
     assert_eq!(rig.loader.ends, [StreamEnd::Cancelled(0x0800_0000)]);
-    assert_eq!(rig.due(), None);
+    assert_eq!(rig.due(), Some(Instant::from_millis(80)), "1F57h changes");
     rig.wait_until(Instant::from_millis(100));
     assert_eq!(rig.answers(), [""; 0]);
     assert_eq!(rig.send("4000100000000000"), ["4300100000000000"]);
@@ -259,7 +264,7 @@ fn a_reset_or_a_stop_in_the_middle_is_told() {
         // A segment that comes late is no part of anything.
         rig.nmt(0x80);
         assert_eq!(rig.ask("0041424344454647"), "8041424301000405");
-        assert_eq!(rig.loader.program, None);
+        assert_eq!(rig.len(), None);
         assert_eq!(rig.loader.ends, [StreamEnd::Cut], "once");
     }
 }
@@ -278,7 +283,7 @@ fn another_transfer_takes_its_place() {
         assert_eq!(rig.send(request), [answer]);
         assert_eq!(rig.loader.ends, [StreamEnd::Replaced], "{request}");
         rig.send("0541424344450000");
-        assert_eq!(rig.loader.program, None);
+        assert_eq!(rig.len(), None);
     }
 }
 
@@ -298,7 +303,7 @@ fn a_wrong_checksum_is_no_program() {
     let wrong = end(1025).replace(&end(1025)[2..6], "0000");
     assert_eq!(rig.ask(&wrong), "80501F0104000405");
     assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::Crc)]);
-    assert_eq!(rig.loader.program, None);
+    assert_eq!(rig.len(), None);
 }
 
 #[test]
@@ -333,19 +338,22 @@ fn more_than_was_announced_is_refused_early() {
 #[test]
 fn a_master_that_is_gone_is_given_up() {
     let mut rig = Rig::begun();
+    let written = rig.due().expect("a deadline");
+    assert_eq!(written, Instant::from_micros(81_200), "1F57h changes");
+    rig.wait_until(written);
     let due = rig.due().expect("a deadline");
     assert_eq!(due, Instant::from_millis(80 + 5000));
     rig.wait_until(due);
     assert_eq!(rig.answers(), ["80501F0100000405"]);
     assert_eq!(rig.loader.ends, [StreamEnd::Aborted(AbortCode::Timeout)]);
-    assert_eq!(rig.loader.program, None);
+    assert_eq!(rig.len(), None);
     // While the flash keeps it waiting it is not gone.
     let mut rig = Rig::new();
     rig.ask("21501F0105000000");
     rig.send("0541424344450000");
     rig.wait_until(Instant::from_millis(90_000));
     assert_eq!(rig.answers(), ["2000000000000000"]);
-    assert_eq!(rig.loader.program, Some(5));
+    assert_eq!(rig.len(), Some(5));
 }
 
 #[test]
@@ -354,10 +362,46 @@ fn program_control_wants_a_program() {
     assert_eq!(rig.ask("2F511F0101000000"), "80511F0124000008");
     round_trip(&mut rig, 300);
     assert_eq!(rig.ask("2F511F0101000000"), "60511F0100000000");
-    assert!(rig.loader.is_running);
+    assert!(rig.loader.is_running());
+    assert_eq!(rig.ask("40511F0100000000"), "4F511F0101000000");
     assert_eq!(rig.ask("21501F0105000000"), "80501F0122000008", "it runs");
     assert_eq!(rig.ask("2F511F0103000000"), "80511F0122000008");
     assert_eq!(rig.ask("2F511F0100000000"), "60511F0100000000");
     assert_eq!(rig.ask("2F511F0103000000"), "60511F0100000000");
     assert_eq!(rig.ask("40501F0100000000"), "80501F0124000008", "erased");
+}
+
+#[test]
+fn identification_and_status_are_those_of_the_program() {
+    let mut rig = Rig::new();
+    // No valid program: code 1.
+    assert_eq!(rig.ask("40561F0100000000"), "43561F0100000000");
+    assert_eq!(rig.ask("40571F0100000000"), "43571F0102000000");
+    assert_eq!(rig.send("27501F0131323300"), [""; 0]);
+    rig.wait_until(Instant::from_millis(80));
+    assert_eq!(rig.answers(), ["60501F0100000000"]);
+    // CRC-32 of "123", and a page on its way.
+    assert_eq!(rig.send("40561F0100000000"), ["43561F01D2634888"]);
+    assert_eq!(rig.send("40571F0100000000"), ["43571F0101000000"]);
+    assert_eq!(
+        rig.send("2F511F0101000000"),
+        ["80511F0122000008"],
+        "not yet"
+    );
+    let due = rig.due().expect("the flash is busy");
+    assert_eq!(due, Instant::from_micros(80_400));
+    rig.wait_until(due);
+    assert_eq!(rig.ask("40571F0100000000"), "43571F0100000000");
+    assert_eq!(rig.ask("2F511F0104000000"), "80511F0131000906");
+    assert_eq!(rig.ask("2F511F0101000000"), "60511F0100000000");
+    assert_eq!(rig.ask("40511F0100000000"), "4F511F0101000000");
+    assert_eq!(rig.ask("2F511F0102000000"), "60511F0100000000");
+    assert_eq!(rig.ask("40511F0100000000"), "4F511F0100000000");
+    assert_eq!(rig.ask("2F511F0103000000"), "60511F0100000000");
+    assert_eq!(rig.ask("40561F0100000000"), "43561F0100000000");
+    assert_eq!(
+        rig.ask("40571F0100000000"),
+        "43571F0103000000",
+        "it erases itself"
+    );
 }

@@ -23,16 +23,16 @@ const TABLE: [u32; 16] = {
 
 /// A checksum in the making.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crc32(u32);
+pub(crate) struct Crc32(u32);
 
 impl Crc32 {
     /// The checksum of nothing.
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self(u32::MAX)
     }
 
     /// Takes more bytes in.
-    pub(super) fn update(&mut self, bytes: &[u8]) {
+    pub(crate) fn update(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.0 ^= u32::from(*byte);
             self.0 = self.0 >> 4 ^ TABLE[(self.0 & 15) as usize];
@@ -41,7 +41,7 @@ impl Crc32 {
     }
 
     /// The checksum of all of them.
-    pub(super) const fn finish(self) -> u32 {
+    pub(crate) const fn finish(self) -> u32 {
         !self.0
     }
 }

@@ -4,7 +4,7 @@
 //! one, [`Memory`] lives as long as its bytes, `File` (feature `std`) longer.
 //! [`image`] is what 1010h and 1011h write there.
 
-mod crc;
+pub(crate) mod crc;
 #[cfg(feature = "std")]
 mod file;
 pub mod image;

@@ -1,12 +1,13 @@
-//! The device: its dictionary, its flash, and what it does with a program.
+//! The device: its dictionary, its flash, and the loader of odkit between them.
 
-use odkit::{AbortCode, Address, Application, Chunk, Context, Halt, Instant, Stream, StreamEnd};
+use odkit::program::{Loader, MemoryFailed, Program, ProgramMemory};
+use odkit::{
+    AbortCode, Address, Application, Chunk, Context, Halt, Instant, Reset, Stream, StreamEnd,
+};
 
 odkit::object_dictionary! {
     /// A device that can only receive a program.
     pub mod device {
-        rename 0x1F51 = program_control;
-
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8 }
         add 0x1018 { code = record; name = "Identity object" }
@@ -15,6 +16,10 @@ odkit::object_dictionary! {
         add 0x1F50sub1 { name = "Program 1"; type = DOMAIN; access = rw; capacity = 0 }
         add 0x1F51 { code = array; name = "Program control" }
         add 0x1F51sub1 { name = "Program 1"; type = u8; access = rw; default = 0; high = 3 }
+        add 0x1F56 { code = array; name = "Program software identification" }
+        add 0x1F56sub1 { name = "Program 1"; type = u32; access = ro }
+        add 0x1F57 { code = array; name = "Flash status identification" }
+        add 0x1F57sub1 { name = "Program 1"; type = u32; access = ro }
     }
 }
 
@@ -39,172 +44,132 @@ pub struct Flash {
     ready_at: Instant,
 }
 
-impl Flash {
-    fn new() -> Self {
-        Self {
-            bytes: Box::new([0xFF; SIZE]),
-            ready_at: Instant::ZERO,
-        }
+impl ProgramMemory for Flash {
+    fn size(&self) -> u32 {
+        SIZE as u32
     }
 
-    /// # Errors
-    /// It is busy until then.
-    fn ready(&self, now: Instant) -> Result<(), Halt> {
+    fn ready(&mut self, now: Instant) -> Result<(), Instant> {
         if self.ready_at <= now {
             Ok(())
         } else {
-            Err(Halt::Until(self.ready_at))
+            Err(self.ready_at)
         }
     }
 
-    fn erase(&mut self, now: Instant) {
+    fn erase(&mut self, now: Instant) -> Result<(), MemoryFailed> {
         self.bytes.fill(0xFF);
         self.ready_at = now.plus_micros(ERASE_US);
+        Ok(())
     }
 
     /// Writing clears bits; only erasing sets them.
-    fn write(&mut self, now: Instant, at: usize, page: &[u8]) {
-        let to = self.bytes.iter_mut().skip(at);
+    fn write(&mut self, now: Instant, at: u32, page: &[u8]) -> Result<(), MemoryFailed> {
+        let to = self.bytes.iter_mut().skip(at as usize);
         to.zip(page).for_each(|(to, from)| *to &= from);
         self.ready_at = self.ready_at.max(now).plus_micros(WRITE_US);
+        Ok(())
+    }
+
+    fn read(&mut self, at: u32, to: &mut [u8]) {
+        let from = &self.bytes[at as usize..];
+        to.copy_from_slice(&from[..to.len()]);
     }
 }
 
 /// Receives a program page by page; RAM holds one page of it, and one block of the SDO server.
 pub struct BootLoader {
-    pub flash: Flash,
-    /// The page that is filled.
-    page: [u8; PAGE],
-    filled: usize,
-    /// Bytes in the flash.
-    written: usize,
-    /// Length of the program, once all of it came.
-    pub program: Option<usize>,
-    pub is_running: bool,
+    loader: Loader<Flash, PAGE>,
     /// How transfers ended.
     pub ends: Vec<StreamEnd>,
 }
 
 impl BootLoader {
     pub fn new() -> Self {
+        let flash = Flash {
+            bytes: Box::new([0xFF; SIZE]),
+            ready_at: Instant::ZERO,
+        };
         Self {
-            flash: Flash::new(),
-            page: [0xFF; PAGE],
-            filled: 0,
-            written: 0,
-            program: None,
-            is_running: false,
+            loader: Loader::new(flash, PROGRAM.sub),
             ends: Vec::new(),
         }
     }
 
-    /// The page goes to the flash.
-    fn write_page(&mut self, now: Instant) {
-        self.flash
-            .write(now, self.written, &self.page[..self.filled]);
-        self.written += self.filled;
-        self.filled = 0;
+    /// The program, once all of it came.
+    pub fn program(&self) -> Option<Program> {
+        self.loader.program()
     }
 
-    /// What came is no program, and what was there is gone.
-    fn erase(&mut self, now: Instant) {
-        self.program = None;
-        (self.filled, self.written) = (0, 0);
-        self.flash.erase(now);
+    /// Whether it was started.
+    pub fn is_running(&self) -> bool {
+        self.loader.is_running()
     }
 }
 
+/// The loader does it all; here somebody writes down how transfers end.
 impl Stream for BootLoader {
     fn begin_download(
         &mut self,
         cx: &mut Context<'_, '_>,
-        _: Address,
+        address: Address,
         size: Option<u32>,
     ) -> Result<(), Halt> {
-        if self.is_running {
-            return Err(AbortCode::DeviceState.into());
-        }
-        if size.is_some_and(|size| size as usize > SIZE) {
-            return Err(AbortCode::TooLong.into());
-        }
-        // While it erases, the first part waits, and with it the master.
-        self.flash.ready(cx.now)?;
-        self.erase(cx.now);
-        Ok(())
+        self.loader.begin_download(cx, address, size)
     }
 
     fn write(
         &mut self,
         cx: &mut Context<'_, '_>,
-        _: Address,
+        address: Address,
         chunk: Chunk<'_>,
     ) -> Result<(), Halt> {
-        if chunk.at as usize + chunk.bytes.len() > SIZE {
-            return Err(AbortCode::TooLong.into());
-        }
-        self.flash.ready(cx.now)?;
-        for byte in chunk.bytes {
-            self.page[self.filled] = *byte;
-            self.filled += 1;
-            if self.filled == PAGE {
-                self.write_page(cx.now);
-            }
-        }
-        if chunk.last {
-            self.write_page(cx.now);
-            self.program = Some(self.written);
-        }
-        Ok(())
+        self.loader.write(cx, address, chunk)
     }
 
-    fn begin_upload(&mut self, _: &mut Context<'_, '_>, _: Address) -> Result<u32, Halt> {
-        let len = self.program.ok_or(AbortCode::NoData)?;
-        Ok(len as u32)
+    fn begin_upload(&mut self, cx: &mut Context<'_, '_>, address: Address) -> Result<u32, Halt> {
+        self.loader.begin_upload(cx, address)
     }
 
     fn read(
         &mut self,
         cx: &mut Context<'_, '_>,
-        _: Address,
+        address: Address,
         at: u32,
         to: &mut [u8],
     ) -> Result<(), Halt> {
-        self.flash.ready(cx.now)?;
-        let from = &self.flash.bytes[at as usize..];
-        to.copy_from_slice(&from[..to.len()]);
-        Ok(())
+        self.loader.read(cx, address, at, to)
     }
 
-    fn end(&mut self, _: &mut Context<'_, '_>, _: Address, end: StreamEnd) {
+    fn end(&mut self, cx: &mut Context<'_, '_>, address: Address, end: StreamEnd) {
+        self.loader.end(cx, address, end);
         self.ends.push(end);
     }
 }
 
 impl Application for BootLoader {
+    fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
+        self.loader.reset(cx, reset);
+    }
+
     fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
         if address == PROGRAM { Some(self) } else { None }
     }
 
     fn validate(
         &mut self,
-        _: &mut Context<'_, '_>,
+        cx: &mut Context<'_, '_>,
         address: Address,
         value: &[u8],
     ) -> Result<(), AbortCode> {
-        match (address, value) {
-            (CONTROL, [1 | 2]) if self.program.is_none() => Err(AbortCode::NoData),
-            (CONTROL, [3]) if self.is_running => Err(AbortCode::DeviceState),
-            _ => Ok(()),
-        }
+        self.loader.validate(cx, address, value)
     }
 
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        if address != CONTROL {
-            return;
-        }
-        match cx.store.get(device::program_control::PROGRAM_1) {
-            3 => self.erase(cx.now),
-            command => self.is_running = command > 0,
-        }
+        self.loader.written(cx, address);
+    }
+
+    fn tick(&mut self, cx: &mut Context<'_, '_>) -> Option<Instant> {
+        self.loader.tick(cx)
     }
 }

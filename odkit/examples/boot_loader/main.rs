@@ -26,7 +26,7 @@ fn main() {
         Event::Written(started, Ok(())),
     ];
     assert!(rig.run() == expected, "the program did not arrive");
-    assert!(rig.loader.is_running);
+    assert!(rig.loader.is_running());
     println!(
         "{} bytes written, read back and started: {} frames in {} ms",
         loader::SIZE,
