@@ -1,6 +1,5 @@
 //! A device of an EDS or DCF text.
 
-use std::format;
 use std::prelude::v1::*;
 
 use od_eds::{Description, Finding, Tables};
@@ -58,8 +57,9 @@ impl VirtualDevice {
             ..Profile::CIA301
         };
         let mut device = Self::build(title, source, behaviour, profile, node);
-        device.services = Services::of(device.dictionary(), has_lss(description), |key| {
-            is_set(description, key)
+        let has_lss = device.profile.lss.is_some();
+        device.services = Services::of(device.dictionary(), has_lss, |key| {
+            description.info_is_set(key)
         });
         device.long = Some(Long::default());
         let commissioning = description.commissioning().unwrap_or_default();
@@ -72,33 +72,10 @@ impl VirtualDevice {
 
 /// The LSS slave that an EDS asks for, with the bit rates of its [DeviceInfo] (DECISIONS U-43).
 fn lss(description: &Description) -> Option<LssProfile> {
-    let mut lss = has_lss(description).then_some(LssProfile::CIA305)?;
-    let has = |kbit: u16| is_set(description, &format!("BaudRate_{kbit}"));
-    let rates = || {
-        (0..)
-            .zip(lss.bit_rates)
-            .filter_map(|(index, rate)| rate.and(od_wire::lss::kbit(index)))
-    };
-    // An EDS that names no bit rate says nothing about them.
-    if rates().any(has) {
-        for (index, rate) in (0..).zip(&mut lss.bit_rates) {
-            *rate = rate.filter(|_| od_wire::lss::kbit(index).is_some_and(has));
-        }
+    let named = description.lss_bit_rates()?;
+    let mut lss = LssProfile::CIA305;
+    for (rate, named) in lss.bit_rates.iter_mut().zip(named) {
+        *rate = rate.filter(|_| named);
     }
     Some(lss)
-}
-
-/// Whether [DeviceInfo] says `LSS_Supported=1` (CiA 306-1).
-fn has_lss(description: &Description) -> bool {
-    is_set(description, "LSS_Supported")
-}
-
-/// Whether a key of [DeviceInfo] is there and not 0.
-fn is_set(description: &Description, key: &str) -> bool {
-    let info = description.section("DeviceInfo");
-    let value = info.and_then(|info| info.get(key));
-    value.is_some_and(|value| {
-        let number = od_model::values::integer(value.value.trim());
-        number.is_some_and(|number| number != 0)
-    })
 }

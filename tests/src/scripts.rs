@@ -38,8 +38,16 @@ pub struct File {
 /// # Panics
 /// If the folder cannot be read.
 pub fn all() -> Vec<File> {
+    all_in(&root())
+}
+
+/// All scripts of another folder, by name.
+///
+/// # Panics
+/// If the folder cannot be read.
+pub fn all_in(folder: &Path) -> Vec<File> {
     let mut found = Vec::new();
-    collect(&root(), "", &mut found);
+    collect(folder, "", &mut found);
     found.sort();
     found
 }

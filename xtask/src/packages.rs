@@ -33,12 +33,13 @@ pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
 ];
 
 /// Packages that build without the standard library.
-pub(crate) const NO_STD: [&str; 7] = [
+pub(crate) const NO_STD: [&str; 8] = [
     "od-model",
     "od-wire",
     "od-client",
     "od-runtime",
     "od-board",
     "odkit",
+    "od-capi",
     "od-devices",
 ];

@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeSet;
 use alloc::string::String;
+use alloc::vec::Vec;
 use alloc::{format, vec};
 use core::fmt::Write;
 
@@ -15,7 +16,6 @@ use od_model::{DataType, Kind};
 pub fn write(description: &Description, name: &str, source: &str) -> String {
     let prefix = macro_name(name);
     let mut out = String::new();
-    let mut names = BTreeSet::new();
     // Writing to a String cannot fail, here and below.
     let _ = writeln!(
         out,
@@ -23,10 +23,8 @@ pub fn write(description: &Description, name: &str, source: &str) -> String {
          #ifndef {prefix}_OD_H\n#define {prefix}_OD_H",
         comment(source)
     );
-    for (&index, object) in &description.objects {
-        let has_members = object.code.has_members();
+    for ((&index, object), (stem, stems)) in description.objects.iter().zip(stems(description)) {
         let title = object.name.value.as_str();
-        let stem = unique(&mut names, macro_name(title), index, None);
         let _ = writeln!(
             out,
             "\n/* {:04X}h {}, {} */\n#define {prefix}_{stem}_INDEX 0x{:04X}u",
@@ -35,18 +33,61 @@ pub fn write(description: &Description, name: &str, source: &str) -> String {
             object.code.name(),
             index
         );
-        for (&sub, entry) in &object.entries {
-            let stem = if has_members {
-                let member = macro_name(&entry.name);
-                unique(&mut names, format!("{stem}_{member}"), index, Some(sub))
-            } else {
-                stem.clone()
-            };
-            one(&mut out, sub, entry, &prefix, &stem);
+        for ((&sub, entry), stem) in object.entries.iter().zip(&stems) {
+            one(&mut out, sub, entry, &prefix, stem);
         }
     }
     let _ = writeln!(out, "\n#endif /* {prefix}_OD_H */");
     out
+}
+
+/// Returns the text of a header with a macro for each value, index and sub-index as two arguments:
+/// `OD_POSITION_VALUE 0x6004u, 0x00u`. For the firmware of the device itself (`od-capi`).
+pub fn addresses(description: &Description, name: &str, source: &str) -> String {
+    let prefix = macro_name(name);
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "/* Index and sub-index of the values of {}. */\n\
+         #ifndef {prefix}_OBJECTS_H\n#define {prefix}_OBJECTS_H\n",
+        comment(source)
+    );
+    for ((&index, object), (_, stems)) in description.objects.iter().zip(stems(description)) {
+        for ((&sub, entry), stem) in object.entries.iter().zip(&stems) {
+            let data_type = entry.data_type.map(|data_type| data_type.value);
+            let (name, access) = (
+                data_type.map_or("unknown type", DataType::name),
+                entry.access.name(),
+            );
+            let _ = writeln!(
+                out,
+                "#define {prefix}_{stem} 0x{index:04X}u, 0x{sub:02X}u /* {name}, {access} */"
+            );
+        }
+    }
+    let _ = writeln!(out, "\n#endif /* {prefix}_OBJECTS_H */");
+    out
+}
+
+/// The names of objects and of their values, in the order of the description.
+fn stems(description: &Description) -> impl Iterator<Item = (String, Vec<String>)> {
+    let mut names = BTreeSet::new();
+    description.objects.iter().map(move |(&index, object)| {
+        let title = macro_name(&object.name.value);
+        let stem = unique(&mut names, title, index, None);
+        let entries = object
+            .entries
+            .iter()
+            .map(|(&sub, entry)| match object.code.has_members() {
+                true => {
+                    let member = macro_name(&entry.name);
+                    unique(&mut names, format!("{stem}_{member}"), index, Some(sub))
+                }
+                false => stem.clone(),
+            });
+        let entries = entries.collect();
+        (stem, entries)
+    })
 }
 
 fn one(out: &mut String, sub: u8, entry: &EntryDescription, prefix: &str, stem: &str) {

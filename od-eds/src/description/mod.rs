@@ -5,6 +5,7 @@
 //! dictionary that runs is made from it by [`Tables`](crate::Tables).
 
 pub(crate) mod commission;
+mod lss;
 pub(crate) mod tables;
 
 use alloc::collections::BTreeMap;

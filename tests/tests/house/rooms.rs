@@ -21,7 +21,7 @@ const fn room(name: &'static str, storey: u8, lines: usize) -> Room {
 }
 
 /// All rooms, from the ground up.
-pub(crate) const ROOMS: [Room; 15] = [
+pub(crate) const ROOMS: [Room; 16] = [
     room("od-model", 1, 3_000),
     room("od-wire", 2, 1_600),
     room("od-eds", 2, 13_400),
@@ -32,6 +32,7 @@ pub(crate) const ROOMS: [Room; 15] = [
     room("od-bench", 4, 8_700),
     room("odkit", 5, 200),
     room("devices", 6, 1_900),
+    room("od-capi", 6, 1_700),
     room("od-cli", 7, 2_900),
     room("playground", 7, 6_400),
     room("firmware", 7, 1_700),

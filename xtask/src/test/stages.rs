@@ -1,5 +1,6 @@
 //! The stages, in the order they run: those that are quick and fail often come first.
 
+mod c;
 mod page;
 mod release;
 mod rust;
@@ -90,6 +91,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
     stage("size", Check, "no firmware is larger than README.md says, on an emulated Cortex-M3", rust::size),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
+    stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench),

@@ -27,6 +27,8 @@ pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
     run(context, "formatting", &[&bindgen[..], &check].concat())?;
     let firmware = ["fmt", "--all", "--manifest-path", "firmware/Cargo.toml"];
     run(context, "formatting", &[&firmware[..], &check].concat())?;
+    let device = ["fmt", "--manifest-path", "od-capi/device/Cargo.toml"];
+    run(context, "formatting", &[&device[..], &check].concat())?;
     run(
         context,
         "formatting",

@@ -1,0 +1,19 @@
+//! A CANopen node for C, of the EDS file that the environment variable `ODKIT_EDS` names.
+//!
+//! `build.rs` makes the dictionary's module, and puts the headers beside the library.
+#![cfg_attr(target_os = "none", no_std)]
+
+include!(concat!(env!("OUT_DIR"), "/device.rs"));
+
+od_capi::export!(device);
+
+/// The library found a fault of its own.
+#[cfg(target_os = "none")]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    unsafe extern "C" {
+        fn odkit_panic() -> !;
+    }
+    // SAFETY: a function of the firmware that takes nothing and does not return.
+    unsafe { odkit_panic() }
+}

@@ -1,0 +1,167 @@
+//! The functions of the header.
+
+/// Makes the functions that `include/odkit.h` declares, for the dictionary in a module that
+/// `object_dictionary!` made.
+#[macro_export]
+macro_rules! export {
+    ($device:ident) => {
+        static ODKIT: $crate::Instance<$device::Node, { $device::STORE_LEN }> =
+            $crate::Instance::new();
+
+        /// Power comes: the values become the saved ones or their defaults, and the node boots up.
+        ///
+        /// `now_us` is a counter of microseconds that may start anywhere and wraps at 2^32.
+        /// `node_id` is 1 to 127; or ODKIT_UNCONFIGURED for a device that waits for LSS. A saved node ID
+        /// or the callback `node_id` replaces it. `device` may be null; it is copied.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_power_on(
+            now_us: u32,
+            node_id: u8,
+            device: *const $crate::odkit_device,
+        ) -> u32 {
+            unsafe { ODKIT.power_on(now_us, node_id, device) }
+        }
+
+        /// Power goes: silence until odkit_power_on.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_power_off() -> u32 {
+            ODKIT.power_off()
+        }
+
+        /// Handles a frame that was received.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_handle_frame(
+            now_us: u32,
+            frame: *const $crate::odkit_frame,
+        ) -> u32 {
+            unsafe { ODKIT.handle_frame(now_us, frame) }
+        }
+
+        /// Does what is due by now. To be called when the time of odkit_poll_timeout is over; a call
+        /// that comes earlier or later does no harm.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_handle_timeout(now_us: u32) -> u32 {
+            ODKIT.handle_timeout(now_us)
+        }
+
+        /// Something outside the bus changed: calls `tick`.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_handle_change(now_us: u32) -> u32 {
+            ODKIT.handle_change(now_us)
+        }
+
+        /// Reports the state of the CAN controller, ODKIT_BUS_ACTIVE to ODKIT_BUS_OVERRUN.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_handle_bus(now_us: u32, state: u8) -> u32 {
+            ODKIT.handle_bus(now_us, state)
+        }
+
+        /// Fills `to` with the next frame to send; false if nothing waits. To be called after every
+        /// other function, and whenever the CAN controller has room, until it answers false.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_poll_frame(to: *mut $crate::odkit_frame) -> bool {
+            unsafe { ODKIT.poll_frame(to) }
+        }
+
+        /// Returns the microseconds until odkit_handle_timeout is to be called, 2^30 (18 minutes) at
+        /// most, so that no wrap of the counter is missed.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_poll_timeout(now_us: u32) -> u32 {
+            ODKIT.poll_timeout(now_us)
+        }
+
+        /// Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
+        /// firmware that has no use for events need not ask.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_poll_event(to: *mut $crate::odkit_event) -> bool {
+            unsafe { ODKIT.poll_event(to) }
+        }
+
+        /// Returns the NMT state, ODKIT_INITIALISATION to ODKIT_PRE_OPERATIONAL.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_state() -> u8 {
+            ODKIT.state()
+        }
+
+        /// Returns the node ID, or ODKIT_UNCONFIGURED.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_node_id() -> u8 {
+            ODKIT.node_id()
+        }
+
+        /// Copies a value as an SDO carries it (numbers little-endian), `size` bytes at most; `len`,
+        /// if not null, becomes its length also if it is longer.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get(
+            index: u16,
+            sub: u8,
+            to: *mut ::core::ffi::c_void,
+            size: usize,
+            len: *mut usize,
+        ) -> u32 {
+            unsafe { ODKIT.get(index, sub, to, size, len) }
+        }
+
+        /// Sets a value, read-only ones too: limits and rules hold as for a master. Event-driven TPDOs
+        /// follow. In a callback limits do not hold, and `now_us` does not count.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_set(
+            now_us: u32,
+            index: u16,
+            sub: u8,
+            from: *const ::core::ffi::c_void,
+            len: usize,
+        ) -> u32 {
+            unsafe { ODKIT.set(now_us, index, sub, from, len) }
+        }
+
+        /// Reads an UNSIGNED8 to UNSIGNED32 or a BOOLEAN.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get_u32(index: u16, sub: u8, to: *mut u32) -> u32 {
+            unsafe { ODKIT.get_u32(index, sub, to) }
+        }
+
+        /// Reads an INTEGER8 to INTEGER32.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_get_i32(index: u16, sub: u8, to: *mut i32) -> u32 {
+            unsafe { ODKIT.get_i32(index, sub, to) }
+        }
+
+        /// Sets an UNSIGNED8 to UNSIGNED32 or a BOOLEAN, as odkit_set does. ODKIT_ARGUMENT: its type
+        /// cannot hold the value.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_set_u32(now_us: u32, index: u16, sub: u8, value: u32) -> u32 {
+            ODKIT.set_u32(now_us, index, sub, value)
+        }
+
+        /// Sets an INTEGER8 to INTEGER32, as odkit_set does. ODKIT_ARGUMENT: its type cannot hold the
+        /// value.
+        #[unsafe(no_mangle)]
+        pub extern "C" fn odkit_set_i32(now_us: u32, index: u16, sub: u8, value: i32) -> u32 {
+            ODKIT.set_i32(now_us, index, sub, value)
+        }
+
+        /// Reports an error: the node sends an EMCY message, unless it is active already. `register` has
+        /// the bits of 1001h that it sets, `info` five bytes of its own; null means zeros.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_raise(
+            now_us: u32,
+            code: u16,
+            register: u8,
+            info: *const u8,
+        ) -> u32 {
+            unsafe { ODKIT.raise(now_us, code, register, info) }
+        }
+
+        /// Reports the end of the error with this code and these bits of 1001h.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn odkit_clear(
+            now_us: u32,
+            code: u16,
+            register: u8,
+            info: *const u8,
+        ) -> u32 {
+            unsafe { ODKIT.clear(now_us, code, register, info) }
+        }
+    };
+}

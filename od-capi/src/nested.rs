@@ -1,0 +1,43 @@
+//! Calls that a callback makes: they work on the context that the node gave the callback.
+#![allow(unsafe_code)]
+
+use core::cell::Cell;
+use core::ptr;
+
+use odkit::Context;
+
+/// The context of the callback that runs; null where none does.
+pub(crate) struct Nested(Cell<*mut Context<'static, 'static>>);
+
+impl Nested {
+    pub(crate) const fn new() -> Self {
+        Self(Cell::new(ptr::null_mut()))
+    }
+
+    /// Runs a callback, which may call back.
+    pub(crate) fn during<R>(
+        &self,
+        context: &mut Context<'_, '_>,
+        callback: impl FnOnce() -> R,
+    ) -> R {
+        // The lifetimes are those of this call, which takes the pointer back at its end.
+        let context = ptr::from_mut(context).cast::<Context<'static, 'static>>();
+        let outer = self.0.replace(context);
+        let answer = callback();
+        self.0.set(outer);
+        answer
+    }
+
+    /// The context, for the length of `call`; `None` outside a callback.
+    pub(crate) fn with<R>(&self, call: impl FnOnce(&mut Context<'_, '_>) -> R) -> Option<R> {
+        let context = self.0.replace(ptr::null_mut());
+        if context.is_null() {
+            return None;
+        }
+        // SAFETY: `during` put it there and has not returned; the owner of the reference that it was
+        // made of waits for the callback. The cell is null now, so there is one such reference.
+        let answer = call(unsafe { &mut *context });
+        self.0.set(context);
+        Some(answer)
+    }
+}

@@ -1,0 +1,246 @@
+//! Values and errors from the side of the firmware, in a callback or outside.
+#![allow(unsafe_code)]
+
+use core::ffi::c_void;
+use core::slice;
+
+use odkit::{AbortCode, Address, Device, Emcy, Entry, Extras, Node, Store, nmt};
+
+use crate::answer::{ODKIT_ARGUMENT, ODKIT_NULL, ODKIT_OK, ODKIT_SIZE, ODKIT_STATE};
+use crate::instance::{Instance, answer, put};
+use crate::number;
+
+/// The entry at an address.
+fn find(store: &Store<'_>, address: Address) -> Result<Entry, u32> {
+    let found = store.dictionary().find(address);
+    found.map_err(|missing| AbortCode::from(missing).code())
+}
+
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>, const LEN: usize>
+    Instance<Node<D, PDO, SDO, X>, LEN>
+{
+    /// Reads values, in a callback or outside.
+    fn look<R>(&self, read: impl Fn(&Store<'_>) -> Result<R, u32>) -> Result<R, u32> {
+        if let Some(result) = self.nested.with(|cx| read(cx.store)) {
+            return result;
+        }
+        self.enter(|state| {
+            if !state.node.is_powered() {
+                return Err(ODKIT_STATE);
+            }
+            let node_id = state.node.node_id();
+            let store = Store::new(&Self::DICTIONARY, &mut state.values, node_id);
+            read(&store.map_err(|_| ODKIT_SIZE)?)
+        })
+    }
+
+    /// Writes a value, in a callback or outside.
+    fn write(&self, now_us: u32, address: Address, bytes: &[u8]) -> Result<(), u32> {
+        let nested = self.nested.with(|cx| {
+            let entry = find(cx.store, address)?;
+            cx.store.put(&entry, bytes).map_err(AbortCode::code)?;
+            if (0x1000..0x2000).contains(&address.index) {
+                cx.signals.reconfigure();
+            }
+            Ok(())
+        });
+        if let Some(result) = nested {
+            return result;
+        }
+        self.open(true, |mut call| {
+            let now = call.clock.at(now_us);
+            let set = call.node.set_value(&mut call.lent, now, address, bytes);
+            set.map_err(AbortCode::code)
+        })
+    }
+
+    /// See `odkit_get`.
+    ///
+    /// # Safety
+    /// `to` is null or points to room for `size` bytes; `len` is null or points to a size.
+    pub unsafe fn get(
+        &self,
+        index: u16,
+        sub: u8,
+        to: *mut c_void,
+        size: usize,
+        len: *mut usize,
+    ) -> u32 {
+        if to.is_null() && size != 0 {
+            return ODKIT_NULL;
+        }
+        answer(self.look(|store| {
+            let entry = find(store, Address::new(index, sub))?;
+            let mut number = [0; 8];
+            let bytes = store.bytes(&entry, &mut number);
+            if !len.is_null() {
+                // SAFETY: it is not null, and the caller's.
+                unsafe { put(len, bytes.len()) };
+            }
+            if bytes.len() > size {
+                return Err(ODKIT_SIZE);
+            }
+            // SAFETY: there is room for `size` bytes, if not 0 of them; the values are not the
+            // caller's memory.
+            unsafe { to.cast::<u8>().copy_from(bytes.as_ptr(), bytes.len()) };
+            Ok(())
+        }))
+    }
+
+    /// See `odkit_get_u32`.
+    ///
+    /// # Safety
+    /// `to` is null or points to a number.
+    pub unsafe fn get_u32(&self, index: u16, sub: u8, to: *mut u32) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { self.get_number(index, sub, to, number::unsigned) }
+    }
+
+    /// See `odkit_get_i32`.
+    ///
+    /// # Safety
+    /// `to` is null or points to a number.
+    pub unsafe fn get_i32(&self, index: u16, sub: u8, to: *mut i32) -> u32 {
+        // SAFETY: the caller's.
+        unsafe { self.get_number(index, sub, to, number::signed) }
+    }
+
+    /// # Safety
+    /// `to` is null or points to a number.
+    unsafe fn get_number<T>(
+        &self,
+        index: u16,
+        sub: u8,
+        to: *mut T,
+        read: fn(&Store<'_>, &Entry) -> Result<T, u32>,
+    ) -> u32 {
+        if to.is_null() {
+            return ODKIT_NULL;
+        }
+        let address = Address::new(index, sub);
+        answer(self.look(|store| {
+            let value = read(store, &find(store, address)?)?;
+            // SAFETY: it is not null, and the caller's.
+            unsafe { put(to, value) };
+            Ok(())
+        }))
+    }
+
+    /// See `odkit_set`.
+    ///
+    /// # Safety
+    /// `from` is null or points to `len` bytes.
+    pub unsafe fn set(
+        &self,
+        now_us: u32,
+        index: u16,
+        sub: u8,
+        from: *const c_void,
+        len: usize,
+    ) -> u32 {
+        if from.is_null() && len != 0 {
+            return ODKIT_NULL;
+        }
+        // No value is longer, and a slice may not be as long as `usize` can say.
+        if len > usize::from(u16::MAX) {
+            return ODKIT_ARGUMENT;
+        }
+        let bytes = match len {
+            0 => &[],
+            // SAFETY: it is not null, and the caller's.
+            _ => unsafe { slice::from_raw_parts(from.cast::<u8>(), len) },
+        };
+        answer(self.write(now_us, Address::new(index, sub), bytes))
+    }
+
+    /// See `odkit_set_u32`.
+    pub fn set_u32(&self, now_us: u32, index: u16, sub: u8, value: u32) -> u32 {
+        let bytes = |entry: &Entry| number::from_unsigned(entry.data_type, value);
+        self.set_number(now_us, Address::new(index, sub), bytes)
+    }
+
+    /// See `odkit_set_i32`.
+    pub fn set_i32(&self, now_us: u32, index: u16, sub: u8, value: i32) -> u32 {
+        let bytes = |entry: &Entry| number::from_signed(entry.data_type, value);
+        self.set_number(now_us, Address::new(index, sub), bytes)
+    }
+
+    fn set_number(
+        &self,
+        now_us: u32,
+        address: Address,
+        bytes: impl Fn(&Entry) -> Result<([u8; 4], usize), u32>,
+    ) -> u32 {
+        let wire = self.look(|store| bytes(&find(store, address)?));
+        answer(wire.and_then(|(bytes, len)| {
+            let bytes = bytes.get(..len).unwrap_or(&bytes);
+            self.write(now_us, address, bytes)
+        }))
+    }
+
+    /// See `odkit_raise`.
+    ///
+    /// # Safety
+    /// `info` is null or points to five bytes.
+    pub unsafe fn raise(&self, now_us: u32, code: u16, register: u8, info: *const u8) -> u32 {
+        // SAFETY: the caller's.
+        let error = unsafe { emcy(code, register, info) };
+        self.error(now_us, error, true)
+    }
+
+    /// See `odkit_clear`.
+    ///
+    /// # Safety
+    /// `info` is null or points to five bytes.
+    pub unsafe fn clear(&self, now_us: u32, code: u16, register: u8, info: *const u8) -> u32 {
+        // SAFETY: the caller's.
+        let error = unsafe { emcy(code, register, info) };
+        self.error(now_us, error, false)
+    }
+
+    fn error(&self, now_us: u32, error: Emcy, comes: bool) -> u32 {
+        // 0000h is the error reset, and no error.
+        if error.code == 0 {
+            return ODKIT_ARGUMENT;
+        }
+        let Emcy {
+            code,
+            register,
+            info,
+        } = error;
+        let nested = self.nested.with(|cx| match comes {
+            true => cx.signals.raise(error),
+            false => cx.signals.clear_one(code, register, info),
+        });
+        if nested.is_some() {
+            return ODKIT_OK;
+        }
+        answer(self.open(false, |mut call| {
+            if call.node.state() == nmt::State::Initialising {
+                return Err(AbortCode::DeviceState.code());
+            }
+            let now = call.clock.at(now_us);
+            // One that is active already, or not, needs no message.
+            let _ = match comes {
+                true => call.node.raise(&mut call.lent, now, error),
+                false => call.node.clear(&mut call.lent, now, error),
+            };
+            Ok(())
+        }))
+    }
+}
+
+/// # Safety
+/// `info` is null or points to five bytes.
+unsafe fn emcy(code: u16, register: u8, info: *const u8) -> Emcy {
+    let info = match info.is_null() {
+        true => [0; 5],
+        // SAFETY: the caller's.
+        false => unsafe { info.cast::<[u8; 5]>().read() },
+    };
+    Emcy {
+        code,
+        register,
+        info,
+    }
+}

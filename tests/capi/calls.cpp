@@ -1,0 +1,2 @@
+// The header and the checks in C++.
+#include "calls.c"

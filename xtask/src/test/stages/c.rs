@@ -1,0 +1,138 @@
+//! The stage that builds the library for C, the checks and the example in C, and plays scripts.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::console::{cargo, clean, which};
+use crate::error::{Error, Result};
+use crate::setup::{apt, target};
+use crate::test::context::Context;
+use crate::test::stages::rust::ALL;
+
+/// Warnings are errors.
+const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Werror", "-Wpedantic", "-Wconversion"];
+/// Sanitizers, for programs on this computer.
+const WATCHED: [&str; 3] = [
+    "-g",
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover",
+];
+/// A firmware with nothing but its own files.
+const BARE: [&str; 9] = [
+    "-Os",
+    "-mcpu=cortex-m3",
+    "-mthumb",
+    "-ffreestanding",
+    "-ffunction-sections",
+    "-nostdlib",
+    "-Wl,--gc-sections",
+    "-Wl,-z,noexecstack",
+    "-T",
+];
+/// Programs, and the packages that have them.
+const TOOLS: [(&str, &str); 4] = [
+    ("gcc", "gcc"),
+    ("g++", "g++"),
+    ("arm-none-eabi-gcc", "gcc-arm-none-eabi"),
+    ("qemu-system-arm", "qemu-system-arm"),
+];
+
+/// The device of the checks, and the one of most scripts.
+const DEVICES: [(&str, &str); 2] = [
+    ("ds301", "firmware/eds/ds301.eds+tests/capi/all.overlay"),
+    ("strings", "tests/interop/strings.eds"),
+];
+
+pub(super) fn c(context: &Context<'_>) -> Result<()> {
+    let missing = TOOLS.iter().filter(|(name, _)| which(name).is_none());
+    let missing: Vec<&str> = missing.map(|(_, package)| *package).collect();
+    if !missing.is_empty() {
+        apt::install(context.console, &missing, "a compiler for C is missing")?;
+    }
+    target::add(context.repo, context.console, target::BARE)?;
+    let root = &context.repo.root;
+    let examples = root.join("od-capi/examples/c");
+    let programs = context.repo.target.join("capi");
+    std::fs::create_dir_all(&programs).map_err(|e| Error::io("create", &programs, &e))?;
+    for (name, eds) in DEVICES {
+        // The checks of calls are for a computer.
+        if name == DEVICES[0].0 {
+            let library = library(context, eds, None)?;
+            for (compiler, file) in [("gcc", "calls.c"), ("g++", "calls.cpp")] {
+                let file = root.join("tests/capi").join(file);
+                let program = programs.join(format!("calls-{compiler}"));
+                let mut build = compile(root, compiler, &library, &program);
+                build.args(WATCHED).arg(&file);
+                link(&mut build, &library);
+                context
+                    .console
+                    .run(&format!("the checks by {compiler}"), &mut build)?;
+                let mut run = Command::new(&program);
+                context.console.run("the checks", run.current_dir(root))?;
+            }
+            let mut build = compile(root, "gcc", &library, &programs.join("host"));
+            let files = ["main.c", "virtual.c", "host.c"].map(|file| examples.join(file));
+            build.args(WATCHED).args(files);
+            link(&mut build, &library);
+            context
+                .console
+                .run("the example for a computer", &mut build)?;
+        }
+        let library = library(context, eds, Some(target::BARE))?;
+        let program = programs.join(format!("{name}.elf"));
+        let mut build = compile(root, "arm-none-eabi-gcc", &library, &program);
+        let files = ["main.c", "virtual.c", "qemu.c"].map(|file| examples.join(file));
+        build.args(BARE).arg(examples.join("qemu.ld")).args(files);
+        build
+            .arg("-L")
+            .arg(&library)
+            .args(["-lodkit_node", "-lgcc"]);
+        context
+            .console
+            .run("the example for a Cortex-M3", &mut build)?;
+    }
+    let mut test = cargo(root, &["test"]);
+    test.args(ALL).args(["--test", "capi"]);
+    test.env("ODKIT_C", &programs);
+    context.console.run("scripts", &mut test)
+}
+
+/// Builds the library of an EDS; returns the folder where it is, with its headers.
+fn library(context: &Context<'_>, eds: &str, target: Option<&str>) -> Result<PathBuf> {
+    let root = &context.repo.root;
+    let files: Vec<String> = eds
+        .split('+')
+        .map(|file| root.join(file).display().to_string())
+        .collect();
+    let mut build = cargo(&root.join("od-capi/device"), &["build", "--target-dir"]);
+    build
+        .arg(&context.repo.target)
+        .env("ODKIT_EDS", files.join("+"));
+    let folder = match target {
+        Some(target) => {
+            build.args(["--release", "--target", target]);
+            context.repo.target.join(target).join("release")
+        }
+        None => context.repo.target.join("debug"),
+    };
+    context
+        .console
+        .run(&format!("the library of {eds}"), &mut build)?;
+    Ok(folder)
+}
+
+/// A compiler that makes `program` with the headers of the library.
+fn compile(root: &Path, compiler: &str, library: &Path, program: &Path) -> Command {
+    let mut command = clean(Path::new(compiler), root, &WARNINGS);
+    if compiler != "g++" {
+        command.arg("-std=c99");
+    }
+    command.arg("-I").arg(library).arg("-o").arg(program);
+    command
+}
+
+/// Links the library for a computer.
+fn link(build: &mut Command, library: &Path) {
+    build.arg("-L").arg(library);
+    build.args(["-lodkit_node", "-lpthread", "-ldl", "-lm"]);
+}
