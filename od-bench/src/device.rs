@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 use std::vec;
 
 use od_model::Dictionary;
-use od_runtime::encoder::Fault;
+use od_runtime::encoder::{Encoder, Fault};
 use od_runtime::storage::{Storage, image};
 use od_runtime::{
     Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Profile,
@@ -22,7 +22,7 @@ use crate::eeprom::Eeprom;
 use crate::long::{Beside, Long};
 use crate::roomy::roomy;
 use crate::services::Services;
-use crate::shaft;
+use crate::shaft::{self, Shaft};
 use crate::slave::{Input, Slave};
 use crate::source::Source;
 use crate::twin::{Call, Twin};
@@ -81,8 +81,8 @@ impl VirtualDevice {
         }
     }
 
-    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter, and an
-    /// encoder behind it where there is a position (6004h).
+    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter unless the node
+    /// has a profile, and an encoder behind it where there is a position (6004h).
     ///
     /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
     /// A node that does not know its dictionary does not compile.
@@ -97,7 +97,7 @@ impl VirtualDevice {
     ) -> Self {
         let source = Source::of::<D>();
         let behaviour = Behaviour::of(source.dictionary());
-        let profile = Profile::CIA301;
+        let profile = D::PROFILE.copied().unwrap_or(Profile::CIA301);
         Self::build(title.into(), source, behaviour, profile, Box::new(node))
     }
 
@@ -114,6 +114,24 @@ impl VirtualDevice {
         application: Box<dyn Application>,
     ) -> Self {
         let behaviour = Behaviour::Other(application);
+        let source = Source::of::<D>();
+        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
+    }
+
+    /// As [`of`](Self::of), with this encoder, which the bench turns, and what the services do
+    /// differently.
+    pub fn with_encoder<
+        D: Device + 'static,
+        const PDO: usize,
+        const SDO: usize,
+        X: Extras<D, SDO> + 'static,
+    >(
+        title: &str,
+        node: Node<D, PDO, SDO, X>,
+        profile: &'static Profile,
+        encoder: Encoder<Shaft>,
+    ) -> Self {
+        let behaviour = Behaviour::Encoder(Box::new(encoder));
         let source = Source::of::<D>();
         Self::build(title.into(), source, behaviour, *profile, Box::new(node))
     }

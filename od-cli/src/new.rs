@@ -1,9 +1,15 @@
-//! `odkit new`: a crate for the device of an EDS file, which builds, runs and passes its tests.
+//! `odkit new`: a crate or a firmware for the device of an EDS file, which builds, runs and passes
+//! its tests.
 
-mod files;
+mod device;
+mod firmware;
+mod folder;
+mod name;
+mod origin;
+mod plain;
 mod repair;
+mod template;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use od_eds::{Finding, Parsed};
@@ -11,23 +17,31 @@ use od_eds::{Finding, Parsed};
 use crate::failure::Failure;
 use crate::source::Source;
 use crate::{output, report};
-use files::DeviceFile;
+use device::DeviceFile;
+use origin::Origin;
 
-/// Make a crate from an EDS file: device, program, script, tests
+/// Make a device from an EDS file: a crate for the host, or a firmware with its simulation
 ///
-/// Errors in the file are fixed in the crate's copy; each change is listed.
+/// Errors in the file are fixed in the copy; each change is listed. The new folder contains the
+/// sources of odkit, so it builds without anything else.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// EDS or DCF file, or a built-in device to start from
     #[arg(value_name = "FILE|DEVICE")]
     file: String,
-    /// Name of the crate: letters, digits, `-` and `_`
+    /// Name of the crate: letters, digits, `-` and `_` [default: the name of the file]
     #[arg(long)]
-    name: String,
+    name: Option<String>,
     /// Folder to create [default: the name of the crate]
     #[arg(long, value_name = "FOLDER")]
     path: Option<PathBuf>,
-    /// Checkout of odkit to depend on, instead of the published crates
+    /// Make a workspace with firmware for this board, its simulation and tests
+    #[arg(long, value_name = "BOARD")]
+    firmware: Option<firmware::Board>,
+    /// Depend on the published crates, instead of copies in the folder `vendor`
+    #[arg(long, conflicts_with = "odkit")]
+    registry: bool,
+    /// Depend on a checkout of odkit, instead of copies in the folder `vendor`
     #[arg(long, value_name = "FOLDER")]
     odkit: Option<PathBuf>,
     /// Accept that the crate lacks objects of the file
@@ -36,62 +50,49 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    files::check_name(&args.name).map_err(Failure::Usage)?;
-    let folder = args
-        .path
-        .clone()
-        .unwrap_or_else(|| PathBuf::from(&args.name));
-    if fs::read_dir(&folder).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(Failure::Failed(format!(
-            "{} exists and is not empty; choose another `--name` or `--path`",
-            folder.display()
-        )));
-    }
-    let (
-        device,
-        repair::Notes {
-            all: notes,
-            removed,
-        },
-    ) = device(&args.file)?;
-    if !removed.is_empty() && !args.lossy {
-        for note in &notes {
+    let name = match &args.name {
+        Some(name) => name::check(name).map(|()| name.clone()),
+        None => name::of(&args.file),
+    };
+    let name = name.map_err(Failure::Usage)?;
+    let folder = args.path.clone().unwrap_or_else(|| PathBuf::from(&name));
+    folder::check(&folder)?;
+    let origin = Origin::new(args.registry, args.odkit.as_deref(), &folder)?;
+    let (device, removed) = device(&args.file)?;
+    if removed > 0 && !args.lossy {
+        for note in &device.notes {
             output::note!("note: {note}");
         }
-        let count = report::plural(removed.len(), "object");
+        let count = report::plural(removed, "object");
         return Err(Failure::Failed(format!(
             "the crate would lack {count} of {}; correct them, or add `--lossy` to accept that",
             args.file
         )));
     }
-    let project = files::Project {
-        name: &args.name,
-        device: &device,
-        notes: &notes,
-        odkit: args.odkit.clone().or_else(checkout),
+    let files = match args.firmware {
+        Some(board) => firmware::files(&name, &device, &origin, board),
+        None => plain::files(&name, &device, &origin),
     };
-    for (path, content) in project.files() {
-        let path = folder.join(path);
-        if let Some(folder) = path.parent() {
-            // What is wrong with the folder, writing the file says.
-            let _ = fs::create_dir_all(folder);
-        }
-        output::write(&path, &content)?;
-    }
-    for note in &notes {
+    folder::write(&folder, &files)?;
+    for note in &device.notes {
         output::note!("note: {note}");
     }
     let folder = folder.display();
+    let next = match args.firmware {
+        Some(board) => board.next(),
+        None => "cargo run     # opens an slcan port; `cargo run -- --help` lists the other links",
+    };
     output::print(&format!(
         "{folder}: {} of {}\n\n  cd {folder}\n  cargo test    # runs its script and checks its types\n  \
-         cargo run     # opens an slcan port; `cargo run -- --help` lists the other links",
+         {next}",
         report::plural(device.description.objects.len(), "object"),
         args.file
     ))
 }
 
-/// The file unchanged if it has no errors; else a fixed copy, and a list of the changes.
-fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
+/// The file unchanged if it has no errors; else a fixed copy, and the number of objects that it
+/// lacks.
+fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
     let source = Source::find(name)?;
     let Parsed {
         mut description,
@@ -124,13 +125,7 @@ fn device(name: &str) -> Result<(DeviceFile, repair::Notes), Failure> {
         ending,
         bytes,
         description,
+        notes: notes.all,
     };
-    Ok((device, notes))
-}
-
-/// The checkout in which this program was built, if it still exists.
-fn checkout() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?;
-    let exists = root.join("od-model/Cargo.toml").is_file() && root.join("xtask").is_dir();
-    exists.then(|| root.to_path_buf())
+    Ok((device, notes.removed.len()))
 }

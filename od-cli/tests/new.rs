@@ -126,6 +126,11 @@ fn what_cannot_be_is_said() {
     }
     let empty = file("empty-new.eds", "").display().to_string();
     assert_eq!(odkit(&["new", &empty, "--name", "x1"], "").code, 1);
+    // A folder that cannot be: nothing of it is made.
+    let path = format!("{empty}/x1");
+    let run = odkit(&["new", &eds, "--path", &path], "");
+    assert_eq!(run.code, 1);
+    assert!(run.err.contains("x1"), "{}", run.err);
 }
 
 /// Files of the corpus, one in `step`; none with a message where it is missing.
@@ -160,6 +165,67 @@ fn is_long() -> bool {
     std::env::var_os("ODKIT_LONG").is_some()
 }
 
+/// All files below a folder.
+fn all_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let paths = entries.map(|entry| entry.path());
+    paths
+        .flat_map(|path| match path.is_dir() {
+            true => all_files(&path),
+            false => vec![path],
+        })
+        .collect()
+}
+
+/// A crate has all that it needs, or names versions, or leads to a checkout from where it is.
+#[test]
+fn a_crate_finds_odkit_wherever_it_is() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let root = repository("");
+    let root = Path::new(&root).canonicalize().expect("the checkout");
+    let made = |name: &str, more: &[&str]| {
+        let folder = fresh(name);
+        let path = folder.display().to_string();
+        let arguments = [&["new", &eds, "--path", &path], more].concat();
+        let made = odkit(&arguments, "");
+        assert_eq!(made.code, 0, "{}", made.err);
+        // No file says where this test ran, and the name is that of the file.
+        for file in all_files(&folder) {
+            let text = String::from_utf8_lossy(&fs::read(&file).expect("a file")).into_owned();
+            assert!(!text.contains(&root.display().to_string()), "{file:?}");
+        }
+        let manifest = read(&folder, "Cargo.toml");
+        assert!(manifest.contains("name = \"gxmm\""), "{manifest}");
+        (folder, manifest)
+    };
+    let (vendored, manifest) = made("new-vendored", &[]);
+    assert!(
+        manifest.contains("odkit = { path = 'vendor/odkit' }"),
+        "{manifest}"
+    );
+    assert!(vendored.join("vendor/LICENSE-MIT").is_file());
+    let (registry, manifest) = made("new-registry", &["--registry"]);
+    assert!(manifest.contains("odkit = { version = \""), "{manifest}");
+    assert!(!manifest.contains("vendor") && !registry.join("vendor").exists());
+    let (checkout, manifest) = made("new-checkout", &["--odkit", &root.display().to_string()]);
+    assert!(!checkout.join("vendor").exists());
+    let line = manifest.lines().find(|line| line.starts_with("odkit = "));
+    let path = line
+        .and_then(|line| line.split('\'').nth(1))
+        .expect("a path");
+    assert!(path.starts_with("../"), "{manifest}");
+    let there = checkout
+        .join(path)
+        .canonicalize()
+        .expect("the way to odkit");
+    assert_eq!(there, root.join("odkit"));
+    let path = fresh("new-nowhere").display().to_string();
+    let wrong = odkit(&["new", &eds, "--path", &path, "--odkit", &eds], "");
+    assert_eq!(wrong.code, 1);
+    assert!(wrong.err.contains("no crate `odkit`"), "{}", wrong.err);
+    assert!(!Path::new(&path).exists());
+}
+
 /// Every file that ships makes a crate whose EDS has no error left.
 #[test]
 fn the_corpus_makes_crates() {
@@ -168,7 +234,16 @@ fn the_corpus_makes_crates() {
     for (number, path) in files.iter().enumerate() {
         let to = all.join(number.to_string()).display().to_string();
         let from = path.display().to_string();
-        let arguments = ["new", &from, "--name", "real", "--path", &to, "--lossy"];
+        let arguments = [
+            "new",
+            &from,
+            "--name",
+            "real",
+            "--path",
+            &to,
+            "--lossy",
+            "--registry",
+        ];
         let made = odkit(&arguments, "");
         assert_eq!(made.code, 0, "{from}: {}", made.err);
     }
@@ -182,10 +257,17 @@ fn the_corpus_makes_crates() {
 #[test]
 fn a_new_crate_does_not_depend_on_the_command_line() {
     let folder = fresh("new-tree");
-    make(&repository("devices/eds/GXMM.eds"), "tree", &folder);
+    make(&repository("devices/eds/GXMM.eds"), "tree", &folder, &[]);
     let tree = cargo(
         &folder,
-        &["tree", "--edges", "normal,build", "--prefix", "none"],
+        &[
+            "tree",
+            "--edges",
+            "normal,build",
+            "--prefix",
+            "none",
+            "--offline",
+        ],
     );
     for name in ["od-bench", "od-model"] {
         assert!(tree.contains(&format!("{name} v")), "{name}\n{tree}");
@@ -197,9 +279,10 @@ fn a_new_crate_does_not_depend_on_the_command_line() {
 
 /// Makes a crate, with the versions that this checkout was tested with and that are downloaded
 /// already.
-fn make(from: &str, name: &str, folder: &Path) {
+fn make(from: &str, name: &str, folder: &Path, more: &[&str]) {
     let to = folder.display().to_string();
-    let made = odkit(&["new", from, "--name", name, "--path", &to], "");
+    let arguments = [&["new", from, "--name", name, "--path", &to], more].concat();
+    let made = odkit(&arguments, "");
     assert_eq!(made.code, 0, "{from}: {}", made.err);
     fs::copy(repository("Cargo.lock"), folder.join("Cargo.lock")).expect("a lock file");
 }
@@ -208,7 +291,6 @@ fn make(from: &str, name: &str, folder: &Path) {
 fn cargo(folder: &Path, arguments: &[&str]) -> String {
     let cargo = std::process::Command::new(env!("CARGO"))
         .args(arguments)
-        .arg("--offline")
         .env("CARGO_TARGET_DIR", target())
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .current_dir(folder)
@@ -260,7 +342,21 @@ fn a_new_crate_builds_and_its_tests_pass() {
     for (number, source) in sources.iter().enumerate() {
         let name = format!("made-{number}");
         let folder = all.join(&name);
-        make(&source.display().to_string(), &name, &folder);
-        cargo(&folder, &["test", "--quiet"]);
+        // The first one has copies of odkit, and the others use them, so that they are built once.
+        let vendor = all.join("made-0/vendor").display().to_string();
+        let more: &[&str] = match number {
+            0 => &[],
+            _ => &["--odkit", &vendor],
+        };
+        make(&source.display().to_string(), &name, &folder, more);
+        cargo(&folder, &["test", "--quiet", "--offline"]);
     }
+    // The simulation and the tests of a firmware; the lock file has the versions of all boards.
+    let folder = all.join("workspace");
+    let vendor = all.join("made-0/vendor").display().to_string();
+    let more = ["--firmware", "generic", "--odkit", &vendor];
+    make("gxmm", "workspace", &folder, &more);
+    let lock = repository("tests/boards/Cargo.lock");
+    fs::copy(lock, folder.join("Cargo.lock")).expect("a lock file");
+    cargo(&folder, &["test", "--quiet"]);
 }

@@ -13,6 +13,8 @@ pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 pub(crate) const BARE: &str = "thumbv7m-none-eabi";
 /// The smallest microcontroller: no atomic read-modify-write, no division.
 pub(crate) const SMALLEST: &str = "thumbv6m-none-eabi";
+/// A microcontroller with a floating point unit that its calls do not use.
+pub(crate) const FLOAT: &str = "thumbv7em-none-eabi";
 /// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 

@@ -1,5 +1,6 @@
 //! The stages, in the order they run: those that are quick and fail often come first.
 
+mod boards;
 mod c;
 mod page;
 mod release;
@@ -92,6 +93,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("size", Check, "no firmware is larger than README.md says, on an emulated Cortex-M3", rust::size),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c),
+    stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench),

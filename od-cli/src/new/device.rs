@@ -1,0 +1,209 @@
+//! Facts about the device of a file, as the templates need them.
+
+use std::ops::RangeInclusive;
+
+use od_eds::{Description, Tables};
+use od_model::{Address, Dictionary, Kind, Literal, values};
+use od_runtime::CobId;
+use od_runtime::encoder::{EncoderProfile, Total};
+
+use super::template::Gap;
+
+/// The device description that the crate contains.
+pub(super) struct DeviceFile {
+    /// `eds` or `dcf`.
+    pub(super) ending: &'static str,
+    /// The file that goes into the crate.
+    pub(super) bytes: Vec<u8>,
+    pub(super) description: Description,
+    /// Changes that fixed errors of the file.
+    pub(super) notes: Vec<String>,
+}
+
+/// Bit rates of CiA 301 in kbit/s, by their indices in the LSS table; 0 where it has none.
+const BIT_RATES: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
+
+impl DeviceFile {
+    /// Returns the unit of 6502h if the device is an encoder (CiA 406).
+    pub(super) fn encoder(&self) -> Option<Total> {
+        let tables = Tables::new(&self.description);
+        let profile = EncoderProfile::for_dictionary(tables.dictionary());
+        profile.map(|profile| profile.total)
+    }
+
+    /// Returns whether something is saved: values by 1010h, or the node ID by LSS.
+    fn saves(&self) -> bool {
+        let objects = &self.description.objects;
+        let saves = objects.contains_key(&0x1010) || objects.contains_key(&0x1011);
+        saves || self.has_lss()
+    }
+
+    fn has_lss(&self) -> bool {
+        is_set(&self.description, "LSS_Supported")
+    }
+
+    /// The gaps of the templates and what fills them.
+    pub(super) fn gaps(&self, name: &str) -> Vec<Gap> {
+        let description = &self.description;
+        let node_id = description.commissioned_node_id().unwrap_or(1);
+        let tables = Tables::new(description);
+        let dictionary = tables.dictionary();
+        let first = dictionary.objects().next().map_or(0, |object| object.index);
+        let absent = (0x2000..=0xFFFF).find(|index| dictionary.object(*index).is_none());
+        let encoder = match self.encoder() {
+            Some(Total::Steps) => {
+                "EncoderProfile {\n    total: Total::Steps,\n    ..EncoderProfile::CIA406\n}"
+            }
+            _ => "EncoderProfile::CIA406",
+        };
+        let boot_up = format!("{:03X}#00", 0x700 + u16::from(node_id));
+        let bit_rate = bit_rate(description);
+        let (names, own) = match self.has_lss() {
+            true => ("LssProfile, NodeId, Profile", " + image::OWN_CAPACITY"),
+            false => ("NodeId, Profile", ""),
+        };
+        vec![
+            ("name", name.to_owned()),
+            ("crate", name.replace('-', "_").to_ascii_lowercase()),
+            ("title", title(description, name)),
+            ("eds", format!("{name}.{}", self.ending)),
+            ("absent", format!("{:04X}h", absent.unwrap_or(0x0FFF))),
+            ("edits", edits(dictionary)),
+            ("node_id", node_id.to_string()),
+            ("boot_up", boot_up),
+            ("reads", reads(&tables, node_id)),
+            ("first", format!("0x{first:04X}")),
+            ("encoder", encoder.to_owned()),
+            ("bit_rate", bit_rate.to_string()),
+            ("without", self.without()),
+            ("profile", self.profile(bit_rate)),
+            ("own", own.to_owned()),
+            ("names", format!("use odkit::{{{names}}};")),
+            ("fixed", self.fixed()),
+        ]
+    }
+
+    /// The line of the macro call that leaves out services for which the file has no object.
+    fn without(&self) -> String {
+        let has = |indices: RangeInclusive<u16>| {
+            let mut objects = self.description.objects.range(indices);
+            objects.next().is_some()
+        };
+        let services = [
+            ("lss", self.has_lss()),
+            ("rpdos", has(0x1400..=0x17FF)),
+            ("guarding", has(0x100C..=0x100D)),
+            ("consumer", has(0x1016..=0x1016)),
+            ("storage", self.saves()),
+        ];
+        let missing = services.iter().filter(|(_, has)| !has);
+        let missing: Vec<&str> = missing.map(|(name, _)| *name).collect();
+        match missing.is_empty() {
+            true => String::new(),
+            false => format!(
+                "        // Services that the file has no object for.\n        without {};\n",
+                missing.join(", ")
+            ),
+        }
+    }
+
+    /// The profile of the device: that of CiA 301, with LSS if the file asks for it.
+    fn profile(&self, bit_rate: u16) -> String {
+        if !self.has_lss() {
+            return String::from("Profile::CIA301");
+        }
+        let rates = BIT_RATES.iter().enumerate();
+        let rates = rates.map(|(index, rate)| match *rate == bit_rate {
+            true => format!("Some({index})"),
+            false => String::from("None"),
+        });
+        let rates: Vec<String> = rates.collect();
+        format!(
+            "Profile {{\n    // An LSS master can set the node ID. The bit rate is that of the \
+             firmware.\n    lss: Some(LssProfile {{\n        bit_rates: [{}],\n        \
+             ..LssProfile::CIA305\n    }}),\n    ..Profile::CIA301\n}}",
+            rates.join(", ")
+        )
+    }
+
+    /// For README: the changes in the crate's copy.
+    fn fixed(&self) -> String {
+        if self.notes.is_empty() {
+            return String::new();
+        }
+        let lines: Vec<String> = (self.notes.iter())
+            .map(|note| format!("- {note}\n"))
+            .collect();
+        format!(
+            "\n## Fixed errors\n\nThe EDS file had errors. The copy in this folder was changed:\n\n{}",
+            lines.concat()
+        )
+    }
+}
+
+/// Returns whether a key of [DeviceInfo] is there and not 0.
+fn is_set(description: &Description, key: &str) -> bool {
+    let info = description.section("DeviceInfo");
+    let value = info.and_then(|info| info.get(key));
+    value
+        .and_then(|value| values::integer(value.value.trim()))
+        .is_some_and(|number| number != 0)
+}
+
+/// Bit rate in kbit/s: that of a DCF, or 500 if the file supports it or names none, else the
+/// highest one of the file.
+fn bit_rate(description: &Description) -> u16 {
+    let given = description.commissioning().and_then(|node| node.bit_rate);
+    let known = |rate: &u16| *rate != 0 && BIT_RATES.contains(rate);
+    let has = |rate: &u16| *rate != 0 && is_set(description, &format!("BaudRate_{rate}"));
+    let supported = [500].into_iter().chain(BIT_RATES).find(has);
+    given.filter(known).or(supported).unwrap_or(500)
+}
+
+/// Lines of the macro call that remove what a node does not serve: without them the crate does not
+/// compile.
+fn edits(dictionary: Dictionary<'_>) -> String {
+    let mut lines = String::new();
+    let sync = dictionary.entry(0x1005, 0);
+    if let Some(cob_id) = sync.and_then(|entry| entry.default.integer(0)) {
+        let cob_id = CobId::new(cob_id as u32);
+        if cob_id.produces_sync() && !dictionary.has(0x1006) {
+            let consumed = cob_id.raw() & !(1 << 30);
+            lines += "        // Without 1006h the node does not produce SYNC.\n";
+            lines += &format!("        modify 0x1005 {{ default = {consumed:#010X} }}\n");
+        }
+    }
+    lines
+}
+
+/// A name to show, as the file gives it; without what would end a Rust string or a line.
+fn title(description: &Description, name: &str) -> String {
+    let product = description
+        .section("DeviceInfo")
+        .and_then(|info| info.get("ProductName"))
+        .map(|product| product.value.trim().to_owned());
+    let plain = |c: char| !c.is_control() && !matches!(c, '"' | '\\' | '{' | '}');
+    match product {
+        Some(product) if !product.is_empty() => product.chars().filter(|c| plain(*c)).collect(),
+        _ => name.to_owned(),
+    }
+}
+
+/// Script lines that read what the device is: numbers of the communication area that nobody
+/// can have changed.
+fn reads(tables: &Tables, node_id: u8) -> String {
+    let dictionary = tables.dictionary();
+    let mut lines = String::new();
+    for (index, sub) in [(0x1000, 0), (0x1018, 1), (0x1018, 2), (0x1018, 3)] {
+        let Ok(entry) = dictionary.find(Address::new(index, sub)) else {
+            continue;
+        };
+        let known = !matches!(entry.default, Literal::None) && entry.access.readable();
+        let number = entry.default.integer(node_id).filter(|_| known);
+        if let (Some(number), Kind::Unsigned) = (number, entry.data_type.kind()) {
+            let place = Address::new(index, sub);
+            lines.push_str(&format!("sdo read {place} = 0x{number:X}\n"));
+        }
+    }
+    lines
+}

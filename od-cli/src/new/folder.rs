@@ -1,0 +1,85 @@
+//! Writing the files of a new crate: all of them, or none.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::failure::Failure;
+use crate::output;
+
+/// Checks that a folder can be made, or is empty.
+pub(super) fn check(folder: &Path) -> Result<(), Failure> {
+    let shown = folder.display();
+    match fs::read_dir(folder).map(|mut entries| entries.next().is_some()) {
+        Ok(true) => Err(Failure::Failed(format!(
+            "{shown} exists and is not empty; choose another `--name` or `--path`"
+        ))),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(Failure::Failed(format!("{shown} cannot be used: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes files by their paths below `folder`, and makes the folders that they need.
+///
+/// # Errors
+/// What the system says. Then nothing of it is left.
+pub(super) fn write(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), Failure> {
+    let mut made = Made(Vec::new());
+    for (path, content) in files {
+        let path = folder.join(path);
+        made.parents(&path)?;
+        output::write(&path, content)?;
+        made.0.push(path);
+    }
+    made.0.clear();
+    Ok(())
+}
+
+/// Files and folders in the order in which they were made; dropped, it removes them again.
+struct Made(Vec<PathBuf>);
+
+impl Made {
+    fn parents(&mut self, path: &Path) -> Result<(), Failure> {
+        let missing = path.ancestors().skip(1).take_while(|one| !one.exists());
+        let missing: Vec<&Path> = missing.filter(|one| !one.as_os_str().is_empty()).collect();
+        for folder in missing.into_iter().rev() {
+            fs::create_dir(folder).map_err(|error| {
+                let shown = folder.display();
+                Failure::Failed(format!("{shown} cannot be made: {error}"))
+            })?;
+            self.0.push(folder.to_path_buf());
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Made {
+    fn drop(&mut self) {
+        for path in self.0.iter().rev() {
+            // What cannot be removed either stays; the message is about the first failure.
+            let _ = match path.is_dir() {
+                true => fs::remove_dir(path),
+                false => fs::remove_file(path),
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_leaves_nothing() {
+        let parent = std::env::temp_dir().join(format!("odkit-folder-{}", std::process::id()));
+        let folder = parent.join("new");
+        let file = |path: &str| (path.to_owned(), b"text".to_vec());
+        assert!(write(&folder, &[file("a/b"), file("c"), file("c/d")]).is_err());
+        assert!(!parent.exists());
+        assert!(write(&folder, &[file("a/b"), file("c")]).is_ok());
+        assert!(check(&folder).is_err() && folder.join("a/b").is_file());
+        fs::remove_dir_all(parent).unwrap();
+    }
+}

@@ -1,0 +1,1 @@
+//! Only the versions of the dependencies count.

@@ -1,0 +1,145 @@
+//! The stage that makes a firmware for each board and builds it.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdout, Command, Stdio};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use super::rust::ALL;
+use crate::console::{cargo, which};
+use crate::error::{Error, Result};
+use crate::packages::CLI;
+use crate::repo::program;
+use crate::setup::{apt, target};
+use crate::test::context::Context;
+
+const EMULATOR: &str = "qemu-system-arm";
+/// Boards, their targets, and whether they are part of an ordinary run: embassy takes from 15 seconds
+/// of a processor to a minute, by chip. A long run links them, too.
+const BOARDS: [(&str, &[&str], bool); 4] = [
+    ("generic", &[target::BARE, target::SMALLEST], true),
+    ("rp2040+mcp2515", &[target::SMALLEST], false),
+    ("stm32g0", &[target::SMALLEST], true),
+    ("stm32f4", &[target::FLOAT], false),
+];
+/// Frames to the firmware of gxmm in the emulator, and the one that answers each, as slcan text.
+const DIALOGUE: [(&str, &str); 4] = [
+    ("", "t701100"),
+    // An SDO upload of 1000h, and of an object that there is not.
+    ("t60184000100000000000\r", "t58184300100096010200"),
+    ("t601840FF5F0000000000\r", "t581880FF5F0000000206"),
+    // A heartbeat every 100 ms: time goes on.
+    ("t60182B17100064000000\r", "t58186017100000000000"),
+];
+
+/// Makes the workspace of `odkit new` for each board and compiles its firmware for its target; that of
+/// `generic` runs in an emulator and answers.
+pub(super) fn boards(context: &Context<'_>) -> Result<()> {
+    let (repo, console) = (context.repo, context.console);
+    let mut build = cargo(&repo.root, &["build", "--bin", CLI.1]);
+    console.run("the command line", build.args(ALL))?;
+    let odkit = repo.target.join("debug").join(program(CLI.1));
+    let folder = repo.cache().join("boards");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).map_err(|e| Error::io("create", &folder, &e))?;
+    for (board, targets, ordinary) in BOARDS {
+        if !ordinary && !context.long {
+            continue;
+        }
+        let workspace = folder.join(board);
+        let mut new = Command::new(&odkit);
+        new.args(["new", "devices/eds/GXMM.eds", "--name", "encoder"]);
+        new.args(["--firmware", board, "--odkit", ".", "--path"]);
+        new.arg(&workspace).current_dir(&repo.root);
+        console.run(&format!("a firmware for {board}"), &mut new)?;
+        let (from, to) = (
+            repo.root.join("tests/boards/Cargo.lock"),
+            workspace.join("Cargo.lock"),
+        );
+        fs::copy(from, &to).map_err(|e| Error::io("write", &to, &e))?;
+        let mut fmt = cargo(&workspace, &["fmt", "--check"]);
+        console.run("formatting", &mut fmt)?;
+        for name in targets {
+            target::add(repo, console, name)?;
+            // Clippy compiles, and finds what a firmware engineer would be warned of.
+            let firmware = workspace.join("firmware");
+            let mut check = cargo(&firmware, &["clippy", "--quiet", "--release", "--target"]);
+            check.arg(name).arg("--target-dir").arg(&repo.target);
+            check.args(["--", "-D", "warnings"]);
+            console.run(&format!("{board} for {name}"), &mut check)?;
+            if context.long {
+                let mut link = cargo(&firmware, &["build", "--quiet", "--release", "--target"]);
+                link.arg(name).arg("--target-dir").arg(&repo.target);
+                console.run(&format!("{board} for {name}, linked"), &mut link)?;
+            }
+        }
+    }
+    emulate(context, &folder.join("generic/firmware"))
+}
+
+/// Runs the firmware of the board `generic`.
+fn emulate(context: &Context<'_>, firmware: &Path) -> Result<()> {
+    let (repo, console) = (context.repo, context.console);
+    if which(EMULATOR).is_none() {
+        let why = "the emulator of the Cortex-M3 is missing";
+        apt::install(console, &[EMULATOR], why)?;
+    }
+    let mut build = cargo(firmware, &["build", "--quiet", "--release", "--target-dir"]);
+    console.run("the firmware for the emulator", build.arg(&repo.target))?;
+    let program = repo
+        .target
+        .join(target::BARE)
+        .join("release/encoder-firmware");
+    let mut command = Command::new(EMULATOR);
+    command.args(["-M", "lm3s6965evb", "-display", "none", "-monitor", "none"]);
+    command.args(["-serial", "stdio", "-kernel"]).arg(program);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let child = command.stderr(Stdio::null()).spawn();
+    let mut child = child.map_err(|e| Error::Missing(format!("{EMULATOR}: {e}")))?;
+    let result = talk(&mut child);
+    let _ = child.kill();
+    let _ = child.wait();
+    result
+}
+
+/// The dialogue, and then a heartbeat.
+fn talk(child: &mut Child) -> Result<()> {
+    let (Some(mut input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
+        return Err(Error::Failed(String::from(
+            "the emulator has no serial port",
+        )));
+    };
+    let frames = frames(output);
+    let next = |wanted: &str| match frames.recv_timeout(Duration::from_secs(30)) {
+        Ok(frame) if frame == wanted => Ok(()),
+        Ok(frame) => Err(Error::Failed(format!(
+            "the firmware sent {frame}, not {wanted}"
+        ))),
+        Err(_) => Err(Error::Failed(format!("the firmware did not send {wanted}"))),
+    };
+    for (request, response) in DIALOGUE {
+        let sent = input.write_all(request.as_bytes());
+        sent.and_then(|()| input.flush())
+            .map_err(|e| Error::Failed(format!("{EMULATOR}: {e}")))?;
+        next(response)?;
+    }
+    next("t70117F")
+}
+
+/// What comes out of the serial port, by a thread that ends with the emulator.
+fn frames(output: ChildStdout) -> mpsc::Receiver<String> {
+    let (sender, frames) = mpsc::channel();
+    thread::spawn(move || {
+        let lines = BufReader::new(output).split(b'\r');
+        for line in lines.map_while(std::result::Result::ok) {
+            let line = String::from_utf8_lossy(&line).into_owned();
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    frames
+}
