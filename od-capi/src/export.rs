@@ -5,8 +5,8 @@
 #[macro_export]
 macro_rules! export {
     ($device:ident) => {
-        static ODKIT: $crate::Instance<$device::Node, { $device::STORE_LEN }> =
-            $crate::Instance::new();
+        static ODKIT: $crate::instance::Instance<$device::Node, { $device::STORE_LEN }> =
+            $crate::instance::Instance::new();
 
         /// Power comes: the values become the saved ones or their defaults, and the node boots up.
         ///
@@ -17,7 +17,7 @@ macro_rules! export {
         pub unsafe extern "C" fn odkit_power_on(
             now_us: u32,
             node_id: u8,
-            device: *const $crate::odkit_device,
+            device: *const $crate::types::odkit_device,
         ) -> u32 {
             unsafe { ODKIT.power_on(now_us, node_id, device) }
         }
@@ -32,7 +32,7 @@ macro_rules! export {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn odkit_handle_frame(
             now_us: u32,
-            frame: *const $crate::odkit_frame,
+            frame: *const $crate::types::odkit_frame,
         ) -> u32 {
             unsafe { ODKIT.handle_frame(now_us, frame) }
         }
@@ -59,7 +59,7 @@ macro_rules! export {
         /// Fills `to` with the next frame to send; false if nothing waits. To be called after every
         /// other function, and whenever the CAN controller has room, until it answers false.
         #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn odkit_poll_frame(to: *mut $crate::odkit_frame) -> bool {
+        pub unsafe extern "C" fn odkit_poll_frame(to: *mut $crate::types::odkit_frame) -> bool {
             unsafe { ODKIT.poll_frame(to) }
         }
 
@@ -73,7 +73,7 @@ macro_rules! export {
         /// Fills `to` with the oldest event; false if nothing waits. The node keeps 16 of them; a
         /// firmware that has no use for events need not ask.
         #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn odkit_poll_event(to: *mut $crate::odkit_event) -> bool {
+        pub unsafe extern "C" fn odkit_poll_event(to: *mut $crate::types::odkit_event) -> bool {
             unsafe { ODKIT.poll_event(to) }
         }
 

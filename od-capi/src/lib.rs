@@ -26,19 +26,15 @@
 #![no_std]
 #![warn(clippy::undocumented_unsafe_blocks)]
 
-mod answer;
+pub mod answer;
 mod application;
 mod clock;
 mod events;
 mod export;
 mod frame;
-mod instance;
+pub mod instance;
 mod memory;
 mod nested;
 mod number;
-mod types;
+pub mod types;
 mod values;
-
-pub use answer::*;
-pub use instance::Instance;
-pub use types::*;

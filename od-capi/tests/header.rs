@@ -28,12 +28,14 @@ fn source() -> String {
         fs::read_to_string(path).unwrap()
     };
     let export = read("export.rs");
-    let (_, body) = export.split_once("$crate::Instance::new();").unwrap();
+    let (_, body) = export
+        .split_once("$crate::instance::Instance::new();")
+        .unwrap();
     let body = body.trim_end().strip_suffix("};\n}").unwrap();
     let all = [
         read("answer.rs"),
         read("types.rs"),
-        body.replace("$crate::", ""),
+        body.replace("$crate::types::", ""),
     ]
     .join("\n");
     // What is said of a whole file.

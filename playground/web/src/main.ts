@@ -1,16 +1,12 @@
 import { begin, recall } from './actions';
 import { start } from './sim/link';
-import * as state from './state';
-import { T } from './texts';
+import { deviceDialog } from './state';
 import './views/app';
-
-/** Milliseconds after which the page begins without the lesson that it waits for. */
-const SLOW = 1500;
 
 start();
 void open().then(settle);
 window.addEventListener('hashchange', () => {
-  state.deviceDialog.value = null;
+  deviceDialog.value = null;
   void open();
 });
 
@@ -24,12 +20,7 @@ async function open(): Promise<void> {
   const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {
     const { openNamed } = await import('./lessons/open');
-    // A server that is slow leaves a bench to work with meanwhile.
-    const opening = openNamed(lesson);
-    const slow = new Promise<'slow'>((resolve) => setTimeout(resolve, SLOW, 'slow'));
-    const result = await Promise.race([opening, slow]);
-    if (result === true) return;
-    if (result === 'slow') state.toast.value = { text: T.lessons.slow(lesson), tone: 'info' };
+    if (await openNamed(lesson)) return;
   }
   await begin(recall());
 }

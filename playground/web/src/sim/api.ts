@@ -24,8 +24,8 @@ export interface Tools {
 /** What the page asks of the worker. */
 export type Command =
   | { op: 'do'; input: Input; ticket?: number }
-  /** `quiet`: what is sent at the first moment is not shown; `waits`: what comes next waits until it is there. */
-  | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean; waits?: boolean }
+  /** `quiet`: what is sent at the first moment is not shown. */
+  | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean }
   | { op: 'still'; ticket: number }
   | { op: 'dcf'; ticket: number; node: number }
   | { op: 'run'; running: boolean }
@@ -43,9 +43,7 @@ export type Command =
   | { op: 'ask'; ticket: number; name: keyof Questions; calls: unknown[][] }
   | { op: 'tool'; ticket: number; name: keyof Tools; args: unknown[] }
   | { op: 'replay'; frames: Uint8Array; speed: number }
-  | { op: 'drawn' }
-  /** Answered at once, whatever else there is to do. */
-  | { op: 'ping' };
+  | { op: 'drawn' };
 
 /** What the worker tells the page. */
 export type Report =
@@ -54,7 +52,6 @@ export type Report =
   | { op: 'answer'; ticket: number; value: unknown }
   | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
   | { op: 'rewound'; to: number }
-  | { op: 'pong' }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'crashed'; message: string };
 

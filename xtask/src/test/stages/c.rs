@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::console::{cargo, clean, which};
+use crate::console::{ask, cargo, clean, which};
 use crate::error::{Error, Result};
 use crate::setup::{apt, target};
 use crate::test::context::Context;
@@ -90,11 +90,44 @@ pub(super) fn c(context: &Context<'_>) -> Result<()> {
         context
             .console
             .run("the example for a Cortex-M3", &mut build)?;
+        if name == DEVICES[0].0 {
+            size(root, &program)?;
+        }
     }
     let mut test = cargo(root, &["test"]);
     test.args(ALL).args(["--test", "capi"]);
     test.env("ODKIT_C", &programs);
     context.console.run("scripts", &mut test)
+}
+
+/// Fails where flash or RAM of the example have grown by more than 2 % since README.md was written.
+fn size(root: &Path, program: &Path) -> Result<()> {
+    let path = root.join("README.md");
+    let text = std::fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
+    let part = text.split("<!-- size-c -->").nth(1).unwrap_or_default();
+    let numbers = part.split(' ').map(|word| word.replace(',', ""));
+    let listed: Vec<u64> = numbers.filter_map(|word| word.parse().ok()).collect();
+    let program = program.display().to_string();
+    let sizes = ask("arm-none-eabi-size", &[&program]).unwrap_or_default();
+    let row = sizes.lines().nth(1).unwrap_or_default().split_whitespace();
+    let flash: u64 = row
+        .take(2)
+        .filter_map(|number| number.parse::<u64>().ok())
+        .sum();
+    let symbols = ask("arm-none-eabi-nm", &["-S", &program]).unwrap_or_default();
+    let node = symbols.lines().find(|line| line.contains("5ODKIT"));
+    let ram = node.and_then(|line| u64::from_str_radix(line.split(' ').nth(1)?, 16).ok());
+    match (listed.as_slice(), ram) {
+        ([flash_listed, ram_listed], Some(ram))
+            if flash * 50 <= flash_listed * 51 && ram * 50 <= ram_listed * 51 =>
+        {
+            Ok(())
+        }
+        _ => Err(Error::Failed(format!(
+            "the example in C takes {flash} bytes of flash, and its node {ram:?} of RAM; \
+             README.md says {listed:?} between its marks `size-c`"
+        ))),
+    }
 }
 
 /// Builds the library of an EDS; returns the folder where it is, with its headers.

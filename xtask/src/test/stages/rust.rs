@@ -119,9 +119,13 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
     }
     // The last one brings the others along.
     target::add(context.repo, context.console, target::SMALLEST)?;
-    let args = ["build", "--package", "od-devices", "--no-default-features"];
-    let args = [&args[..], &["--target", target::SMALLEST]].concat();
-    run(context, "od-devices for a Cortex-M0", &args)
+    let args = ["build", "--package", "od-devices", "--package", "od-capi"];
+    let options = ["--no-default-features", "--target", target::SMALLEST];
+    run(
+        context,
+        "od-devices and od-capi for a Cortex-M0",
+        &[&args[..], &options].concat(),
+    )
 }
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
