@@ -1,6 +1,8 @@
 //! The boot loader of `examples/boot_loader`: frames in, frames out.
 #![allow(unreachable_pub)]
 
+#[path = "boot_loader/control.rs"]
+mod control;
 #[path = "../examples/boot_loader/loader.rs"]
 mod loader;
 #[path = "../examples/boot_loader/rig.rs"]
@@ -354,54 +356,4 @@ fn a_master_that_is_gone_is_given_up() {
     rig.wait_until(Instant::from_millis(90_000));
     assert_eq!(rig.answers(), ["2000000000000000"]);
     assert_eq!(rig.len(), Some(5));
-}
-
-#[test]
-fn program_control_wants_a_program() {
-    let mut rig = Rig::new();
-    assert_eq!(rig.ask("2F511F0101000000"), "80511F0124000008");
-    round_trip(&mut rig, 300);
-    assert_eq!(rig.ask("2F511F0101000000"), "60511F0100000000");
-    assert!(rig.loader.is_running());
-    assert_eq!(rig.ask("40511F0100000000"), "4F511F0101000000");
-    assert_eq!(rig.ask("21501F0105000000"), "80501F0122000008", "it runs");
-    assert_eq!(rig.ask("2F511F0103000000"), "80511F0122000008");
-    assert_eq!(rig.ask("2F511F0100000000"), "60511F0100000000");
-    assert_eq!(rig.ask("2F511F0103000000"), "60511F0100000000");
-    assert_eq!(rig.ask("40501F0100000000"), "80501F0124000008", "erased");
-}
-
-#[test]
-fn identification_and_status_are_those_of_the_program() {
-    let mut rig = Rig::new();
-    // No valid program: code 1.
-    assert_eq!(rig.ask("40561F0100000000"), "43561F0100000000");
-    assert_eq!(rig.ask("40571F0100000000"), "43571F0102000000");
-    assert_eq!(rig.send("27501F0131323300"), [""; 0]);
-    rig.wait_until(Instant::from_millis(80));
-    assert_eq!(rig.answers(), ["60501F0100000000"]);
-    // CRC-32 of "123", and a page on its way.
-    assert_eq!(rig.send("40561F0100000000"), ["43561F01D2634888"]);
-    assert_eq!(rig.send("40571F0100000000"), ["43571F0101000000"]);
-    assert_eq!(
-        rig.send("2F511F0101000000"),
-        ["80511F0122000008"],
-        "not yet"
-    );
-    let due = rig.due().expect("the flash is busy");
-    assert_eq!(due, Instant::from_micros(80_400));
-    rig.wait_until(due);
-    assert_eq!(rig.ask("40571F0100000000"), "43571F0100000000");
-    assert_eq!(rig.ask("2F511F0104000000"), "80511F0131000906");
-    assert_eq!(rig.ask("2F511F0101000000"), "60511F0100000000");
-    assert_eq!(rig.ask("40511F0100000000"), "4F511F0101000000");
-    assert_eq!(rig.ask("2F511F0102000000"), "60511F0100000000");
-    assert_eq!(rig.ask("40511F0100000000"), "4F511F0100000000");
-    assert_eq!(rig.ask("2F511F0103000000"), "60511F0100000000");
-    assert_eq!(rig.ask("40561F0100000000"), "43561F0100000000");
-    assert_eq!(
-        rig.ask("40571F0100000000"),
-        "43571F0103000000",
-        "it erases itself"
-    );
 }

@@ -1,8 +1,11 @@
 //! An SDO server past the default one: a server and its two COB-IDs (1201h to 127Fh).
 
-use od_wire::{CanId, CobId, Frame};
+use od_model::Address;
+use od_wire::{AbortCode, CanId, CobId, Frame};
 
-use super::Server;
+use super::{Server, Transfer};
+use crate::device::Device;
+use crate::objects::Objects;
 use crate::store::Store;
 
 /// SDO server of one of the objects 1201h to 127Fh, with a transfer of its own. `N` is the room for
@@ -64,5 +67,38 @@ impl<D, const N: usize> SdoServer<D, N> {
 impl<D, const N: usize> Default for SdoServer<D, N> {
     fn default() -> Self {
         Self::new()
+    }
+}
+
+/// What one of several servers tells the others.
+impl<D: Device, const N: usize> Server<D, N> {
+    /// Refuses a request that begins a transfer.
+    #[cold]
+    pub(crate) fn refuse(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        address: Address,
+        code: AbortCode,
+    ) -> [u8; 8] {
+        self.replace(objects, address);
+        let abort = self.abort(objects, code);
+        self.look();
+        abort
+    }
+
+    /// The value that the application streams.
+    pub(crate) fn streamed(&self) -> Option<Address> {
+        self.streams().then_some(self.address)
+    }
+
+    /// Whether the next frame is data, whatever it looks like, or waits.
+    pub(crate) fn takes_anything(&self) -> bool {
+        self.late.is_awaited()
+            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
+    }
+
+    /// Whether a client waits for the end of a save.
+    pub(crate) fn awaits_save(&self) -> bool {
+        self.late.is_awaited() && !self.late.awaits_stream()
     }
 }

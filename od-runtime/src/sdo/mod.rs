@@ -314,36 +314,6 @@ impl<D: Device, const N: usize> Server<D, N> {
         .emit()
     }
 
-    /// Refuses a request that begins a transfer.
-    #[cold]
-    pub(crate) fn refuse(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        address: Address,
-        code: AbortCode,
-    ) -> [u8; 8] {
-        self.replace(objects, address);
-        let abort = self.abort(objects, code);
-        self.look();
-        abort
-    }
-
-    /// The value that the application streams.
-    pub(crate) fn streamed(&self) -> Option<Address> {
-        self.streams().then_some(self.address)
-    }
-
-    /// Whether the next frame is data, whatever it looks like, or waits.
-    pub(crate) fn takes_anything(&self) -> bool {
-        self.late.is_awaited()
-            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
-    }
-
-    /// Whether a client waits for the end of a save.
-    pub(crate) fn awaits_save(&self) -> bool {
-        self.late.is_awaited() && !self.late.awaits_stream()
-    }
-
     /// Whether [`poll`](Self::poll) may have a segment.
     #[inline]
     pub(crate) fn is_sending(&self) -> bool {

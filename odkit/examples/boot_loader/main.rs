@@ -26,6 +26,8 @@ fn main() {
         Event::Written(started, Ok(())),
     ];
     assert!(rig.run() == expected, "the program did not arrive");
+    let arrived = rig.loader.program().map(|program| program.len as usize);
+    assert_eq!(arrived, Some(loader::SIZE));
     assert!(rig.loader.is_running());
     println!(
         "{} bytes written, read back and started: {} frames in {} ms",
