@@ -189,6 +189,7 @@ fn measure(repo: &Repo, console: &Console) -> Result<Vec<Cost>> {
             )));
         }
         let binaries = repo.target.join(target::BARE).join("release");
+        boot(&binaries.join("boot_loader"))?;
         let programs = PROGRAMS.iter();
         programs
             .map(|(name, _)| play(&binaries.join(name)))
@@ -204,8 +205,27 @@ fn measure(repo: &Repo, console: &Console) -> Result<Vec<Cost>> {
         .collect())
 }
 
-/// Runs a program on the emulator, with a clock that counts its instructions.
+/// Has the boot loader receive a program and start it.
+fn boot(program: &Path) -> Result<()> {
+    let text = emulate(program)?;
+    match text.lines().any(|line| line == "the program runs") {
+        true => Ok(()),
+        false => Err(failed(program, &text)),
+    }
+}
+
+fn failed(program: &Path, text: &str) -> Error {
+    Error::Failed(format!("{} has failed:\n{text}", program.display()))
+}
+
 fn play(program: &Path) -> Result<Cost> {
+    let text = emulate(program)?;
+    read(&text).ok_or_else(|| failed(program, &text))
+}
+
+/// Runs a program on the emulator, with a clock that counts its instructions. Returns what it
+/// prints.
+fn emulate(program: &Path) -> Result<String> {
     let folder = program.parent().unwrap_or(Path::new("."));
     let mut command = clean(
         Path::new(EMULATOR),
@@ -226,8 +246,10 @@ fn play(program: &Path) -> Result<Cost> {
     let output = command.stdin(std::process::Stdio::null()).output();
     let output = output.map_err(|e| Error::Missing(format!("{EMULATOR}: {e}")))?;
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    let cost = read(&text).filter(|_| output.status.success());
-    cost.ok_or_else(|| Error::Failed(format!("{} has failed:\n{text}", program.display())))
+    match output.status.success() {
+        true => Ok(text),
+        false => Err(failed(program, &text)),
+    }
 }
 
 /// The lines of a report: a name, and a number in hex.

@@ -90,7 +90,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
-    stage("size", Check, "no firmware is larger than README.md says, on an emulated Cortex-M3", rust::size),
+    stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards),
