@@ -1,5 +1,7 @@
 //! Several devices on one bus, in virtual time.
 
+mod traffic;
+
 use std::collections::VecDeque;
 use std::prelude::v1::*;
 
@@ -9,20 +11,21 @@ use crate::device::VirtualDevice;
 use crate::wire::{Line, Station};
 use crate::wiring::Wiring;
 
-/// A frame that a device on the bus sent.
+/// A frame that a device on the bus sent, or on a timed line the outside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sent {
     /// When.
     pub at: Instant,
-    /// Which device, counted from 0 in the order of [`Bus::add`].
-    pub device: usize,
+    /// Which device, counted from 0 in the order of [`Bus::add`]; `None` for one from outside,
+    /// when it came through a timed line.
+    pub device: Option<usize>,
     /// The frame.
     pub frame: Frame,
 }
 
-/// A bus without bit times: a frame reaches everybody at the moment it is sent, or everybody
+/// On an ideal line a frame reaches everybody at the moment it is sent, or everybody
 /// with the same bit rate where [`set_bit_rate`](Bus::set_bit_rate) says that it matters. A
-/// real [`line`](Bus::line) lets frames fail as CAN does.
+/// real [`line`](Bus::line) lets frames fail as CAN does, and a timed one lets each take its bits.
 ///
 /// Events of one moment have a fixed order: devices in the order they
 /// were added, frames in the order they were sent. The same inputs give the same
@@ -208,6 +211,9 @@ impl Bus {
         if one.is_powered() && !was_powered {
             self.line.restart(device + 1);
         }
+        if !one.is_powered() {
+            self.line.medium.forget(device + 1);
+        }
         self.settle(device);
         if turned {
             self.turn_along(device);
@@ -216,8 +222,13 @@ impl Bus {
     }
 
     /// A frame from outside: every device receives it, and each other's answers. Answers
-    /// whether the line let it through.
+    /// whether the line let it through. On a timed line it only waits for its turn now, and is
+    /// [polled](Self::poll) when it came through.
     pub fn receive(&mut self, frame: &Frame) -> bool {
+        if self.line.is_timed() {
+            self.queue(frame);
+            return false;
+        }
         let stations = self.stations();
         let came_through = self.line.transmit(self.now, &stations, 0, frame);
         if came_through {
@@ -279,11 +290,15 @@ impl Bus {
         true
     }
 
-    /// The next deadline of any device, or of a controller that recovers from bus-off.
+    /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
+    /// on a timed line.
     pub fn next_deadline(&self) -> Option<Instant> {
-        let devices = self.devices.iter().filter_map(VirtualDevice::poll_timeout);
+        let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
         let controller = self.line.next_recovery().map(|(at, _)| at);
-        devices.chain(controller).min()
+        devices
+            .chain(controller)
+            .chain(self.line.medium.due())
+            .min()
     }
 
     /// The next frame that a device sent, oldest first.
@@ -294,8 +309,16 @@ impl Bus {
     /// Meets the next deadline not after `to`, if there is one; else it is `to` now.
     fn step(&mut self, to: Instant) -> bool {
         let due = (0..self.devices.len())
-            .filter_map(|device| Some((self.devices[device].poll_timeout()?, device)))
+            .filter_map(|device| Some((self.deadline(device)?, device)))
             .min();
+        if let Some(at) = self.line.medium.due()
+            && at <= to
+            && due.is_none_or(|(first, _)| at <= first)
+        {
+            self.now = self.now.max(at);
+            self.carry();
+            return true;
+        }
         if let Some((at, device)) = self.line.next_recovery()
             && at <= to
             && due.is_none_or(|(first, _)| at < first)
@@ -313,7 +336,7 @@ impl Bus {
             self.devices[device].handle_timeout(self.now);
             self.settle(device);
             self.tell_controllers();
-            match self.devices[device].poll_timeout() {
+            match self.deadline(device) {
                 Some(again) if again <= self.now => {}
                 _ => return true,
             }
@@ -338,6 +361,9 @@ impl Bus {
 
     /// Takes what a device sends and hands it to the others, whose answers in turn …
     fn settle(&mut self, device: usize) {
+        if self.line.is_timed() {
+            return self.load(device, self.now);
+        }
         let mut carry = VecDeque::new();
         self.collect(device, &mut carry);
         // Two devices that answer each other for ever would be a broken pair; stop there.
@@ -369,7 +395,7 @@ impl Bus {
             if self.hears_outside(device) && self.line.hears(&stations, device + 1, 0) {
                 self.sent.push_back(Sent {
                     at: self.now,
-                    device,
+                    device: Some(device),
                     frame,
                 });
             }

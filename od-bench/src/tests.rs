@@ -41,7 +41,13 @@ fn frame(text: &str) -> Frame {
 /// Everything on the bus since the last call.
 fn heard(bus: &mut Bus) -> Vec<String> {
     std::iter::from_fn(|| bus.poll())
-        .map(|sent| candump::format_line(sent.at, &format!("dev{}", sent.device), &sent.frame))
+        .map(|sent| {
+            candump::format_line(
+                sent.at,
+                &format!("dev{}", sent.device.expect("a device")),
+                &sent.frame,
+            )
+        })
         .collect()
 }
 

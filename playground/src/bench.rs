@@ -109,7 +109,8 @@ impl Bus {
     #[wasm_bindgen(js_name = setLine)]
     pub fn set_line(&mut self, real: bool, terminators: u8, rate: Option<u16>) {
         let line = &mut self.journal.rig.bus.line;
-        (line.is_real, line.terminators, line.bit_rate) = (real, terminators, rate);
+        line.set_real(real);
+        (line.terminators, line.bit_rate) = (terminators, rate);
     }
 
     /// Begins a new row of chances for what disturbs the wire; the same seed, the same row.

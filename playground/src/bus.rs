@@ -24,6 +24,12 @@ impl Bus {
         Bus { journal }
     }
 
+    /// Does a frame from outside wait for the line, or is it on it?
+    #[wasm_bindgen(js_name = isSending)]
+    pub fn is_sending(&self) -> bool {
+        self.journal.rig.bus.is_sending(0)
+    }
+
     /// Lets `micros` pass, or less if `max_frames` are sent before; answers with what passed.
     /// The inputs of the journal for that time happen again.
     pub fn advance(&mut self, micros: f64, max_frames: usize) -> f64 {

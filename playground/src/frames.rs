@@ -53,7 +53,6 @@ impl Bus {
 pub(crate) fn sentence(words: Words) -> String {
     let mut text = match (words.service, words.node) {
         (Service::Nmt, Some(node)) => format!("{} node {node}", words.text),
-        (Service::Nmt, None) => format!("{} all nodes", words.text),
         (Service::ErrorControl | Service::Emcy, Some(node)) => {
             format!("node {node}: {}", words.text)
         }

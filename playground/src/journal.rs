@@ -1,7 +1,9 @@
 //! Inputs of a bench, kept so that the bench can be made again.
 
 use od_bench::VirtualDevice;
-use od_bench::journal::{Added, Entry, Fault, Fields, Input, Placed, Source, Trouble, Value};
+use od_bench::journal::{
+    Added, Entry, Excess, Fault, Fields, Input, Placed, Source, Trouble, Value, check,
+};
 use od_runtime::Instant;
 use wasm_bindgen::prelude::*;
 
@@ -133,6 +135,27 @@ pub fn read_input(
     #[wasm_bindgen(unchecked_param_type = "unknown")] input: &JsValue,
 ) -> Result<JsValue, JsError> {
     read(input).map(write).map_err(error)
+}
+
+/// Checks a run that is to be made again to the moment `until`, in microseconds, before any of it
+/// happens.
+///
+/// # Errors
+/// `devices`, `time` or `frames`: the limit that it exceeds.
+#[wasm_bindgen(js_name = checkRun)]
+pub fn check_run(
+    #[wasm_bindgen(unchecked_param_type = "Entry[]")] entries: Vec<JsValue>,
+    until: f64,
+) -> Result<(), JsError> {
+    let entries: Result<Vec<_>, _> = entries.iter().map(entry).collect();
+    let until = Instant::from_micros(until.max(0.0) as u64);
+    check(&entries.map_err(error)?, until).map_err(|excess| {
+        JsError::new(match excess {
+            Excess::Devices => "devices",
+            Excess::Time => "time",
+            Excess::Frames => "frames",
+        })
+    })
 }
 
 fn error(fault: Fault) -> JsError {

@@ -51,7 +51,7 @@ pub use codec::{Transfers, decode_value, encode_value, read_line, tag_names, tag
 pub use device::builtin_devices;
 #[cfg(feature = "eds")]
 pub use eds::{check_eds, decode_eds, mend_eds};
-pub use journal::read_input;
+pub use journal::{check_run, read_input};
 #[cfg(feature = "lessons")]
 pub use lesson::{judge_answer, parse_lesson};
 #[cfg(feature = "logs")]

@@ -133,10 +133,10 @@ impl Bus {
             .unwrap_or_default()
     }
 
-    /// Returns what happened to the EEPROMs since the last call, a sentence each; nothing of a save
-    /// that succeeded.
+    /// Returns what happened to the EEPROMs since the last call, a sentence each, and why inputs of
+    /// a run that is made again could not be carried out; nothing of a save that succeeded.
     pub fn notices(&mut self) -> Vec<String> {
-        let mut notices = Vec::new();
+        let mut notices = self.journal.refused();
         for device in 0..self.device_count() {
             let told = |device: &mut VirtualDevice, _| {
                 let (node, events) = (device.node_id(), iter::from_fn(|| device.poll_event()));
@@ -167,6 +167,8 @@ impl Bus {
             .or_else(|| self.journal.rig.bus.devices().iter().find_map(powered_rate));
         Record::new()
             .with("real", line.is_real)
+            .with("timed", line.is_timed())
+            .with("busy", line.busy() as f64)
             .with("terminators", line.terminators)
             .with(
                 "fixedRate",

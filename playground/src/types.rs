@@ -195,6 +195,10 @@ export interface Status {
 /** The wire, and the controller of the outside. */
 export interface LineStatus {
   real: boolean;
+  /** Frames take the time of their bits. */
+  timed: boolean;
+  /** Microseconds that a timed line was busy so far. */
+  busy: number;
   terminators: number;
   fixedRate: number | null;
   rate: number | null;

@@ -2,6 +2,7 @@
 import { build, context } from 'esbuild';
 import { createHash } from 'node:crypto';
 import { cp, mkdir, readdir, readFile, rm, stat, writeFile } from 'node:fs/promises';
+import { inline, policy } from './policy.mjs';
 
 const watch = process.argv.includes('--watch');
 const out = new URL('dist/', import.meta.url);
@@ -33,7 +34,7 @@ const options = {
 
 await rm(out, { recursive: true, force: true });
 await mkdir(out, { recursive: true });
-await cp(new URL('src/index.html', import.meta.url), new URL('index.html', out));
+await index();
 for (const name of ['icon.svg', 'manifest.webmanifest']) await cp(new URL(`src/${name}`, import.meta.url), new URL(name, out));
 for (const [name, path] of Object.entries(modules)) await cp(new URL(path, import.meta.url), new URL(name, out));
 await lessons();
@@ -43,6 +44,13 @@ if (watch) {
 } else {
   await build(options);
   await serviceWorker();
+}
+
+/** The page carries its policy, for servers that send none. There a lesson may come from another server. */
+async function index() {
+  const html = await readFile(new URL('src/index.html', import.meta.url), 'utf8');
+  const meta = `<meta http-equiv="Content-Security-Policy" content="${policy(inline(html), "'self' https:")}">`;
+  await writeFile(new URL('index.html', out), html.replace('<meta charset="utf-8">', `<meta charset="utf-8">\n  ${meta}`));
 }
 
 /** Each lesson is a file that the page fetches when it is taken, with a list of them all. */

@@ -1,10 +1,10 @@
 // Serves the bundled page on 127.0.0.1: `node serve.mjs [port]`, else on 8080 or the next free port.
 // Prints the address. Ends with its standard input, so that nothing outlives its starter.
-import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { inline, policy } from './policy.mjs';
 
 const TYPES = {
   '.html': 'text/html; charset=utf-8',
@@ -16,17 +16,6 @@ const TYPES = {
   '.svg': 'image/svg+xml',
   '.wasm': 'application/wasm',
 };
-
-/** What the page needs and no more: its own files, WebAssembly, and styles in attributes (meters, fading bytes). */
-const policy = (scripts) =>
-  `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'${scripts}; style-src 'self'; style-src-attr 'unsafe-inline'; ` +
-  "img-src 'self'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'";
-
-/** The hashes of the scripts inside an HTML file, as a policy names them. */
-const inline = (html) =>
-  [...html.toString().matchAll(/<script>(.*?)<\/script>/gs)]
-    .map(([, text]) => ` 'sha256-${createHash('sha256').update(text).digest('base64')}'`)
-    .join('');
 
 /** Serves a folder; port 0 is any free one. */
 export async function serve(folder, port) {

@@ -169,10 +169,17 @@ check('a link opens a device', { hash: '#device=gxam&node=33' }, async (page) =>
 
 check('a crash of the simulation is not one of the page', {}, async (page) => {
   await booted(page);
-  const [worker] = page.workers();
-  await worker.evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
+  await sendRaw(page, '601#23 01 60 00 E8 03 00 00');
+  await row(page, 'the confirmation', (one) => one.id === '581' && one.data.startsWith('60'));
+  const break_ = () => page.workers()[0].evaluate(() => void setTimeout(() => { throw new Error('injected'); }));
+  await break_();
   await becomes('a word about it', () => page.locator('.toasts').textContent(), /started again/);
-  // As on a bus: who asks a node before it has booted again gets no answer.
+  // The run is made again up to the last moment that came through.
+  await sendRaw(page, '601#4001600000000000');
+  await row(page, 'what was written before the crash', (one) => one.id === '581' && one.data.startsWith('43 01 60 00 E8 03'));
+  assert.equal((await rows(page)).filter((one) => one.id === '701').length, 1);
+  // What breaks again at once comes back with its devices only.
+  await break_();
   await becomes('boot-ups', async () => (await rows(page)).filter((one) => one.id === '701').length, 2);
   await sendRaw(page, '601#4000100000000000');
   await row(page, 'an answer after the crash', (one) => one.id === '581');

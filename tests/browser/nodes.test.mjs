@@ -188,3 +188,52 @@ check('a step back undoes what a person did', {}, async (page) => {
   await becomes('the state', () => state(page), 'Pre-operational');
   await becomes('frames', () => captured(page), 1);
 });
+
+check('one frame moves exactly one frame, request and answer apart; stepping back keeps PDO and state', {}, async (page) => {
+  await nmt(page, 'Start');
+  await row(page, 'a PDO1', (one) => one.id === '181');
+  await stopTime(page);
+  const pdo = () => page.locator('od-chain').textContent();
+  const shown = await pdo();
+  const count = await captured(page);
+  await sendRaw(page, '601#40 00 10 00 00 00 00 00');
+  await becomes('the request alone', () => captured(page), count + 1);
+  const request = await row(page, 'the request', (one) => one.number === count);
+  await page.getByRole('button', { name: 'Step to the next frame' }).click();
+  await becomes('the next frame', () => captured(page), count + 2);
+  const list = await rows(page);
+  const next = list.find((one) => one.number === count + 1);
+  // 116 bits at 50 kbit/s, behind the time to make it.
+  assert.ok(next.time - request.time >= 0.0015, `${request.time} to ${next.time}`);
+  await page.getByRole('button', { name: 'Step back one frame' }).click();
+  await page.getByRole('button', { name: 'Step back one frame' }).click();
+  await becomes('frames', () => captured(page), count);
+  assert.equal(await pdo(), shown);
+  assert.equal(await state(page), 'Operational');
+});
+
+check('three nodes that send too much fill the line to 100 %, and say so', {}, async (page) => {
+  await addNode(page, 'gxam');
+  await addNode(page, 'gdmm');
+  for (const node of [1, 2, 3]) {
+    await sendRaw(page, `60${node}#2B 00 18 05 01 00 00 00`);
+    await row(page, `the confirmation of node ${node}`, (one) => one.id === `58${node}` && one.data.startsWith('60 00 18 05'));
+  }
+  await sendRaw(page, '000#01 00');
+  await until('a full line', () => page.getByText('The line is full').isVisible());
+  const load = await page.locator('.bus-status').textContent();
+  assert.ok(Number(/Bus load (\d+)/.exec(load)[1]) <= 100, load);
+  await until('a red bar', () => page.locator('.meter[data-full]').isVisible());
+});
+
+check('the DIP switches say when they act, and why they do not', {}, async (page) => {
+  await part(page, 'Hardware');
+  const words = page.locator('od-hardware');
+  await becomes('a word about 0', () => words.textContent(), /rotary switches are at 0/);
+  await page.getByRole('spinbutton', { name: 'Node ID' }).fill('7');
+  await page.getByRole('spinbutton', { name: 'Node ID' }).press('Enter');
+  await becomes('a word about the next start', () => words.textContent(), /reads its switches when it starts/);
+  await until('a badge', () => page.getByRole('group', { name: 'Encoder views' }).locator('.count-badge').isVisible());
+  await words.getByRole('button', { name: 'Reset node' }).click();
+  await row(page, 'the boot-up of node 7', (one) => one.id === '707');
+});

@@ -27,6 +27,49 @@ check('a quiet bus says what to try', async (page) => {
   await becomes('hints', () => page.locator('.hints').count(), 0);
 });
 
+check('the first minute: what this is, and a tour that ends in lesson 1', async (page) => {
+  await page.getByText('This is a CANopen encoder on a CAN bus, simulated in your browser').waitFor();
+  await page.getByRole('button', { name: '60-second tour' }).click();
+  const tour = page.getByRole('region', { name: 'Tour' });
+  await tour.getByRole('button', { name: 'Start the node' }).click();
+  await tour.getByRole('button', { name: 'Run at 30 rpm' }).click();
+  await tour.getByRole('button', { name: 'I see them' }).click();
+  await tour.getByRole('button', { name: 'Begin lesson 1' }).click();
+  await becomes('the address', () => page.url(), /#lesson=boot-up-and-heartbeat/);
+  await becomes('the tour', () => tour.count(), 0);
+});
+
+check('one line takes a candump line, 29 bits, and an object by index or name', async (page) => {
+  for (const [text, id, data] of [
+    ['(1436509052.249713) can0 601#4000100000000000', '601', '40 00 10 00 00 00 00 00'],
+    ['  can0  601   [8]  40 08 10 00 00 00 00 00', '601', '40 08 10 00 00 00 00 00'],
+    ['18FF50E5#01 02', '18FF50E5', '01 02'],
+    ['1018:4', '601', '40 18 10 04 00 00 00 00'],
+    ['1018h:02', '601', '40 18 10 02 00 00 00 00'],
+    ['6004', '601', '40 04 60 00 00 00 00 00'],
+    ['Position value', '601', '40 04 60 00 00 00 00 00'],
+  ]) {
+    await sendRaw(page, text);
+    await row(page, text, (one) => one.id === id && one.data === data);
+    await page.getByRole('button', { name: 'Clear' }).click();
+  }
+});
+
+check('Enter reads in the object field, and writes in the value field', async (page) => {
+  const object = page.getByRole('combobox', { name: 'Object', exact: true });
+  await object.fill('6001');
+  await object.press('Enter');
+  await becomes('the value', () => sdoNote(page), /6001h = /);
+  const value = page.getByRole('textbox', { name: 'Value', exact: true });
+  await value.fill('1000');
+  await value.press('Enter');
+  await becomes('the confirmation', () => sdoNote(page), /6001h written/);
+  await sendRaw(page, '601#40');
+  await row(page, 'a short request in words', (one) => /1 byte, but an SDO message has 8/.test(one.words));
+  await sendRaw(page, 'nmt start all');
+  await row(page, 'NMT in words', (one) => one.words === 'Start, all nodes');
+});
+
 check('a request typed by hand gets its answer', async (page) => {
   await sendRaw(page, '601#4004600000000000');
   await row(page, 'the request in words', (one) => one.id === '601' && one.dir === 'Tx' && /6004/.test(one.words));

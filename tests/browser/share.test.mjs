@@ -1,10 +1,12 @@
 // A bench passed on: by link, by file, by leaving and coming back; without a network; in a frame.
 import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
 import { readFile, writeFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { deflateRawSync } from 'node:zlib';
 import { becomes, booted, captured, nmt, pass, position, row, rows, sdo, sdoNote, sendRaw, state, stays, stopTime, until } from './bench.mjs';
 import { browser, checks, open } from './check.mjs';
 import { URL_OF_PAGE } from './harness.mjs';
@@ -157,7 +159,27 @@ test('bad links get a message and a fresh bench', async () => {
     const { page, faults, close } = await open({ hash });
     await booted(page);
     if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link cannot be opened').isVisible());
+    if (hash.startsWith('#device')) await until('a message about the device', () => page.getByText('No built-in device is named “nonsense”').isVisible());
     await becomes('the state', () => state(page), 'Pre-operational');
+    assert.deepEqual(faults, []);
+    await close();
+  }
+});
+
+test('a link with too much of anything gets a message and a fresh bench', async () => {
+  const bench = (entries, now = 0) => `#bench=${deflateRawSync(JSON.stringify({ odkit: 1, trace: true, now, speed: 1, running: true, node: 0, entries })).toString('base64url')}`;
+  const add = { op: 'add', source: { kind: 'builtin', name: 'gxmm' }, nodeId: 1 };
+  for (const [hash, message] of [
+    [bench(Array.from({ length: 2000 }, () => [0, add])), 'more than 16 devices'],
+    [bench([[0, add]], 366 * 86_400e6), 'longer than a day'],
+    [bench([[0, add], [0, { op: 'script', text: 'wait 1000000000s' }]]), 'the limit is 600s'],
+    [bench([[0, add], [0, { op: 'script', text: 'device gxmm\n'.repeat(2000) }]]), 'the bus has room for 16 devices'],
+  ]) {
+    const { page, faults, close } = await open({ hash });
+    await until(`a message with “${message}”`, () => page.getByText(message).isVisible());
+    await booted(page);
+    await sendRaw(page, '601#40 00 10 00');
+    await row(page, 'an answer', (one) => one.id === '581');
     assert.deepEqual(faults, []);
     await close();
   }
@@ -232,44 +254,101 @@ test('it loads without a network after the first visit', async () => {
   await close();
 });
 
-test('a new version is offered, and comes when it is wanted', async () => {
-  // The page as it is, and then with another icon: one file of another content.
-  let isNew = false;
+/** Serves the page as it is, or as `change` makes its files; answers with the address. */
+async function changed(change) {
   const server = createServer(async (request, response) => {
     const name = new URL(request.url, URL_OF_PAGE).pathname.slice(1);
     const answer = await fetch(new URL(name, URL_OF_PAGE));
-    let body = Buffer.from(await answer.arrayBuffer());
-    if (isNew && name === 'sw.js') body = Buffer.from(body.toString().replace(/\["icon.svg","[^"]+"\]/, '["icon.svg","another"]'));
-    if (isNew && name === 'icon.svg') body = Buffer.from(body.toString().replace('<svg', '<svg data-new=""'));
+    const body = change(name, Buffer.from(await answer.arrayBuffer()));
     response.writeHead(answer.status, { 'content-type': answer.headers.get('content-type') ?? 'application/octet-stream' });
     response.end(body);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  const url = `http://127.0.0.1:${server.address().port}/`;
+  const close = () => {
+    server.closeAllConnections();
+    server.close();
+  };
+  return { url: `http://127.0.0.1:${server.address().port}/`, close };
+}
+
+const newIcon = (body) => Buffer.from(body.toString().replace('<svg', '<svg data-new=""'));
+const hashOf = (body) => createHash('sha256').update(body).digest('base64url').slice(0, 12);
+
+test('a new version is offered, and comes when it is wanted; one that is deployed by half never does', async () => {
+  // The page as it is, and then with another icon: first its list of files is new, then the file.
+  const icon = await (await fetch(new URL('icon.svg', URL_OF_PAGE))).arrayBuffer().then(Buffer.from);
+  const [listed, there] = [new Set(), new Set()];
+  const server = await changed((name, body) => {
+    if (listed.has('new') && name === 'sw.js') return Buffer.from(body.toString().replace(/\["icon.svg","[^"]+"\]/, `["icon.svg","${hashOf(newIcon(icon))}"]`));
+    return there.has('new') && name === 'icon.svg' ? newIcon(body) : body;
+  });
   const page = await browser.newPage();
-  const icon = () => page.evaluate(async () => (await fetch('icon.svg')).text());
+  const shown = () => page.evaluate(async () => (await fetch('icon.svg')).text());
+  /** Looks for a new version, to the end of it. */
+  const look = () =>
+    page.evaluate(async () => {
+      const registration = await navigator.serviceWorker.ready;
+      await registration.update();
+      const worker = registration.installing;
+      if (!worker) return registration.waiting ? 'installed' : 'none';
+      return new Promise((resolve) => worker.addEventListener('statechange', () => worker.state !== 'installing' && resolve(worker.state)));
+    });
   try {
-    await page.goto(url);
+    await page.goto(server.url);
     await booted(page);
     await page.evaluate(() => navigator.serviceWorker.ready);
     await until('the page to be kept', () => page.evaluate(() => navigator.serviceWorker.controller !== null));
-    isNew = true;
+    listed.add('new');
+    assert.equal(await look(), 'redundant', 'a file of another version is not kept');
     await page.reload();
     await booted(page);
+    assert.ok(!(await shown()).includes('data-new'), 'the page is whole');
+    there.add('new');
     // Chromium looks for a new version when it has nothing better to do. A page that draws
     // pictures on a busy machine leaves it no such moment for a minute.
     await stopTime(page);
+    assert.equal(await look(), 'installed');
     const load = page.getByRole('button', { name: 'Load it' });
     await load.waitFor();
-    assert.ok(!(await icon()).includes('data-new'), 'the old version until then');
+    assert.ok(!(await shown()).includes('data-new'), 'the old version until then');
     await Promise.all([page.waitForNavigation(), load.click()]);
     await booted(page);
-    await until('the new version', async () => (await icon()).includes('data-new'));
+    await until('the new version', async () => (await shown()).includes('data-new'));
     assert.equal(await page.evaluate(async () => (await (await caches.open('odkit')).keys()).filter(({ url }) => url.includes('icon.svg')).length), 1, 'the old file is gone');
   } finally {
     await page.close();
-    server.closeAllConnections();
     server.close();
+  }
+});
+
+test('two tabs keep a bench each', async () => {
+  const context = await browser.newContext();
+  const visit = async () => {
+    const page = await context.newPage();
+    await page.goto(URL_OF_PAGE);
+    await booted(page);
+    return page;
+  };
+  const kept = (page) =>
+    page.evaluate(async () => {
+      const answer = (request) => new Promise((resolve, reject) => Object.assign(request, { onsuccess: () => resolve(request.result), onerror: () => reject(request.error) }));
+      const database = await answer(indexedDB.open('odkit'));
+      const texts = database.objectStoreNames.contains('kept') ? (await answer(database.transaction('kept').objectStore('kept').getAll())).map(({ text }) => text) : [];
+      database.close();
+      return texts;
+    });
+  try {
+    const [first, second] = [await visit(), await visit()];
+    await sendRaw(first, '601#40 08 10 00');
+    await until('the first bench to be kept', async () => (await kept(first)).length === 1);
+    await sendRaw(second, '601#40 09 10 00');
+    await until('both benches', async () => (await kept(second)).length === 2);
+    await sendRaw(first, '601#40 0A 10 00');
+    await until('the first bench again', async () => (await kept(first)).some((text) => text.includes('QAgQ') && text.includes('QAoQ')));
+    assert.ok((await kept(first)).some((text) => text.includes('QAkQ')), 'the second is as it was');
+    assert.equal(await second.getByRole('button', { name: 'Continue with it' }).count(), 0, 'what another tab works on is not offered');
+  } finally {
+    await context.close();
   }
 });
 

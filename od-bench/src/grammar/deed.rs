@@ -150,7 +150,7 @@ impl Deed {
             Self::Line(wire) => {
                 let (line, station) = (&mut bench.bus.line, bench.current + 1);
                 match *wire {
-                    Wire::Real(real) => line.is_real = real,
+                    Wire::Real(real) => line.set_real(real),
                     Wire::Terminators(count) => line.terminators = count,
                     Wire::BitRate(kbit) => line.bit_rate = kbit,
                     Wire::Plugged(plugged) => line.set_plugged(station, plugged),

@@ -6,12 +6,14 @@ use std::prelude::v1::*;
 use od_wire::NodeId;
 
 use super::input::{Input, frame};
+use super::limits::MOST_DEVICES;
 use super::parts::{Dip, Rate, Source};
 use super::{Journal, Placed};
 use crate::device::VirtualDevice;
 use crate::grammar::problem::Problem;
+use crate::script::Limits;
 #[cfg(feature = "lessons")]
-use crate::script::Bare;
+use crate::script::{Bare, Limited};
 
 /// Outcome of an input that puts a device on the bus, starts a lesson or runs a script.
 #[derive(Debug, Default)]
@@ -35,6 +37,17 @@ pub enum Trouble {
     Findings(Vec<od_eds::Finding>),
     /// Problems in the text of a lesson.
     Problems(Vec<Problem>),
+}
+
+impl Trouble {
+    /// Returns why an input could not be carried out; `None` if it could.
+    pub(super) fn why(&self, is_done: bool) -> Option<String> {
+        match self {
+            Self::Message(why) => Some(why.clone()),
+            Self::Problems(all) if !is_done => all.first().map(|one| format!("{one}")),
+            _ => None,
+        }
+    }
 }
 
 impl Added {
@@ -117,7 +130,7 @@ impl Journal {
                 rate: Rate(rate),
             } => {
                 let line = &mut rig.bus.line;
-                line.is_real = real;
+                line.set_real(real);
                 line.terminators = terminators;
                 line.bit_rate = rate.map(|rate| rate as u16);
             }
@@ -151,14 +164,23 @@ impl Journal {
         let Some(id) = NodeId::new(node_id) else {
             return Added::failed("a node ID is 1 to 127");
         };
+        let there = self.rig.bus.devices().len();
+        let needed = |channels: u8| match place {
+            Some(place) if place < there => usize::from(channels) - 1,
+            _ => usize::from(channels),
+        };
+        let full = |channels| there + needed(channels) > MOST_DEVICES;
         let mut added = match source {
             Source::Builtin { name } => match self.roster.iter().find(|kind| kind.name == name) {
+                Some(kind) if full(kind.channels) => Added::failed(Limits::PAGE.room()),
                 Some(kind) => Added {
                     node: Some(self.rig.put_kind(kind, id, place)),
                     trouble: Trouble::None,
                 },
                 None => Added::failed(format!("there is no device `{name}`")),
             },
+            #[cfg(feature = "eds")]
+            Source::Eds { .. } if full(1) => Added::failed(Limits::PAGE.room()),
             #[cfg(feature = "eds")]
             Source::Eds { text, lenient, .. } => {
                 let options = crate::loaded::EdsOptions {
@@ -211,7 +233,10 @@ fn source_of(devices: &[Placed], node: usize) -> Source {
 #[cfg(feature = "lessons")]
 impl Journal {
     fn start_lesson(&mut self, text: &str) -> Added {
-        match self.rig.start_lesson(text, &mut Bare(self.roster)) {
+        match self
+            .rig
+            .start_lesson(text, &mut Limited(&mut Bare(self.roster), Limits::PAGE))
+        {
             Ok(lesson) => self.lesson = Some(lesson),
             Err(problems) => {
                 return Added {
@@ -243,7 +268,10 @@ impl Journal {
     }
 
     fn run_script(&mut self, text: &str) -> Added {
-        match self.rig.run_script(text, &mut Bare(self.roster)) {
+        match self
+            .rig
+            .run_script(text, &mut Limited(&mut Bare(self.roster), Limits::PAGE))
+        {
             Ok(()) => Added::default(),
             Err(why) => Added::failed(why),
         }

@@ -4,6 +4,7 @@
 mod apply;
 mod field;
 mod input;
+mod limits;
 mod parts;
 mod still;
 #[cfg(test)]
@@ -19,6 +20,7 @@ use crate::rig::Rig;
 pub use self::apply::{Added, Trouble};
 pub use self::field::{Fault, Fields, Sink, Value};
 pub use self::input::{Entry, Input, frame};
+pub use self::limits::{Excess, check};
 pub use self::parts::{Dip, Rate, Source};
 
 /// Things in one portion of a run that is made again: they are thrown away in between.
@@ -49,6 +51,8 @@ pub struct Journal {
     done: usize,
     /// Entries that [`news`](Self::news) returned.
     told: usize,
+    /// Why inputs of a run that is made again could not be carried out.
+    refused: Vec<String>,
 }
 
 impl Journal {
@@ -63,6 +67,7 @@ impl Journal {
             entries: Vec::new(),
             done: 0,
             told: 0,
+            refused: Vec::new(),
         }
     }
 
@@ -92,6 +97,11 @@ impl Journal {
     pub fn news(&mut self) -> Option<(usize, &[Entry])> {
         let from = std::mem::replace(&mut self.told, self.entries.len());
         (from != self.told).then(|| (from, &self.entries[from.min(self.told)..]))
+    }
+
+    /// Takes why inputs of a run that is made again could not be carried out.
+    pub fn refused(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.refused)
     }
 
     /// Something is done now. What was still to come of a run before does not come any more.
@@ -164,7 +174,8 @@ impl Journal {
             }
             let input = &mut self.entries[self.done].input;
             let input = std::mem::replace(input, Input::Leave {});
-            self.apply(&input);
+            let added = self.apply(&input);
+            self.refused.extend(added.trouble.why(added.node.is_some()));
             self.entries[self.done].input = input;
             self.done += 1;
         }
@@ -189,7 +200,7 @@ impl Journal {
 
     fn begin(&mut self) {
         self.rig.clear();
-        self.rig.bus.line.is_real = true;
+        self.rig.bus.line.set_real(true);
         self.devices.clear();
         #[cfg(feature = "lessons")]
         {

@@ -191,7 +191,8 @@ fn a_run_is_made_again_frame_by_frame() {
         data: Vec::new(),
         extended: false,
         remote: false,
-        micros: 700,
+        // A SYNC takes 1 ms at 50 kbit/s, and so does the answer.
+        micros: 7000,
     };
     let start = Input::Send {
         id: 0,
@@ -209,7 +210,7 @@ fn a_run_is_made_again_frame_by_frame() {
     let node = NodeId::new(5).unwrap();
     first.rig.write(node, Address::new(0x1017, 0), &[5, 0]);
     first.send_requests();
-    first.advance(20_000, usize::MAX);
+    first.advance(200_000, usize::MAX);
     assert!(first.rig.outcome().is_some_and(|one| one.result.is_ok()));
     let run = frames(&mut first);
     assert!(
@@ -335,4 +336,68 @@ fn a_bench_without_its_past_is_as_it_was() {
         .filter(|one| one.name.contains('.'))
         .count();
     assert_eq!(moved.still().is_none(), channels > 0);
+}
+
+#[test]
+fn the_bus_has_room_for_16_devices_also_in_a_run_that_is_made_again() {
+    let mut journal = bench((0..20).map(|_| add("gxmm", 5)).collect());
+    assert_eq!(journal.devices().len(), 16);
+    let added = journal.act(add("gxmm", 5));
+    assert!(matches!(added.trouble, Trouble::Message(why) if why.contains("16 devices")));
+    assert_eq!(
+        journal.act(in_place(0)).node,
+        Some(0),
+        "another in a place is none more"
+    );
+    let entry = |input| Entry {
+        at: Instant::ZERO,
+        input,
+    };
+    journal.restore((0..17).map(|_| entry(add("gxmm", 5))).collect(), true);
+    assert_eq!(journal.devices().len(), 16);
+    assert_eq!(journal.refused().len(), 1);
+    assert_eq!(journal.refused().len(), 0);
+}
+
+fn in_place(place: u8) -> Input {
+    let name = "gxmm".into();
+    Input::Add {
+        source: Source::Builtin { name },
+        node_id: 1,
+        place: Some(place),
+    }
+}
+
+#[cfg(feature = "lessons")]
+#[test]
+fn scripts_and_lessons_of_a_journal_have_limits() {
+    let mut journal = bench(vec![add("gxmm", 5)]);
+    let at = journal.rig.bus.now();
+    for text in ["wait 1000000000s", &"device gxmm\n".repeat(2000)] {
+        let added = journal.act(Input::Script { text: text.into() });
+        assert!(
+            matches!(added.trouble, Trouble::Message(why) if why.contains("limit") || why.contains("room"))
+        );
+        assert_eq!(journal.rig.bus.now(), at, "nothing of it happened");
+    }
+    // Frames of devices count as they come: 1800h:05 is 1 ms.
+    let text = "send 605#2B 00 18 05 01 00\nnmt start\nwait 500s";
+    let added = journal.act(Input::Script { text: text.into() });
+    assert!(
+        matches!(&added.trouble, Trouble::Message(why) if why.contains("100000 frames")),
+        "{:?}",
+        added.trouble
+    );
+    let lesson = "+++\ntitle = \"x\"\nlevel = 1\nminutes = 1\n+++\n```set-up\ndevice gxmm\nwait 1000000000s\n```\n\n\
+        ## One\ntext\n```checkpoint\nstate operational\n```\n### Hint\nx\n```solution\nnmt start\n```\n\
+        ### What just happened\nx\n";
+    let added = journal.act(Input::Lesson {
+        text: lesson.into(),
+    });
+    assert!(added.node.is_none());
+    assert!(
+        matches!(&added.trouble, Trouble::Problems(all) if format!("{all:?}").contains("limit")),
+        "{:?}",
+        added.trouble
+    );
 }

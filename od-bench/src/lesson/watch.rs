@@ -7,7 +7,7 @@ use od_runtime::{Frame, Instant, NodeId};
 use super::progress::Progress;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
-use crate::script::{Host, Origin};
+use crate::script::{Host, Limits, Origin};
 
 /// A host whose frames a lesson sees, too.
 pub struct Watched<'a> {
@@ -24,6 +24,10 @@ impl Host for Watched<'_> {
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, String> {
         self.host.device(name, node_id)
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        self.host.limits()
     }
 
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
@@ -49,7 +53,7 @@ pub fn pass(bus: &mut Bus, progress: &mut Progress, micros: u64) {
             progress.disturbed(one.at);
         }
         while let Some(sent) = bus.poll() {
-            progress.frame(sent.at, Origin::Device(sent.device), &sent.frame);
+            progress.frame(sent.at, Origin::of(sent.device), &sent.frame);
             progress.look(bus);
         }
         if !sent {

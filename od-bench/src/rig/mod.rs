@@ -170,6 +170,8 @@ impl Rig {
 
     fn happen(&mut self, tick: Tick) {
         match tick {
+            // What waits for the line already is not sent twice: a busy line makes a rhythm slower.
+            Tick::Send(frame) if self.bus.is_waiting(&frame) => {}
             Tick::Send(frame) => self.send(&frame),
             Tick::Rpm(device, rpm) => {
                 self.with(device, |device, now| device.set_rpm(rpm, now));
@@ -191,8 +193,10 @@ impl Rig {
     pub fn settle(&mut self) {
         self.settle_line();
         while let Some(sent) = self.bus.poll() {
-            self.asker.handle_frame(sent.at, &sent.frame);
-            self.saw(sent.at, Some(sent.device), sent.frame);
+            if sent.device.is_some() {
+                self.asker.handle_frame(sent.at, &sent.frame);
+            }
+            self.saw(sent.at, sent.device, sent.frame);
         }
         self.look();
     }

@@ -3,6 +3,8 @@
 use std::format;
 use std::prelude::v1::*;
 
+use od_runtime::Instant;
+
 use super::run::{Result, Runner, failed, impossible};
 use crate::bus::Sent;
 use crate::grammar::action::{Expect, Timing};
@@ -12,6 +14,9 @@ use crate::grammar::shown::duration;
 
 /// So far ahead a failed expectation looks, to say what would have come.
 const LOOK_AHEAD: u64 = 10_000_000;
+
+/// So long an expectation without a time waits on a line that takes time, in microseconds.
+const ON_ITS_WAY: u64 = 100_000;
 
 impl Runner<'_> {
     pub(super) fn expect(&mut self, expect: &Expect) -> Result<()> {
@@ -59,7 +64,12 @@ impl Runner<'_> {
 
     fn frame(&mut self, wanted: &Frames, timing: Timing) -> Result<()> {
         let from = self.now();
+        let late = self.bench.bus.longest_wait();
         let (until, when, exact) = match timing {
+            // Where frames take time, what is on its way counts as there.
+            Timing::Now if self.bench.bus.line.is_timed() => {
+                (from.plus_micros(ON_ITS_WAY), String::new(), None)
+            }
             Timing::Now => (from, String::new(), None),
             Timing::Within(micros) => (
                 from.plus_micros(micros),
@@ -68,7 +78,7 @@ impl Runner<'_> {
             ),
             Timing::After(micros) | Timing::Every(micros) => {
                 let at = from.plus_micros(micros);
-                (at, format!(" at {at:?} s"), Some(at))
+                (at.plus_micros(late), format!(" at {at:?} s"), Some(at))
             }
         };
         self.advance_until_pending(until);
@@ -79,7 +89,8 @@ impl Runner<'_> {
             let ahead = self.look_ahead();
             return failed(wanted_text, ahead);
         };
-        if wanted.matches(&sent.frame) && exact.is_none_or(|at| at == sent.at) {
+        let off = |at: Instant| sent.at.micros_since(at).max(at.micros_since(sent.at));
+        if wanted.matches(&sent.frame) && exact.is_none_or(|at| off(at) <= late) {
             return Ok(());
         }
         failed(wanted_text, self.came(&sent))

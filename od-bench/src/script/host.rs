@@ -5,6 +5,7 @@ use std::prelude::v1::*;
 
 use od_runtime::{DeviceKind, Frame, Instant, NodeId};
 
+use super::limits::Limits;
 use crate::bus::Bus;
 use crate::device::VirtualDevice;
 
@@ -15,6 +16,13 @@ pub enum Origin {
     Script,
     /// A device, counted from 0 in the order of the `device` lines.
     Device(usize),
+}
+
+impl Origin {
+    /// Sender of a frame that the bus reports.
+    pub(crate) fn of(device: Option<usize>) -> Self {
+        device.map_or(Self::Script, Self::Device)
+    }
 }
 
 /// Interface of a script to the program that runs it.
@@ -29,6 +37,11 @@ pub trait Host {
         name: Option<&str>,
         node_id: Option<NodeId>,
     ) -> Result<VirtualDevice, String>;
+
+    /// The most that a script may ask for; `None`: no limits.
+    fn limits(&self) -> Option<Limits> {
+        None
+    }
 
     /// A frame is on the bus.
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
@@ -56,8 +69,34 @@ impl<F: FnMut(Instant, Origin, Frame)> Host for Recorder<'_, F> {
         self.host.device(name, node_id)
     }
 
+    fn limits(&self) -> Option<Limits> {
+        self.host.limits()
+    }
+
     fn frame(&mut self, at: Instant, origin: Origin, frame: &Frame) {
         (self.record)(at, origin, *frame);
+    }
+}
+
+/// A host whose scripts come from outside and have limits.
+pub struct Limited<'a>(
+    /// Host that makes the devices.
+    pub &'a mut dyn Host,
+    /// The limits.
+    pub Limits,
+);
+
+impl Host for Limited<'_> {
+    fn device(
+        &mut self,
+        name: Option<&str>,
+        node_id: Option<NodeId>,
+    ) -> Result<VirtualDevice, String> {
+        self.0.device(name, node_id)
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        Some(self.1)
     }
 }
 

@@ -13,6 +13,7 @@
 mod console;
 mod expect;
 mod host;
+mod limits;
 mod line;
 mod outcome;
 mod read;
@@ -22,7 +23,8 @@ pub mod typed;
 
 pub use console::Console;
 pub(crate) use host::Recorder;
-pub use host::{Bare, Host, Origin};
+pub use host::{Bare, Host, Limited, Origin};
+pub use limits::Limits;
 pub use line::{Known, frame_of};
 pub use outcome::{Reason, Stop, Summary};
 pub use read::{Reader, Script};

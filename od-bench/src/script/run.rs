@@ -7,6 +7,7 @@ use std::prelude::v1::*;
 use od_runtime::{Frame, Instant, NodeId};
 
 use super::host::{Host, Origin};
+use super::limits::Limits;
 use super::outcome::{Reason, Stop, Summary};
 use super::read::{Script, Statement};
 use crate::bench::Bench;
@@ -41,6 +42,7 @@ pub(super) struct Runner<'r> {
     greetings: Vec<Sent>,
     pub(super) held: usize,
     frames: u64,
+    limits: Option<Limits>,
 }
 
 /// Runs a script from its first line to its last, or to the first that does not hold.
@@ -60,6 +62,10 @@ pub fn run_on(
     bench: &mut Bench,
     host: &mut dyn Host,
 ) -> core::result::Result<Summary, Box<Stop>> {
+    let limits = host.limits();
+    if let Some(limits) = limits {
+        limits.check(script, bench.bus.devices().len(), bench.bus.now())?;
+    }
     let mut runner = Runner {
         host,
         bench,
@@ -68,9 +74,13 @@ pub fn run_on(
         greetings: Vec::new(),
         held: 0,
         frames: 0,
+        limits,
     };
     for statement in &script.statements {
-        let result = runner.statement(statement);
+        let result = match (runner.statement(statement), runner.limits) {
+            (_, Some(limits)) if runner.is_flooded() => impossible(limits.flood()),
+            (result, _) => result,
+        };
         runner.host.look(&mut runner.bench.bus);
         if let Err(reason) = result {
             return Err(Box::new(Stop {
@@ -178,6 +188,11 @@ impl Runner<'_> {
                     device.title()
                 ));
             }
+            if let Some(limits) = self.limits
+                && self.bench.bus.devices().len() >= limits.devices
+            {
+                return impossible(limits.room());
+            }
             let number = match first.or(beside) {
                 Some(other) => self.bench.bus.add_beside(device, other),
                 None => self.bench.bus.add(device),
@@ -199,6 +214,10 @@ impl Runner<'_> {
             let before = self.pending.len();
             self.bench.bus.start(self.bench.current);
             self.collect();
+            // On a line that takes time the boot-up is still on its way.
+            for station in first.unwrap_or_default() + 1..=self.bench.bus.devices().len() {
+                self.send_out(station);
+            }
             self.greetings.extend(self.pending.iter().skip(before));
         }
         Ok(())
@@ -232,28 +251,47 @@ impl Runner<'_> {
             self.host.look(&mut self.bench.bus);
         }
         self.collect();
+        self.send_out(0);
     }
 
-    /// Lets time pass.
-    pub(super) fn advance(&mut self, to: Instant) {
-        while self.bench.bus.advance_until_sent(to) {
+    /// On a line that takes time, a line of a script is done when what it sends is through, or
+    /// was given up. Station 0 is the script.
+    fn send_out(&mut self, station: usize) {
+        while self.bench.bus.is_sending(station) && self.bench.bus.advance_until_event() {
             self.collect();
         }
     }
 
+    /// Lets time pass.
+    pub(super) fn advance(&mut self, to: Instant) {
+        while !self.is_flooded() && self.bench.bus.advance_until_sent(to) {
+            self.collect();
+        }
+    }
+
+    /// Were there more frames than the script may bring about?
+    fn is_flooded(&self) -> bool {
+        self.limits
+            .is_some_and(|limits| self.frames > limits.frames)
+    }
+
     /// Lets time pass until a frame comes that is not ignored, or until `to`.
     pub(super) fn advance_until_pending(&mut self, to: Instant) {
-        while self.pending.is_empty() && self.bench.bus.advance_until_sent(to) {
+        while self.pending.is_empty() && !self.is_flooded() && self.bench.bus.advance_until_sent(to)
+        {
             self.collect();
         }
     }
 
     pub(super) fn collect(&mut self) {
         while let Some(sent) = self.bench.bus.poll() {
-            self.frames += 1;
-            let origin = Origin::Device(sent.device);
+            let origin = Origin::of(sent.device);
             self.host.frame(sent.at, origin, &sent.frame);
             self.host.look(&mut self.bench.bus);
+            if sent.device.is_none() {
+                continue;
+            }
+            self.frames += 1;
             let mut ignored = self.ignored.iter();
             if !ignored.any(|pattern| pattern.matches(&sent.frame)) {
                 self.pending.push_back(sent);

@@ -1,12 +1,15 @@
 //! The wire: bit rates, terminators, and the error counters of the controllers on it.
 //!
 //! A [`Bus`](crate::bus::Bus) begins with an ideal line, where every frame reaches everybody.
-//! A real one treats a frame as CAN does, without bit times: who hears it with another bit
+//! A real one treats a frame as CAN does: who hears it with another bit
 //! rate destroys it as long as it is error active, nobody who acknowledges it lets it be
 //! repeated, and a controller that errs too often goes bus-off. What happens by chance is
-//! drawn from a seed, so it happens again on the next run.
+//! drawn from a seed, so it happens again on the next run. A timed line also takes the bits of
+//! a frame at the bit rate, one frame at a time, the lowest identifier first.
 
+pub mod bits;
 mod controller;
+mod medium;
 
 use std::collections::VecDeque;
 use std::prelude::v1::*;
@@ -15,6 +18,7 @@ use od_runtime::{BusEvent, Frame, Instant};
 
 use self::controller::PASSIVE;
 pub use self::controller::{Condition, Controller};
+pub(crate) use self::medium::{Due, Medium, PROCESSING, Waiting};
 
 /// Attempts after which a frame that nobody acknowledges is given up: the transmit counter
 /// stands at [`PASSIVE`] then, and would stand there for ever.
@@ -66,6 +70,9 @@ pub struct Disturbance {
 pub struct Line {
     /// Does the physical layer matter at all?
     pub is_real: bool,
+    /// Does a frame take its time? Only on a real line.
+    is_timed: bool,
+    pub(crate) medium: Medium,
     /// Resistors of 120 Ω at the ends; there should be two.
     pub terminators: u8,
     /// The bit rate of the outside in kbit/s; `None`: that of the first device with power.
@@ -81,6 +88,8 @@ impl Default for Line {
     fn default() -> Self {
         Self {
             is_real: false,
+            is_timed: false,
+            medium: Medium::default(),
             terminators: 2,
             bit_rate: None,
             controllers: Vec::new(),
@@ -93,6 +102,24 @@ impl Default for Line {
 }
 
 impl Line {
+    /// Makes the line real, with bit times, or ideal. Frames that wait for the line are lost.
+    pub fn set_real(&mut self, real: bool) {
+        if self.is_timed != real {
+            self.medium.clear();
+        }
+        (self.is_real, self.is_timed) = (real, real);
+    }
+
+    /// Does a frame take its time?
+    pub fn is_timed(&self) -> bool {
+        self.is_real && self.is_timed
+    }
+
+    /// Microseconds that a timed line was not idle so far; a frame on the line counts whole.
+    pub fn busy(&self) -> u64 {
+        self.medium.busy()
+    }
+
     /// Begins a new row of chances; the same seed gives the same row.
     pub fn set_seed(&mut self, seed: u64) {
         self.chance = seed ^ 0x9E37_79B9_7F4A_7C15;
@@ -144,6 +171,7 @@ impl Line {
 
     /// Forgets a station; those behind it move up.
     pub(super) fn remove(&mut self, station: usize) {
+        self.medium.remove(station);
         if station < self.controllers.len() {
             self.controllers.remove(station);
         }
@@ -199,9 +227,7 @@ impl Line {
         if !self.is_real {
             return self.is_plugged(from);
         }
-        self.controllers
-            .resize(stations.len(), Controller::default());
-        let before: Vec<_> = self.controllers.iter().map(|one| one.event()).collect();
+        let before = self.events_of(stations.len());
         let mut attempts = 0;
         let mut trouble = None;
         let delivered = loop {
@@ -218,10 +244,7 @@ impl Line {
             }
         };
         if let Some(trouble) = trouble {
-            if self.disturbed.len() == KEPT {
-                self.disturbed.pop_front();
-            }
-            self.disturbed.push_back(Disturbance {
+            self.keep(Disturbance {
                 at,
                 device: from.checked_sub(1),
                 frame: *frame,
@@ -231,6 +254,47 @@ impl Line {
                 bus_off: self.controller(from).condition() == Condition::BusOff,
             });
         }
+        self.tell_changes(at, stations, before);
+        delivered
+    }
+
+    /// One attempt of a station on a timed line; `None` if it will succeed.
+    pub(super) fn try_once(
+        &mut self,
+        at: Instant,
+        stations: &[Station],
+        from: usize,
+    ) -> Option<Trouble> {
+        let before = self.events_of(stations.len());
+        let trouble = self.attempt(stations, from);
+        self.tell_changes(at, stations, before);
+        trouble
+    }
+
+    /// Is a frame given up after an attempt that failed?
+    pub(super) fn gives_up(&self, waiting: &Waiting) -> bool {
+        let no_one = waiting.trouble == Some(Trouble::NoAcknowledge);
+        self.controller(waiting.station).condition() == Condition::BusOff
+            || waiting.attempts > 4 * ATTEMPTS
+            || no_one && waiting.attempts >= ATTEMPTS
+    }
+
+    /// Keeps a disturbance for whoever asks.
+    pub(super) fn keep(&mut self, disturbance: Disturbance) {
+        if self.disturbed.len() == KEPT {
+            self.disturbed.pop_front();
+        }
+        self.disturbed.push_back(disturbance);
+    }
+
+    /// The states of all controllers.
+    fn events_of(&mut self, stations: usize) -> Vec<BusEvent> {
+        self.controllers.resize(stations, Controller::default());
+        self.controllers.iter().map(|one| one.event()).collect()
+    }
+
+    /// Notes the controllers whose state is another one than before.
+    fn tell_changes(&mut self, at: Instant, stations: &[Station], before: Vec<BusEvent>) {
         for (station, was) in before.into_iter().enumerate() {
             let is = self.controllers[station].event();
             if is != was {
@@ -240,7 +304,6 @@ impl Line {
                 }
             }
         }
-        delivered
     }
 
     /// One attempt; `None` if it succeeds.

@@ -69,6 +69,11 @@ pub(super) fn explain(
     if segments && frame.bytes()[0] & 0x7F != 0 && frame.bytes()[0] != 0x80 {
         return explainer.segment_of_block(frame);
     }
+    // Without index and sub-index there is nothing to say about an object.
+    if frame.dlc() < 4 {
+        let text = format!("{}, but an SDO message has 8", bytes(frame.dlc().into()));
+        return explainer.words(&text).error();
+    }
     match answer {
         true => explainer.answer(Response::parse(frame.bytes()), frame),
         false => explainer.request(Request::parse(frame.bytes()), frame),

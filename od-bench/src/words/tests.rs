@@ -73,6 +73,11 @@ fn frames_become_plain_words() {
             ("385#0102", "PDO node 5: TPDO3 2 bytes"),
             ("1FFFFFFF#", "?: no service uses this CAN-ID"),
             ("000#77", "NMT: command not defined in CiA 301"),
+            ("601#40", "SDO node 1: 1 byte, but an SDO message has 8"),
+            (
+                "581#430010",
+                "SDO node 1: 3 bytes, but an SDO message has 8",
+            ),
         ],
     );
 }

@@ -1,9 +1,10 @@
 // Everything a person can do, in one place.
 
 import type { Input, Source } from './sim/api';
-import { readLine, type Typed } from './codec';
+import { readLine, type ReadLine, type Typed } from './codec';
 import { act, add, dropFrames, restore, select, send, use } from './sim/link';
 import * as state from './state';
+import { parseAddress } from './views/object-search';
 import { T } from './texts';
 
 export function sendFrame(frame: Typed): void {
@@ -11,8 +12,17 @@ export function sendFrame(frame: Typed): void {
   act({ op: 'send', id, data, extended, remote });
 }
 
-/** What a line says, for the selected node. */
-export const readTyped = (text: string) => readLine(text, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
+/** What a line says, for the selected node. An object alone (`6004`, `1018:4`, its name) is read. */
+export function readTyped(text: string): ReadLine {
+  const read = (line: string): ReadLine => readLine(line, state.nodeId.value, (index, sub) => state.objectsByKey.value.get(state.keyOf(index, sub)));
+  const parsed = read(text);
+  if ('frame' in parsed) return parsed;
+  const wanted = text.trim().toLowerCase();
+  const where = /^(0x)?[0-9a-f]{4}h?(\s*[:./]\s*[0-9a-f]{1,2}h?)?$/i.test(wanted) ? parseAddress(wanted) : state.device.value?.objects.find(({ name }) => name.toLowerCase() === wanted);
+  if (!wanted || !where) return parsed;
+  const hex = (value: number): string => value.toString(16);
+  return read(`read ${hex(where.index).padStart(4, '0')}:${hex(where.sub).padStart(2, '0')}`);
+}
 
 /** Sends the frame that a line says, for the selected node: `nmt start`, `601#40 04 60 00`. */
 export function sendLine(line: string): void {
@@ -168,7 +178,7 @@ export function recall(): { source: Source; nodeId: number }[] {
   return (names.length ? names : ['gxmm']).map((name, i) => {
     const node = nodes[i] ?? i + 1;
     return {
-      source: { kind: 'builtin', name: /^[a-z0-9_]{1,16}$/.test(name) ? name : 'gxmm' },
+      source: { kind: 'builtin', name: name.slice(0, 40) },
       nodeId: Number.isInteger(node) && node >= 1 && node <= 127 ? node : 1,
     };
   });
@@ -178,8 +188,9 @@ export function recall(): { source: Source; nodeId: number }[] {
 export async function begin(wanted: { source: Source; nodeId: number }[]): Promise<void> {
   restore([], 0);
   for (const { source, nodeId } of wanted) {
-    const isOpen = await openDevice(source, nodeId, 'new');
-    if (!isOpen && source.kind === 'builtin') await openDevice({ kind: 'builtin', name: 'gxmm' }, nodeId, 'new');
+    if (await openDevice(source, nodeId, 'new')) continue;
+    state.toast.value = { text: T.app.noDevice(source.name), tone: 'error' };
+    if (state.devices.value.length === 0) await openDevice({ kind: 'builtin', name: 'gxmm' }, nodeId, 'new');
   }
   select(0);
 }
@@ -192,6 +203,7 @@ export async function openLesson(name: string, text: string): Promise<boolean> {
     return false;
   }
   dropFrames();
+  state.tour.value = null;
   state.lessonFailed.value = null;
   state.lessonRun.value = { name, count: state.lessonRun.value.count + 1 };
   select(0);

@@ -1,12 +1,16 @@
 import { begin, recall } from './actions';
 import { start } from './sim/link';
-import { deviceDialog } from './state';
+import * as state from './state';
+import { T } from './texts';
 import './views/app';
+
+/** Milliseconds after which the page begins without the lesson that it waits for. */
+const SLOW = 1500;
 
 start();
 void open().then(settle);
 window.addEventListener('hashchange', () => {
-  deviceDialog.value = null;
+  state.deviceDialog.value = null;
   void open();
 });
 
@@ -20,7 +24,12 @@ async function open(): Promise<void> {
   const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {
     const { openNamed } = await import('./lessons/open');
-    if (await openNamed(lesson)) return;
+    // A server that is slow leaves a bench to work with meanwhile.
+    const opening = openNamed(lesson);
+    const slow = new Promise<'slow'>((resolve) => setTimeout(resolve, SLOW, 'slow'));
+    const result = await Promise.race([opening, slow]);
+    if (result === true) return;
+    if (result === 'slow') state.toast.value = { text: T.lessons.slow(lesson), tone: 'info' };
   }
   await begin(recall());
 }

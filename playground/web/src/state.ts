@@ -15,6 +15,8 @@ export const statuses = signal<Status[]>([]);
 /** Number of the device that the panels show. */
 export const selectedNode = signal(0);
 export const line = signal<LineStatus | null>(null);
+/** Per cent of the time that a line which takes time was busy in the last second. */
+export const load = signal(0);
 
 export const device = computed<DeviceInfo | null>(() => devices.value[selectedNode.value] ?? null);
 export const status = computed<Status | null>(() => statuses.value[selectedNode.value] ?? null);
@@ -82,6 +84,9 @@ export const lessonRun = signal({ name: '', count: 0 });
 /** A lesson that could not be opened, and why. */
 export const lessonFailed = signal<{ name: string; problems: Diagnostic[] } | null>(null);
 export const lessonDialog = signal(false);
+
+/** The step of the tour; null while there is none. */
+export const tour = signal<number | null>(null);
 
 export type Tab = 'encoder' | 'console' | 'objects' | 'lesson';
 export const tab = signal<Tab>('encoder');

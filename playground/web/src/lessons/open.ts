@@ -16,6 +16,9 @@ export interface Listed {
 /** Longest text that is worth a try, in bytes. */
 const LONGEST = 1_000_000;
 
+/** Milliseconds that a server has for a lesson. */
+const PATIENCE = 10_000;
+
 let list: Promise<Listed[]> | null = null;
 
 /** The lessons that come with odkit; they are fetched once. */
@@ -27,7 +30,7 @@ export function lessons(): Promise<Listed[]> {
 }
 
 async function load(address: string): Promise<string> {
-  const answer = await fetch(new URL(address, new URL('./', location.href)));
+  const answer = await fetch(new URL(address, new URL('./', location.href)), { signal: AbortSignal.timeout(PATIENCE) });
   if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`.trim());
   const body = await answer.blob();
   if (body.size > LONGEST) throw new Error(T.lessons.tooLarge);
@@ -35,7 +38,9 @@ async function load(address: string): Promise<string> {
 }
 
 function unreachable(name: string, error: unknown): false {
-  state.toast.value = { text: T.lessons.unreachable(name, error instanceof Error ? error.message : String(error)), tone: 'error' };
+  const isSlow = error instanceof Error && error.name === 'TimeoutError';
+  const why = isSlow ? T.lessons.tooSlow : error instanceof Error ? error.message : String(error);
+  state.toast.value = { text: T.lessons.unreachable(name, why), tone: 'error' };
   return false;
 }
 

@@ -58,6 +58,15 @@ test('every field is checked', () => {
   assert.equal(fault(JSON.stringify({ ...whole, entries: [[5, { op: 'seed', seed: 1 }], [4, { op: 'seed', seed: 1 }]] })), 'cut');
 });
 
+test('a run beyond its limits is refused before any of it happens', () => {
+  const add = { op: 'add', source: { kind: 'builtin', name: 'gxmm' }, nodeId: 5 };
+  const run = (entries: unknown[], now: number): string => fault(JSON.stringify({ ...(JSON.parse(write(bench)) as object), entries, now }));
+  assert.equal(run([[0, add]], 86_400e6), '');
+  assert.equal(run([[0, add]], 86_401e6), 'time');
+  assert.equal(run(Array.from({ length: 2000 }, () => [0, add]), 0), 'devices');
+  assert.equal(run([[0, { op: 'repeat', key: 1, id: 128, data: '', extended: false, remote: false, micros: 100 }]], 86_400e6), 'frames');
+});
+
 test('damaged addresses are refused, not thrown at the page', async () => {
   const packed = await pack(write(bench));
   for (const wrong of ['', '%', 'AAAA', packed.slice(0, 20), packed.slice(0, -4), `x${packed}`]) {

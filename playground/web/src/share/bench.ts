@@ -2,7 +2,7 @@
 // files and the autosave; what comes in is checked to the last field, for it comes from outside.
 
 import type { Entry, Input } from '../sim/api';
-import { readInput } from '../codec';
+import { checkRun, readInput } from '../codec';
 
 export const VERSION = 1;
 
@@ -25,7 +25,7 @@ export class NoBench extends Error {}
 const MOST_ENTRIES = 200_000;
 /** Fields of inputs that are bytes. */
 const BYTES: ReadonlySet<string> = new Set(['data', 'bytes']);
-/** Latest moment: a year. */
+/** Latest moment that is a number of this format: a year. How long a run may be says `checkRun`. */
 const LATEST = 366 * 86_400e6;
 
 export function write(bench: Bench): string {
@@ -52,9 +52,11 @@ export function read(text: string): Bench {
     return { at: number(pair[0], 0, LATEST), input: checked(pair[1]) };
   });
   if (entries.some(({ at }, i) => i > 0 && at < entries[i - 1]!.at)) throw new NoBench('cut');
+  const now = number(it['now'], 0, LATEST);
+  checkedBy(() => checkRun(entries, now));
   return {
     trace: flag(it['trace']),
-    now: number(it['now'], 0, LATEST),
+    now,
     speed: number(it['speed'], 0.001, 10_000),
     running: flag(it['running']),
     node: number(it['node'], 0, 255),
@@ -63,9 +65,11 @@ export function read(text: string): Bench {
 }
 
 /** The module knows the inputs, and what is allowed in their fields. */
-function checked(value: unknown): Input {
+const checked = (value: unknown): Input => checkedBy(() => readInput(value));
+
+function checkedBy<T>(check: () => T): T {
   try {
-    return readInput(value);
+    return check();
   } catch (error) {
     throw new NoBench(error instanceof Error ? error.message : 'cut');
   }

@@ -1,7 +1,7 @@
 // The last bench, kept in this browser: nobody loses his work by closing a tab.
 
 import { effect } from '@preact/signals-core';
-import { createStore, get, set } from 'idb-keyval';
+import { createStore, del, entries, set } from 'idb-keyval';
 import * as state from '../state';
 import { T } from '../texts';
 import { write } from './bench';
@@ -23,23 +23,47 @@ interface Kept {
 
 const store = createStore('odkit', 'kept');
 
-const load = (key: 'last' | 'before'): Promise<Kept | undefined> => get(key, store);
-const save = (key: 'last' | 'before', kept: Kept): Promise<void> => set(key, kept, store);
+/** Each visit keeps its bench under a name of its own, so that two tabs do not overwrite each other's. */
+const own = crypto.randomUUID?.() ?? `${Date.now()} ${Math.random()}`;
+/** So many benches stay; the oldest go. */
+const MOST_KEPT = 8;
+/** Milliseconds between two looks for a tab that closes. */
+const LOOK = 250;
+
+/** The benches that no open tab works on, newest first. */
+async function left(patience = 0): Promise<{ key: IDBValidKey; kept: Kept }[]> {
+  const all = await entries<IDBValidKey, Kept>(store);
+  const held = await navigator.locks?.query().then(({ held: locks }) => locks, () => []);
+  const open = new Set(held?.map(({ name }) => name));
+  const isOther = all.some(([key]) => key !== own && open.has(lockOf(key)));
+  // The page before this one in the same tab lets go of its lock a moment after it is gone.
+  if (isOther && patience > 0) {
+    await new Promise((resolve) => setTimeout(resolve, LOOK));
+    return left(patience - 1);
+  }
+  return all
+    .filter(([key, kept]) => kept && key !== own && !open.has(lockOf(key)))
+    .map(([key, kept]) => ({ key, kept }))
+    .sort((a, b) => b.kept.at - a.kept.at);
+}
+
+const lockOf = (key: IDBValidKey): string => `odkit bench ${String(key)}`;
 
 /** Has anything been done but putting devices on the bus? */
 const isWorth = (): boolean => state.journal.entries.some(({ input }) => input.op !== 'add');
 
 /** Begins to keep the bench, and offers the one that was kept before. */
 export async function start(): Promise<void> {
+  // Held as long as this tab is open.
+  void navigator.locks?.request(lockOf(own), () => new Promise(() => undefined));
   let last: Kept | undefined;
   try {
-    last = await load('last');
+    last = (await left(4))[0]?.kept;
   } catch {
     // Storage is off: nothing is kept.
     return;
   }
   if (last) offer(last);
-  let isFirst = true;
   let timer = 0;
   const keep = async (): Promise<void> => {
     timer = 0;
@@ -48,10 +72,8 @@ export async function start(): Promise<void> {
     const bench = await now(!isLong);
     if (bench.entries.length === 0) return;
     try {
-      // What a session finds is not lost when it saves for the first time.
-      if (isFirst && last) await save('before', last);
-      isFirst = false;
-      await save('last', { at: Date.now(), names: state.devices.peek().map((one) => one.name), text: write(bench) });
+      await set(own, { at: Date.now(), names: state.devices.peek().map((one) => one.name), text: write(bench) }, store);
+      await Promise.all((await left()).slice(MOST_KEPT).map(({ key }) => del(key, store)));
     } catch {
       // The disk is full, or the browser forbids it: the page works without.
     }
@@ -72,8 +94,8 @@ function offer(kept: Kept): void {
   ];
 }
 
-/** The bench before the one that was kept last. */
-export const before = (): Promise<Kept | undefined> => load('before').catch(() => undefined);
+/** The bench that was kept before this visit. */
+export const before = (): Promise<Kept | undefined> => left().then((all) => all[0]?.kept, () => undefined);
 
 export const when = (at: number): string =>
   new Date(at).toLocaleString('en', { dateStyle: 'medium', timeStyle: 'short' });

@@ -2,6 +2,7 @@
 
 import * as state from '../state';
 import { T } from '../texts';
+import { trusted } from '../trusted';
 
 declare const OFFLINE: boolean;
 
@@ -11,7 +12,7 @@ export async function register(): Promise<void> {
   const { serviceWorker } = navigator;
   let registration: ServiceWorkerRegistration;
   try {
-    registration = await serviceWorker.register('sw.js');
+    registration = await serviceWorker.register(trusted('sw.js'));
   } catch {
     // Private windows and file: addresses have none.
     return;

@@ -24,8 +24,8 @@ export interface Tools {
 /** What the page asks of the worker. */
 export type Command =
   | { op: 'do'; input: Input; ticket?: number }
-  /** `quiet`: what is sent at the first moment is not shown. */
-  | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean }
+  /** `quiet`: what is sent at the first moment is not shown; `waits`: what comes next waits until it is there. */
+  | { op: 'restore'; entries: Entry[]; until: number; quiet: boolean; waits?: boolean }
   | { op: 'still'; ticket: number }
   | { op: 'dcf'; ticket: number; node: number }
   | { op: 'run'; running: boolean }
@@ -43,7 +43,9 @@ export type Command =
   | { op: 'ask'; ticket: number; name: keyof Questions; calls: unknown[][] }
   | { op: 'tool'; ticket: number; name: keyof Tools; args: unknown[] }
   | { op: 'replay'; frames: Uint8Array; speed: number }
-  | { op: 'drawn' };
+  | { op: 'drawn' }
+  /** Answered at once, whatever else there is to do. */
+  | { op: 'ping' };
 
 /** What the worker tells the page. */
 export type Report =
@@ -52,6 +54,7 @@ export type Report =
   | { op: 'answer'; ticket: number; value: unknown }
   | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
   | { op: 'rewound'; to: number }
+  | { op: 'pong' }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'crashed'; message: string };
 

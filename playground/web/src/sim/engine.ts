@@ -62,6 +62,7 @@ export class Engine {
         this.isBusy = true;
         const added = await world.act(command.input);
         this.isBusy = false;
+        if (command.input.op === 'send' && !this.running) this.sendOut();
         if (TELLING.has(command.input.op)) this.tellDevices();
         if (command.input.op === 'lesson') this.replay = null;
         this.pauseAtGoal();
@@ -74,6 +75,8 @@ export class Engine {
         this.isBusy = false;
         this.until = command.until;
         this.tellDevices();
+        // The slices go on meanwhile.
+        while (command.waits && this.until !== null) await new Promise((resolve) => setTimeout(resolve, REST));
         break;
       case 'run':
         this.running = command.running;
@@ -89,10 +92,9 @@ export class Engine {
         break;
       case 'back':
         this.until = null;
-        world.drain();
-        world.bus.rewind(command.to);
-        // The past is not news.
-        world.bus.notices();
+        this.isBusy = true;
+        await world.rewind(command.to);
+        this.isBusy = false;
         world.reachedGoal();
         this.tellDevices();
         this.report({ op: 'rewound', to: world.bus.now() });
@@ -136,6 +138,8 @@ export class Engine {
         this.answer(command.ticket, await world.dcf(command.node));
         this.isBusy = false;
         break;
+      case 'ping':
+        return;
       case 'drawn':
         this.undrawn = Math.max(0, this.undrawn - 1);
         return;
@@ -209,6 +213,12 @@ export class Engine {
     const isReached = this.world.reachedGoal();
     if (isReached) this.running = false;
     return isReached;
+  }
+
+  /** Time that is paused goes on until the frame that somebody sent is through: its answer comes with the next step. */
+  private sendOut(): void {
+    const { bus } = this.world;
+    for (let left = MOST_FRAMES; left > 0 && bus.isSending(); left--) bus.advance(SLICE, 1);
   }
 
   /** The next frame of a log; what it answers is the bench's business. */

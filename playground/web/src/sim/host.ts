@@ -34,6 +34,7 @@ export async function host(modules: Modules): Promise<void> {
     isWorking = false;
   };
   self.onmessage = ({ data }: MessageEvent<Command>) => {
+    if (data.op === 'ping') return report({ op: 'pong' });
     waiting.push(data);
     void work();
   };

@@ -6,12 +6,25 @@ import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
 import type { Added, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
+import { trusted } from '../trusted';
 import { FRAME_BYTES } from './packed';
 
 /** Crashes in a row after which the page stops trying. */
 const MOST_CRASHES = 3;
+/** Milliseconds between two questions whether the worker is still there. */
+const LOOK = 250;
+/** Questions without an answer after which it hangs: two seconds. */
+const MOST_UNANSWERED = 8;
+
+/** Virtual microseconds over which the load is taken, and between two moments of it. */
+const LOAD_WINDOW = 1_000_000;
+const LOAD_STEP = 50_000;
 
 let worker: Worker | null = null;
+/** Questions since its last report; a page that was held up itself asked none meanwhile. */
+let unanswered = 0;
+let watchdog = 0;
+let lookedAt = 0;
 let crashes = 0;
 let ticket = 0;
 /** Who waits for an answer, and what they get if the worker ends before. */
@@ -20,7 +33,9 @@ const waiting = new Map<number, { resolve(value: unknown): void; otherwise: unkn
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
 
 export function start(): void {
-  const own = new Worker(new URL('worker.js', import.meta.url), { type: 'module', name: 'odkit simulation' });
+  unanswered = 0;
+  watchdog ||= window.setInterval(look, LOOK);
+  const own = new Worker(trusted('worker.js'), { type: 'module', name: 'odkit simulation' });
   worker = own;
   // One that was ended has nothing to say any more, even if it is on its way.
   own.onmessage = ({ data }: MessageEvent<Report>) => {
@@ -55,10 +70,10 @@ export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>):
   ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
 
 /** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
-export function restore(entries: Entry[], until: number, quiet = false): void {
+export function restore(entries: Entry[], until: number, quiet = false, waits = false): void {
   state.journal.entries = [];
   dropFrames();
-  send({ op: 'restore', entries, until, quiet });
+  send({ op: 'restore', entries, until, quiet, waits });
 }
 
 /** What makes an empty bench as this one is, without its past; null if nothing does. */
@@ -85,7 +100,21 @@ export function listen(listener: (snapshot: Snapshot, first: number) => void): (
   return () => listeners.delete(listener);
 }
 
+/** Ends a worker that hangs. One that is still loading cannot answer yet. */
+function look(): void {
+  if (state.health.peek() !== 'running') return;
+  const at = performance.now();
+  const isLate = at - lookedAt > LOOK * 1.6;
+  lookedAt = at;
+  // Where the page itself is held up, the worker may be, too.
+  if (isLate) return;
+  if (unanswered >= MOST_UNANSWERED) return crashed(null);
+  unanswered += 1;
+  send({ op: 'ping' });
+}
+
 function receive(report: Report): void {
+  unanswered = 0;
   switch (report.op) {
     case 'ready':
       begin(report.module);
@@ -119,14 +148,19 @@ function resolve(ticket: number, value: unknown): void {
 }
 
 function devices(list: DeviceInfo[], lesson: Lesson | null): void {
+  // The same bench at another moment: what is shown of it stays.
+  const known = state.devices.peek();
+  const isBack = list.length > 0 && list.length === known.length && list.every(({ name, nodeId }, i) => name === known[i]!.name && nodeId === known[i]!.nodeId);
   batch(() => {
     state.devices.value = list;
     state.lesson.value = lesson;
     if (!lesson) state.lessonState.value = null;
     if (state.selectedNode.value >= list.length) select(Math.max(0, list.length - 1));
-    state.selected.value = null;
-    state.values.value = new Map();
-    state.lastPdo.value = null;
+    if (!isBack) {
+      state.selected.value = null;
+      state.values.value = new Map();
+      state.lastPdo.value = null;
+    }
   });
   document.title = list.length ? T.app.devices(list.map((one) => one.name).join(', ')) : T.app.empty;
 }
@@ -151,6 +185,9 @@ function rewound(to: number): void {
   while (end > ring.first && (ring.get(end - 1)?.time ?? 0) > to) end -= 1;
   ring.truncate(end);
   batch(() => {
+    state.lastPdo.value = null;
+    for (let number = end - 1; number >= ring.first && state.lastPdo.value === null; number--) notePdo(number);
+
     state.pausedAt.value = null;
     state.chosenFrame.value = null;
     state.captured.value = ring.end;
@@ -177,6 +214,7 @@ function apply(snapshot: Snapshot): void {
     state.replaying.value = snapshot.replaying;
     state.toSend.value = snapshot.toSend;
     state.statuses.value = snapshot.nodes;
+    note(snapshot.now, snapshot.line.busy);
     state.line.value = snapshot.line;
     state.lessonState.value = snapshot.lesson;
     state.chain.value = snapshot.chain;
@@ -199,13 +237,27 @@ function apply(snapshot: Snapshot): void {
 function frames(snapshot: Snapshot): void {
   const { ring } = state;
   ring.append(snapshot.frames);
-  const node = state.nodeId.value;
-  for (let number = ring.end - snapshot.frames.length / FRAME_BYTES; number < ring.end; number++) {
-    const frame = ring.get(number);
-    const isOurs = frame?.tag.text === 'PDO1' && frame.node === node && !frame.fromPage;
-    if (isOurs) state.lastPdo.value = { time: frame.time, data: frame.data };
-  }
+  for (let number = ring.end - snapshot.frames.length / FRAME_BYTES; number < ring.end; number++) notePdo(number);
   state.captured.value = ring.end;
+}
+
+/** Keeps a frame that is PDO1 of the device that is shown. */
+function notePdo(number: number): void {
+  const frame = state.ring.get(number);
+  const isOurs = frame?.tag.text === 'PDO1' && frame.node === state.nodeId.value && !frame.fromPage;
+  if (isOurs) state.lastPdo.value = { time: frame.time, data: frame.data };
+}
+
+/** How long the line was busy, at moments of the last second. */
+let busy: { at: number; micros: number }[] = [];
+
+/** Works out the load of a line that takes time: a frame that is on it counts whole. */
+function note(at: number, micros: number): void {
+  if (busy.length > 0 && (at < busy.at(-1)!.at || micros < busy.at(-1)!.micros)) busy = [];
+  if (at - (busy.at(-1)?.at ?? -Infinity) >= LOAD_STEP) busy.push({ at, micros });
+  while (busy.length > 1 && busy[1]!.at <= at - LOAD_WINDOW) busy.shift();
+  const first = busy[0];
+  state.load.value = first && at > first.at ? Math.min(100, ((micros - first.micros) / (at - first.at)) * 100) : 0;
 }
 
 let watched: Address[] = [];
@@ -227,8 +279,12 @@ function watchedValues(snapshot: Snapshot): void {
   state.savedValue.value = snapshot.saved;
 }
 
-/** A Rust panic ends the worker, not the page: a fresh one gets the same devices. */
-function crashed(message: string): void {
+/**
+ * A Rust panic ends the worker, and so does one that hangs (`why` is null), not the page. A fresh
+ * one makes the run again up to the last moment that came through: what broke it never did. If
+ * that breaks it once more, only the devices come back.
+ */
+function crashed(why: string | null): void {
   worker?.terminate();
   worker = null;
   crashes += 1;
@@ -236,19 +292,24 @@ function crashed(message: string): void {
   waiting.clear();
   if (crashes > MOST_CRASHES) {
     state.health.value = 'failed';
-    state.toast.value = { text: T.app.crashed(message), tone: 'error' };
+    state.toast.value = { text: T.app.crashed(why ?? T.app.hung), tone: 'error' };
     return;
   }
   state.health.value = 'restarting';
-  state.toast.value = { text: T.app.restarted(message), tone: 'error' };
+  state.toast.value = { text: why === null ? T.app.hungRestarted : T.app.restarted(why), tone: 'error' };
   start();
   watch(watched, chosen);
   send({ op: 'speed', factor: state.speed.peek() });
   send({ op: 'select', node: state.selectedNode.peek() });
-  state.journal.entries = [];
-  // From the moment it stopped, so that time on the page does not run backwards.
   const at = state.now.peek();
-  const entries = state.devices.peek().map(({ source, nodeId }): Entry => ({ at, input: { op: 'add', source, nodeId } }));
-  send({ op: 'restore', entries, until: at, quiet: false });
+  if (crashes === 1) {
+    restore([...state.journal.entries], at, false, true);
+  } else {
+    state.journal.entries = [];
+    // From the moment it stopped, so that time on the page does not run backwards.
+    const entries = state.devices.peek().map(({ source, nodeId }): Entry => ({ at, input: { op: 'add', source, nodeId } }));
+    send({ op: 'restore', entries, until: at, quiet: false });
+  }
+  send({ op: 'run', running: state.running.peek() });
   setTimeout(() => (crashes = 0), 10_000);
 }

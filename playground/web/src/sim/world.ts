@@ -19,6 +19,14 @@ export interface Modules {
   whole(): Promise<Module>;
 }
 
+/** Longest time without an ear for the page, in milliseconds. */
+const BUDGET = 50;
+/** Virtual microseconds and frames between two looks at the budget. */
+const SLICE = 1_000_000;
+const MOST_FRAMES = 2000;
+/** A checkpoint or a full batch can stop time once; what stops it again and again is no run. */
+const MOST_STUCK = 1000;
+
 const WHOLE: ReadonlySet<Input['op']> = new Set<Input['op']>(['lesson', 'leave', 'script']);
 const needsWhole = (input: Input): boolean => WHOLE.has(input.op) || (input.op === 'add' && input.source.kind === 'eds');
 
@@ -105,12 +113,40 @@ export class World {
     const { bus } = this;
     this.module = await this.modules.whole();
     this.bus = this.fresh();
-    this.bus.restore(bus.entries(), false);
-    this.bus.rewind(bus.now());
-    this.bus.notices();
+    await this.again(bus.entries(), bus.now());
     // What the page has not seen yet was sent by the bench before; it is told first.
     this.unseen = bus.drain();
     bus.free();
+  }
+
+  /** Goes back to a moment; what came after comes again. */
+  async rewind(to: number): Promise<void> {
+    this.unseen = new Uint8Array(0);
+    await this.again(this.bus.entries(), to);
+  }
+
+  /** Makes a run again to a moment, unseen, and stays answerable meanwhile. */
+  private async again(entries: Entry[], to: number): Promise<void> {
+    const { bus } = this;
+    bus.restore(entries, false);
+    let since = performance.now();
+    let stuck = 0;
+    while (stuck < MOST_STUCK) {
+      const left = to - bus.now();
+      const before = bus.toCome();
+      const passed = bus.advance(Math.max(0, Math.min(left, SLICE)), MOST_FRAMES);
+      bus.drain();
+      const isDone = bus.toCome() !== before;
+      // Inputs of that very moment are part of it.
+      if (left <= 0 && !isDone) break;
+      stuck = passed > 0 || isDone ? 0 : stuck + 1;
+      if (performance.now() - since > BUDGET) {
+        await new Promise((resolve) => setTimeout(resolve));
+        since = performance.now();
+      }
+    }
+    // The past is not news.
+    bus.notices();
   }
 
   /** All frames since the last call. */

@@ -50,6 +50,9 @@ class App extends View {
       if (state.lesson.value) void import('./lesson');
     });
     effect(() => {
+      if (state.tour.value !== null) void import('./tour');
+    });
+    effect(() => {
       if (state.lessonDialog.value) void import('./lessons');
     });
     effect(() => {
@@ -91,7 +94,7 @@ class App extends View {
     const tab = state.tab.value;
     return html`
       <od-topbar></od-topbar>
-      
+      <od-tour></od-tour>
       <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">

@@ -121,6 +121,9 @@ function showPlot(): void {
 /** The part of a text that is wrong, and what follows. */
 const caret = (text: string, at: number) => (at < text.length ? html`<code>${text.slice(at, at + 16)}</code>:` : nothing);
 
+/** Per cent from which the line has no room for frames of low priority. */
+const FULL = 98;
+
 /** How busy the bus is, four times a second. */
 class BusStatus extends View {
   private timer = 0;
@@ -146,13 +149,15 @@ class BusStatus extends View {
     const line = state.line.peek();
     const { frames, bits } = trace.lately(state.now.peek());
     const rate = line?.rate ?? 500;
-    const load = (bits / (rate * 1000)) * 100;
+    const load = line?.timed ? state.load.peek() : (bits / (rate * 1000)) * 100;
+    const isFull = load >= FULL;
     const t = T.frames;
     const tone = line?.controller === 'bus-off' ? 'bad' : line?.controller === 'error passive' ? 'amber' : '';
     const left = state.toSend.peek();
     return html`<footer class="bus-status" aria-label=${T.send.bus}>
-      <span class="meter" title=${t.load(load.toFixed(1), line?.rate ?? null)}><i style=${`width: ${Math.min(100, load).toFixed(1)}%`}></i></span>
+      <span class="meter" ?data-full=${isFull} title=${t.load(load.toFixed(1), line?.rate ?? null)}><i style=${`width: ${Math.min(100, load).toFixed(1)}%`}></i></span>
       <span class="num">${t.load(load < 10 ? load.toFixed(1) : load.toFixed(0), line?.rate ?? null)}</span>
+      ${isFull ? html`<span class="bad">${t.full}</span>` : nothing}
       <span class="num">${t.perSecond(grouped(frames))}</span>
       ${trace.errors ? html`<span class="num bad">${t.lost(grouped(trace.errors))}</span>` : nothing}
       ${left ? html`<span class="num">${t.replaying(grouped(left))}</span>` : nothing}

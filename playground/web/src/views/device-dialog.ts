@@ -2,7 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
-import type { Diagnostic } from '../sim/api';
+import type { Builtin, Diagnostic } from '../sim/api';
 import { openDevice, removeDevice } from '../actions';
 import * as state from '../state';
 import { T } from '../texts';
@@ -10,9 +10,14 @@ import { openFile, openText } from './files';
 import { icons } from './icons';
 import { View } from './view';
 
+/** Findings that are shown at a time: thousands would hold the page up. */
+const MORE = 200;
+
 class DeviceDialog extends View {
-  static override properties = { node: { state: true }, isOver: { state: true } };
+  static override properties = { node: { state: true }, isOver: { state: true }, most: { state: true } };
   declare node: string;
+  /** So many findings are shown. */
+  declare most: number;
   declare isOver: boolean;
   private unopen: (() => void) | undefined;
 
@@ -20,6 +25,7 @@ class DeviceDialog extends View {
     super();
     this.node = '1';
     this.isOver = false;
+    this.most = MORE;
   }
 
   protected override firstUpdated(changed: PropertyValues): void {
@@ -61,6 +67,7 @@ class DeviceDialog extends View {
   private close(): void {
     state.deviceDialog.value = null;
     state.attempt.value = null;
+    this.most = MORE;
   }
 
   private async choose(name: string): Promise<void> {
@@ -99,10 +106,12 @@ class DeviceDialog extends View {
           <button class="icon-button" aria-label=${T.close} @click=${() => this.close()}>${icons.close}</button>
         </header>
         <div class="cards">
-          ${state.builtins.value.map(
-            (one) => html`<button class="card" aria-pressed=${!isNew && current.kind === 'builtin' && current.name === one.name} @click=${() => this.choose(one.name)}>
-              <strong>${one.name}</strong><span>${one.title.replace(/^[A-Z0-9]+, /, '')}</span>
-            </button>`,
+          ${families().map(
+            ([family, members]) => html`<h3 class="family">${family}</h3>${members.map(
+              (one) => html`<button class="card" aria-pressed=${!isNew && current.kind === 'builtin' && current.name === one.name} @click=${() => this.choose(one.name)}>
+                <strong>${one.name}</strong><span>${T.dialog.kind(one.title.replace(/^[A-Z0-9]+, /, ''))}</span>
+              </button>`,
+            )}`,
           )}
         </div>
         <label class="drop" data-over=${this.isOver}
@@ -131,13 +140,16 @@ class DeviceDialog extends View {
     const attempt = state.attempt.value;
     if (!attempt) return nothing;
     const lines = attempt.text.split(/\r\n|\r|\n/);
+    const rank = { error: 0, warning: 1 } as Record<string, number>;
+    const sorted = [...attempt.diagnostics].sort((a, b) => (rank[a.severity] ?? 2) - (rank[b.severity] ?? 2));
     const errors = attempt.diagnostics.filter((one) => one.severity === 'error').length;
     return html`<section class="faults" role="alert" aria-label=${T.dialog.faults}>
       <header>
         <h3>${T.dialog.broken(attempt.name, errors)}</h3>
         <button class="small" title=${T.dialog.anywayTitle} @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true, this.place)}>${T.dialog.anyway}</button>
       </header>
-      <ol class="scroll">${attempt.diagnostics.map((one) => this.fault(one, lines))}</ol>
+      <ol class="scroll">${sorted.slice(0, this.most).map((one) => this.fault(one, lines))}</ol>
+      ${sorted.length > this.most ? html`<button class="small" @click=${() => (this.most += MORE)}>${T.dialog.more(Math.min(MORE, sorted.length - this.most), sorted.length - this.most)}</button>` : nothing}
     </section>`;
   }
 
@@ -149,6 +161,17 @@ class DeviceDialog extends View {
       <span><span class="code">${one.code}</span> ${withCode(one.message)}${source.trim() ? html`<code class="source">${source.slice(0, at)}<mark>${source.slice(at, at + 120).trimEnd()}</mark></code>` : nothing}${one.help ? html`<span class="muted help">${withCode(one.help)}</span>` : nothing}</span>
     </li>`;
   }
+}
+
+/** The built-in devices by their series. */
+function families(): [string, Builtin[]][] {
+  const all = new Map<string, Builtin[]>();
+  for (const one of state.builtins.value) {
+    const [key] = Object.keys(T.dialog.families).filter((start) => one.name.startsWith(start));
+    const family = T.dialog.families[key ?? ''] ?? T.dialog.others;
+    all.set(family, [...(all.get(family) ?? []), one]);
+  }
+  return [...all];
 }
 
 /** Text between backticks is code. */

@@ -11,7 +11,7 @@ import { icons } from './icons';
 import { View } from './view';
 import './shaft';
 import './chain';
-import './hardware';
+import { waitsFor } from './hardware';
 import './eeprom';
 
 const FASTEST = 6000;
@@ -45,10 +45,15 @@ class Encoder extends View {
         </button>
       </header>
       <div class="parts" role="group" aria-label=${T.encoder.tabsLabel}>
-        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => (this.shown = part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
+        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => (this.shown = part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.waits() ? html`<span class="count-badge" title=${T.hardware.waitsTitle}>!</span>` : part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
       </div>
       ${this.shown === 'hardware' ? html`<od-hardware></od-hardware>` : this.shown === 'eeprom' ? html`<od-eeprom></od-eeprom>` : this.shaftPart(hasShaft)}
     `;
+  }
+
+  private waits(): boolean {
+    const status = state.status.value;
+    return status !== null && waitsFor(status);
   }
 
   /** Something on the hardware page deserves a look. */

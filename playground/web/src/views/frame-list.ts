@@ -14,7 +14,7 @@ import type { Transfer } from '../sim/api';
 import { wordsArrived, wordsOf } from '../sim/words';
 import { T } from '../texts';
 import { icons } from './icons';
-import { Rows, setText } from './rows';
+import { cells, Rows, setText } from './rows';
 import { View } from './view';
 
 const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as const;
@@ -48,7 +48,7 @@ class FrameList extends View {
         const row = document.createElement('div');
         row.className = 'frame';
         row.setAttribute('role', 'row');
-        row.innerHTML = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'].map((name) => `<span role="cell" class="${name}"></span>`).join('');
+        row.append(...cells(['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'], 'cell'));
         row.querySelector('.tag')!.append(document.createElement('b'));
         row.addEventListener('click', () => {
           const number = Number(row.dataset['number']);
@@ -212,10 +212,12 @@ class FrameList extends View {
     const has = (index: number): boolean => state.objectsByKey.value.has(state.keyOf(index, 0));
     const ask = (index: number, bytes: Uint8Array | null) => () => void transfer({ index, sub: 0 }, bytes);
     return html`<div class="hints">
+      <p class="about">${T.send.about}</p>
       <p>${T.send.node(node)}</p>
       <div>
         ${has(0x6004) ? html`<button class="small" @click=${ask(0x6004, null)}>${T.send.position}</button>` : nothing}
         <button class="small" @click=${() => sendLine('nmt start')}>${T.send.start}</button>
+        <button class="small primary" @click=${() => (state.tour.value = 0)}>${T.tour.begin}</button>
         ${has(0x1017) ? html`<button class="small" @click=${ask(0x1017, Uint8Array.of(0xe8, 0x03))}>${T.send.heartbeat}</button>` : nothing}
       </div>
     </div>`;

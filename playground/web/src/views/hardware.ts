@@ -4,12 +4,20 @@
 import { html, nothing } from 'lit';
 import * as state from '../state';
 import type { LineStatus, Status } from '../sim/api';
+import { sendLine } from '../actions';
 import { act } from '../sim/link';
 import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
 
 const RATES = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/** Bit rates of the DIP switches in kbit/s, by their number (manual of the bus covers, chapter 4). */
+const DIP_RATES = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+/** Do the switches say something else than what the device runs with? */
+export const waitsFor = (status: Status): boolean =>
+  status.powered && status.shaft !== null && status.nodeSwitch !== 0 && (status.nodeSwitch !== status.nodeId || (status.rate !== null && DIP_RATES[status.rateSwitch] !== status.rate));
 
 class Hardware extends View {
   protected override render() {
@@ -23,6 +31,7 @@ class Hardware extends View {
     if (!status.shaft) return nothing;
     const node = state.selectedNode.value;
     const waits = status.powered && status.nodeSwitch !== 0 && status.nodeSwitch !== status.nodeId;
+    const isAtZero = status.nodeSwitch === 0;
     return html`<section class="hw-row">
       <label for="node-switch" title=${T.hardware.nodeSwitchHint}>${T.hardware.nodeSwitch}</label>
       <span class="hw-value">
@@ -36,6 +45,11 @@ class Hardware extends View {
           @click=${() => act({ op: 'switches', node, dip: { bit, on: (status.rateSwitch & bit) === 0 } })}><span></span></button>`)}
         <span class="num muted" aria-label="Active bit rate">${T.hardware.kbit(status.rate)}</span>
       </span>
+      ${isAtZero
+        ? html`<p class="note hw-note">${T.hardware.atZero}</p>`
+        : waitsFor(status)
+          ? html`<p class="note hw-note">${T.hardware.waits} <button class="small" @click=${() => sendLine('nmt reset')}>${T.hardware.startNow}</button></p>`
+          : nothing}
     </section>`;
   }
 

@@ -179,7 +179,7 @@ class Mapping extends View {
       </ol>
       <div class="mapping-add">
         <select aria-label=${t.add} ?disabled=${isFull || this.isBusy} @change=${(event: Event) => this.add(event)}>
-          <option value="">${isFull ? t.full : t.add}</option>
+          <option value="">${isFull ? t.full(pdo.room) : t.add}</option>
           ${candidates.map((one) => html`<option value=${state.keyOf(one.index, one.sub)}>${address(one.index, one.sub)} ${one.name} (${t.bits(one.bits)})</option>`)}
         </select>
         <meter min="0" max=${MOST_BITS} .value=${Math.min(bits, MOST_BITS)} aria-label=${t.size}></meter>

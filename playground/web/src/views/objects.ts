@@ -10,7 +10,7 @@ import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { findObjects } from './object-search';
-import { Rows, setText } from './rows';
+import { cells, Rows, setText } from './rows';
 import { openMapping } from './object-detail';
 import { View } from './view';
 
@@ -65,7 +65,7 @@ class Objects extends View {
       make: () => {
         const row = document.createElement('div');
         row.setAttribute('role', 'option');
-        row.innerHTML = '<span class="index"></span><span class="name"></span><span class="access"></span><span class="mark"></span><span class="value"></span>';
+        row.append(...cells(['index', 'name', 'access', 'mark', 'value']));
         row.addEventListener('click', () => this.onRow(Number(row.dataset['line'])));
         return row;
       },

@@ -9,7 +9,9 @@ import { View } from './view';
 class Offers extends View {
   protected override render() {
     const drop = (offer: state.Offer): void => void (state.offers.value = state.offers.value.filter((one) => one !== offer));
-    return html`<div class="offers" role="region" aria-label=${T.share.offers} ?hidden=${state.offers.value.length === 0}>${state.offers.value.map(
+    // Over a lesson there is no place for the bench of last time.
+    const offers = state.offers.value.filter((one) => one.key !== 'kept' || state.lesson.value === null);
+    return html`<div class="offers" role="region" aria-label=${T.share.offers} ?hidden=${offers.length === 0}>${offers.map(
       (offer) => html`<div class="offer">
         <span>${offer.text}</span>
         <button class="small primary" @click=${() => { drop(offer); offer.run(); }}>${offer.action}</button>

@@ -14,6 +14,15 @@ export interface RowSource {
 
 const SPARE = 4;
 
+/** The cells of a row, empty, with these classes. */
+export const cells = (names: string[], role?: string): HTMLElement[] =>
+  names.map((name) => {
+    const cell = document.createElement('span');
+    cell.className = name;
+    if (role) cell.setAttribute('role', role);
+    return cell;
+  });
+
 export class Rows {
   private readonly spacer = document.createElement('div');
   private readonly pool: HTMLElement[] = [];

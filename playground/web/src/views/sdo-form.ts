@@ -84,10 +84,10 @@ class SdoForm extends View {
       void this.updateComplete.then(() => this.querySelector('[aria-selected=true]')?.scrollIntoView({ block: 'nearest' }));
     } else if (event.key === 'Enter') {
       const object = offered[this.active] ?? (this.target() ? undefined : offered[0]);
-      if (object) {
-        event.preventDefault();
-        this.choose(object);
-      }
+      event.preventDefault();
+      if (object) this.choose(object);
+      // The object field reads; the value field writes.
+      if (!object || this.active < 0) void this.read();
     }
   }
 
@@ -130,7 +130,7 @@ class SdoForm extends View {
     const note = this.result?.text ?? (encoded ? ('error' in encoded ? encoded.error : encoded.note) : object ? hint(object) : '');
     const tone = this.result?.tone ?? (isWrong ? 'error' : '');
     const isOpen = this.offered.length > 0;
-    return html`<form class="dock-row" novalidate @submit=${(event: Event) => { event.preventDefault(); void (this.typed.trim() ? this.write() : this.read()); }}>
+    return html`<form class="dock-row" novalidate @submit=${(event: Event) => event.preventDefault()}>
       <label class="dock-label" for="sdo-object">${T.sdo.label}</label>
       <div class="field-group">
         <div class="combo grow">
@@ -151,7 +151,8 @@ class SdoForm extends View {
         </div>
         <button type="button" ?disabled=${this.isBusy} @click=${() => this.read()}>${T.sdo.read}</button>
         <input class="num value" aria-label=${T.sdo.value} autocomplete="off" spellcheck="false" placeholder=${T.sdo.value} aria-invalid=${isWrong} aria-describedby="sdo-note"
-          .value=${this.typed} @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; this.result = null; }}>
+          .value=${this.typed} @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; this.result = null; }}
+          @keydown=${(event: KeyboardEvent) => { if (event.key === 'Enter' && !this.isBusy) { event.preventDefault(); void (this.typed.trim() ? this.write() : this.read()); } }}>
         <button type="button" ?disabled=${this.isBusy || isWrong} @click=${() => this.write()}>${T.sdo.write}</button>
         <p id="sdo-note" class="note" data-tone=${tone} role="status">${note || html`Decimal, <code>0x1F</code> or <code>1Fh</code>; quotes for text, such as <code>"save"</code>`}</p>
       </div>

@@ -1,0 +1,180 @@
+//! Times on a line that takes time, against a calculation by hand.
+
+use std::format;
+
+use od_devices::DEVICES;
+use od_runtime::NodeId;
+
+use super::*;
+use crate::device::VirtualDevice;
+use crate::logs::candump::parse_frame;
+use crate::wire::Trouble;
+
+/// A bus at this bit rate in kbit/s with encoders of these node IDs.
+fn bus(kbit: u16, nodes: &[u8]) -> Bus {
+    let mut bus = Bus::new();
+    bus.line.set_real(true);
+    for node in nodes {
+        let id = NodeId::new(*node).expect("1 to 127");
+        let mut device = VirtualDevice::new(&DEVICES[0], id);
+        device.set_up_for(Some(kbit));
+        let number = bus.add(device);
+        bus.start(number);
+    }
+    bus
+}
+
+fn send(bus: &mut Bus, text: &str) {
+    bus.receive(&parse_frame(text).expect(text));
+}
+
+/// Everything that comes through until `to`, with its microsecond.
+fn seen(bus: &mut Bus, to: u64) -> Vec<(u64, String)> {
+    let mut all = Vec::new();
+    while bus.advance_until_sent(Instant::from_micros(to)) {
+        while let Some(sent) = bus.poll() {
+            all.push((sent.at.as_micros(), format!("{}", sent.frame)));
+        }
+    }
+    all
+}
+
+/// Bits of ten frames with their stuff bits, without the three bits between frames: 44 or 64,
+/// 8 a byte, and the stuff bits that a pencil finds.
+const BY_HAND: [(&str, u64); 10] = [
+    ("000#0105", 44 + 16 + 7),
+    ("080#", 44 + 4),
+    ("123#0000000000000000", 44 + 64 + 14),
+    ("123#FFFFFFFFFFFFFFFF", 44 + 64 + 13),
+    ("2A5#55AA", 44 + 16 + 2),
+    ("605#4004600000000000", 44 + 64 + 12),
+    ("7E5#0401000000000000", 44 + 64 + 12),
+    ("18FF50E5#0102", 64 + 16 + 5),
+    ("00000000#00", 64 + 8 + 8),
+    ("705#R", 44 + 2),
+];
+
+#[test]
+fn ten_frames_take_the_bits_of_a_calculation_by_hand() {
+    for kbit in [10, 50, 125, 500, 800, 1000] {
+        let mut bus = bus(kbit, &[127]);
+        let _ = seen(&mut bus, 100_000);
+        for (text, _) in BY_HAND {
+            send(&mut bus, text);
+        }
+        let came = seen(&mut bus, 1_000_000);
+        assert_eq!(came.len(), 10, "{kbit} kbit/s: {came:?}");
+        let mut bits = 0;
+        for ((text, own), (at, frame)) in BY_HAND.iter().zip(came) {
+            bits += own;
+            let hand = 100_000.0 + bits as f64 * 1000.0 / f64::from(kbit);
+            let bit = 1000.0 / f64::from(kbit);
+            assert!(
+                (at as f64 - hand).abs() <= bit,
+                "{text} at {kbit} kbit/s: {at}, by hand {hand}"
+            );
+            assert_eq!(parse_frame(text).map(|frame| frame.to_string()), Ok(frame));
+            bits += 3;
+        }
+    }
+}
+
+#[test]
+fn an_answer_comes_after_the_time_to_make_it_and_its_own_bits() {
+    let mut bus = bus(500, &[127]);
+    let _ = seen(&mut bus, 10_000);
+    send(&mut bus, "67F#4000100000000000");
+    let came = seen(&mut bus, 20_000);
+    let request = 10_000 + 2 * (44 + 64 + 12);
+    let answer = request + PROCESSING + 2 * (44 + 64 + 8);
+    let at: Vec<_> = came.iter().map(|(at, _)| *at).collect();
+    assert_eq!(at, [request, answer], "{came:?}");
+    assert_eq!(came[1].1, "5FF#4300100096010200");
+}
+
+#[test]
+fn of_frames_that_wait_the_lowest_identifier_goes_first_one_at_a_time() {
+    let mut bus = bus(50, &[3, 1, 2]);
+    send(&mut bus, "080#");
+    let came = seen(&mut bus, 100_000);
+    let order: Vec<_> = came.iter().map(|(_, frame)| frame.as_str()).collect();
+    // Node 3 began while the line was idle, the others waited for it.
+    assert_eq!(order[1..], ["701#00", "702#00", "703#00"], "{came:?}");
+    for two in came.windows(2) {
+        assert!(two[1].0 - two[0].0 >= (44 + 8 + 3) * 20, "{came:?}");
+    }
+}
+
+#[test]
+fn the_load_ends_at_100_percent_and_low_priorities_starve() {
+    let mut bus = bus(50, &[1, 2, 3]);
+    let _ = seen(&mut bus, 100_000);
+    for node in 1..=3 {
+        send(&mut bus, &format!("60{node}#2B00180501000000"));
+    }
+    let _ = seen(&mut bus, 200_000);
+    send(&mut bus, "000#0100");
+    let _ = seen(&mut bus, 300_000);
+    let before = bus.line.busy();
+    let came = seen(&mut bus, 1_300_000);
+    let busy = bus.line.busy() - before;
+    assert!(
+        (990_000..=1_003_000).contains(&busy),
+        "{busy} us of a second"
+    );
+    let count = |id: &str| {
+        came.iter()
+            .filter(|(_, frame)| frame.starts_with(id))
+            .count()
+    };
+    assert!(count("181") > 300, "{}", count("181"));
+    assert_eq!(count("183"), 0);
+}
+
+#[test]
+fn a_frame_that_nobody_acknowledges_takes_its_attempts_and_is_given_up() {
+    let mut bus = bus(500, &[1]);
+    bus.line.set_plugged(0, false);
+    assert_eq!(seen(&mut bus, 100_000), []);
+    let lost = bus.line.poll().expect("the boot-up is lost");
+    assert_eq!(
+        (lost.trouble, lost.attempts, lost.delivered),
+        (Trouble::NoAcknowledge, 16, false)
+    );
+    // Each: 56 bits but for the 8 behind the acknowledge slot, 14 of an error frame, 3 between.
+    let bits = 16 * (56 - 8 + 14 + 3) - 3;
+    assert_eq!(lost.at.as_micros(), 2 * bits);
+}
+
+#[test]
+fn a_disturbed_frame_is_sent_again_until_it_comes_through() {
+    let mut bus = bus(1000, &[127]);
+    bus.line.terminators = 1;
+    bus.line.set_seed(1);
+    let _ = seen(&mut bus, 10_000);
+    while bus.line.poll().is_some() {}
+    for _ in 0..100 {
+        send(&mut bus, "123#00");
+    }
+    let came = seen(&mut bus, 1_000_000);
+    let lost: Vec<_> = core::iter::from_fn(|| bus.line.poll()).collect();
+    assert_eq!(came.len(), 100);
+    assert!(
+        lost.len() > 5 && lost.iter().all(|one| one.delivered),
+        "{lost:?}"
+    );
+    // Its own end is the end of the frame that came through.
+    assert!(
+        lost.iter()
+            .all(|one| came.iter().any(|(at, _)| *at == one.at.as_micros()))
+    );
+}
+
+#[test]
+fn what_a_device_wanted_to_send_goes_with_its_power() {
+    let mut bus = bus(10, &[1]);
+    bus.set_power(0, false);
+    assert_eq!(seen(&mut bus, 1_000_000), []);
+    bus.set_power(0, true);
+    assert_eq!(seen(&mut bus, 5_000_000).len(), 1);
+}

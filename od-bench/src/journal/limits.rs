@@ -1,0 +1,129 @@
+//! Limits of a run that is made again: it may come from a link that anybody wrote.
+
+use std::prelude::v1::*;
+
+use od_wire::Instant;
+
+use super::input::{Entry, Input};
+use crate::script::Limits;
+
+/// Most devices on the bus, each channel of a redundant one.
+pub(super) const MOST_DEVICES: usize = Limits::PAGE.devices;
+/// Longest run in microseconds: a day.
+const LONGEST: u64 = 86_400_000_000;
+/// Shortest period of a cyclic frame, in microseconds.
+const SHORTEST: u32 = 100;
+/// Most frames that cyclic inputs send.
+const MOST_FRAMES: u64 = 10_000_000;
+
+/// Limit that a run exceeds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Excess {
+    /// Devices on the bus.
+    Devices,
+    /// Virtual time.
+    Time,
+    /// Frames that are sent cyclically.
+    Frames,
+}
+
+/// Adds up what a run to the moment `until` asks for, before any of it happens. The lines of
+/// scripts and lessons are checked when they are read.
+///
+/// # Errors
+/// The limit that it exceeds.
+pub fn check(entries: &[Entry], until: Instant) -> Result<(), Excess> {
+    let last = entries.last().map_or(until, |entry| entry.at.max(until));
+    if last.as_micros() > LONGEST {
+        return Err(Excess::Time);
+    }
+    let (mut devices, mut frames) = (0_usize, 0_u64);
+    for (number, entry) in entries.iter().enumerate() {
+        match entry.input {
+            Input::Add { place, .. } => {
+                devices += usize::from(place.is_none_or(|place| usize::from(place) >= devices));
+            }
+            Input::Remove { .. } => devices = devices.saturating_sub(1),
+            Input::Lesson { .. } => devices = 0,
+            Input::Repeat { key, micros, .. } if micros > 0 => {
+                let is_end = |one: &&Entry| match one.input {
+                    Input::Repeat { key: other, .. } => other == key,
+                    Input::Lesson { .. } => true,
+                    _ => false,
+                };
+                let behind = &entries[number + 1..];
+                let end = behind.iter().find(is_end).map_or(last, |one| one.at);
+                frames += end.micros_since(entry.at) / u64::from(micros.max(SHORTEST));
+            }
+            _ => {}
+        }
+        if devices > MOST_DEVICES {
+            return Err(Excess::Devices);
+        }
+        if frames > MOST_FRAMES {
+            return Err(Excess::Frames);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parts::Source;
+    use super::*;
+
+    fn add(place: Option<u8>) -> Input {
+        let name = "gxmm".into();
+        let source = Source::Builtin { name };
+        Input::Add {
+            source,
+            node_id: 1,
+            place,
+        }
+    }
+
+    fn repeat(micros: u32) -> Input {
+        Input::Repeat {
+            key: 1,
+            id: 0x80,
+            data: Vec::new(),
+            extended: false,
+            remote: false,
+            micros,
+        }
+    }
+
+    fn run(inputs: impl IntoIterator<Item = Input>, seconds: u64) -> Result<(), Excess> {
+        let at = Instant::ZERO;
+        let entries: Vec<_> = inputs
+            .into_iter()
+            .map(|input| Entry { at, input })
+            .collect();
+        check(&entries, Instant::from_micros(seconds * 1_000_000))
+    }
+
+    #[test]
+    fn a_run_within_its_limits_passes() {
+        assert_eq!(run((0..16).map(|_| add(None)), 86_400), Ok(()));
+        assert_eq!(run((0..2000).map(|_| add(Some(0))), 1), Ok(()));
+        assert_eq!(
+            run([repeat(1000), repeat(0)], 86_400),
+            Ok(()),
+            "it ends at once"
+        );
+        let goes = (0..100).flat_map(|_| [add(None), Input::Remove { node: 0 }]);
+        assert_eq!(run(goes, 1), Ok(()));
+    }
+
+    #[test]
+    fn each_limit_is_checked() {
+        assert_eq!(run((0..17).map(|_| add(None)), 1), Err(Excess::Devices));
+        assert_eq!(run([add(None)], 86_401), Err(Excess::Time));
+        assert_eq!(run([repeat(1000)], 86_400), Err(Excess::Frames));
+        assert_eq!(
+            run([repeat(1)], 1001),
+            Err(Excess::Frames),
+            "100 us at the least"
+        );
+    }
+}
