@@ -5,12 +5,9 @@ use std::prelude::v1::*;
 use std::vec;
 
 use od_model::Dictionary;
-use od_runtime::encoder::{Encoder, Fault};
+use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
-use od_runtime::{
-    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Profile,
-    Reset,
-};
+use od_runtime::{Application, BusEvent, Event, Frame, Instant, Lent, NodeId, Profile, Reset};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
@@ -22,7 +19,7 @@ use crate::eeprom::Eeprom;
 use crate::long::{Beside, Long};
 use crate::roomy::roomy;
 use crate::services::Services;
-use crate::shaft::{self, Shaft};
+use crate::shaft;
 use crate::slave::{Input, Slave};
 use crate::source::Source;
 use crate::twin::{Call, Twin};
@@ -79,61 +76,6 @@ impl VirtualDevice {
             has_leds: kind.leds,
             ..device
         }
-    }
-
-    /// A device of one's own with nothing but its dictionary: CiA 301 to the letter unless the node
-    /// has a profile, and an encoder behind it where there is a position (6004h).
-    ///
-    /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
-    /// A node that does not know its dictionary does not compile.
-    pub fn of<
-        D: Device + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + 'static,
-    >(
-        title: &str,
-        node: Node<D, PDO, SDO, X>,
-    ) -> Self {
-        let source = Source::of::<D>();
-        let behaviour = Behaviour::of(source.dictionary());
-        let profile = D::PROFILE.copied().unwrap_or(Profile::CIA301);
-        Self::build(title.into(), source, behaviour, profile, Box::new(node))
-    }
-
-    /// As [`of`](Self::of), with behaviour of one's own, and what the services do differently.
-    pub fn with_application<
-        D: Device + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + 'static,
-    >(
-        title: &str,
-        node: Node<D, PDO, SDO, X>,
-        profile: &'static Profile,
-        application: Box<dyn Application>,
-    ) -> Self {
-        let behaviour = Behaviour::Other(application);
-        let source = Source::of::<D>();
-        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
-    }
-
-    /// As [`of`](Self::of), with this encoder, which the bench turns, and what the services do
-    /// differently.
-    pub fn with_encoder<
-        D: Device + 'static,
-        const PDO: usize,
-        const SDO: usize,
-        X: Extras<D, SDO> + 'static,
-    >(
-        title: &str,
-        node: Node<D, PDO, SDO, X>,
-        profile: &'static Profile,
-        encoder: Encoder<Shaft>,
-    ) -> Self {
-        let behaviour = Behaviour::Encoder(Box::new(encoder));
-        let source = Source::of::<D>();
-        Self::build(title.into(), source, behaviour, *profile, Box::new(node))
     }
 
     /// Number of devices like this one on its shaft, itself included: 2 for a redundant encoder,

@@ -13,6 +13,7 @@ mod bench;
 pub mod bus;
 #[cfg(feature = "eds")]
 mod clock;
+mod compiled;
 #[cfg(feature = "eds")]
 mod configured;
 mod cursor;
