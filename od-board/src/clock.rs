@@ -1,11 +1,11 @@
-//! A counter of 32 bits as time that does not wrap.
+//! A counter that wraps as time that does not.
 
 use od_runtime::{Duration, Instant};
 
-/// Time of a counter with `HZ` ticks a second that starts again at 0 after 2³² ticks.
+/// Time of a counter with `HZ` ticks a second and `BITS` bits, 32 at most, that starts again at 0.
 ///
-/// Ask it at least once in 2³² ticks (71 minutes at 1 MHz); [`Clock::LONGEST`] is a good limit for a
-/// sleep. No tick is lost in the conversion to microseconds, however long it runs.
+/// Ask it at least once in that time (71 minutes for 32 bits at 1 MHz); [`Clock::LONGEST`] is a good limit
+/// for a sleep. No tick is lost in the conversion to microseconds, however long it runs.
 ///
 /// ```
 /// use od_board::Clock;
@@ -15,16 +15,18 @@ use od_runtime::{Duration, Instant};
 /// assert_eq!(clock.at(4).as_micros(), 4_294_967_300);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Clock<const HZ: u32 = 1_000_000> {
+pub struct Clock<const HZ: u32 = 1_000_000, const BITS: u32 = 32> {
     ticks: u32,
     micros: u64,
     /// Part of a microsecond that is left over, in units of `1 / DIVISOR`.
     rest: u64,
 }
 
-impl<const HZ: u32> Clock<HZ> {
+impl<const HZ: u32, const BITS: u32> Clock<HZ, BITS> {
     /// Half of the time in which the counter wraps.
-    pub const LONGEST: Duration = Duration::from_micros((1 << 31) * Self::FACTOR / Self::DIVISOR);
+    pub const LONGEST: Duration =
+        Duration::from_micros((1 << (BITS - 1)) * Self::FACTOR / Self::DIVISOR);
+    const MASK: u32 = u32::MAX >> (32 - BITS);
     const COMMON: u64 = {
         let (mut a, mut b) = (1_000_000, HZ as u64);
         assert!(b > 0, "a counter counts");
@@ -48,7 +50,7 @@ impl<const HZ: u32> Clock<HZ> {
     /// Returns the moment at which the counter shows `ticks`. A counter that seems to have gone back has
     /// wrapped.
     pub const fn at(&mut self, ticks: u32) -> Instant {
-        let passed = ticks.wrapping_sub(self.ticks) as u64;
+        let passed = (ticks.wrapping_sub(self.ticks) & Self::MASK) as u64;
         self.ticks = ticks;
         let parts = passed * Self::FACTOR + self.rest;
         self.micros = self.micros.wrapping_add(parts / Self::DIVISOR);

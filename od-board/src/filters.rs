@@ -4,6 +4,7 @@ use od_wire::CanId;
 
 /// Frames that a CAN controller shall accept: those whose CAN-ID has the bits of `id` where `mask` has
 /// ones.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Filter {
     /// The CAN-ID, of 11 or 29 bits; so are those of the frames.

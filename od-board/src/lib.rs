@@ -1,16 +1,177 @@
-//! A CANopen node on a board: what a firmware needs besides the node itself.
+//! A CANopen node on a board: what a firmware needs besides the node itself. Reached as `odkit::board`.
 //!
 //! - [`Board`] owns node, values, application and storage, and can be a `static`.
 //! - [`Port`] connects it to a CAN controller with the traits of `embedded-can`, nb or blocking.
 //! - `Shared` (feature `embassy`) is a node for several tasks, and the task that runs it.
 //! - [`Filters`] are the acceptance filters for the CAN-IDs that the node listens to.
-//! - [`storage`] keeps saved values on NOR flash, in the background or at once.
-//! - [`Clock`] is time of a counter of 32 bits that wraps.
+//! - [`storage`] keeps saved values on NOR flash, in the background or at once (feature `flash`).
+//! - [`Clock`] is time of a counter of 32 bits or less that wraps.
+//! - Feature `defmt`: formats for frames, states, abort codes and events.
+//!
+//! # A loop
+//!
+//! The CAN controller is any driver with the traits of `embedded-can`, the timer any counter.
+//!
+//! ```
+//! use odkit::board::{Clock, Filters, Owner, Port};
+//! use odkit::storage::NoStorage;
+//! use odkit::{Application, NodeId};
+//!
+//! odkit::object_dictionary! {
+//!     /// A thermometer that sends its temperature when it changes.
+//!     mod thermometer {
+//!         without lss, storage;
+//!         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+//!         add 0x1001 { name = "Error register"; type = u8 }
+//!         add 0x1018 { code = record; name = "Identity object" }
+//!         add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+//!         add 0x1800 { code = record; name = "TPDO communication parameter 1" }
+//!         add 0x1800sub1 { name = "COB-ID"; type = u32; access = rw; default = $NODEID + 0x180 }
+//!         add 0x1800sub2 { name = "Transmission type"; type = u8; access = rw; default = 254 }
+//!         add 0x1A00 { code = record; name = "TPDO mapping parameter 1" }
+//!         add 0x1A00sub1 { name = "Entry 1"; type = u32; access = rw; default = 0x2000_0010 }
+//!         add 0x2000 { name = "Temperature"; type = i16; mappable = true; default = 0 }
+//!         rename 0x2000 = TEMPERATURE;
+//!     }
+//! }
+//!
+//! struct Heater;
+//! impl Application for Heater {}
+//!
+//! fn run<C>(can: &mut C, timer: impl Fn() -> u32, sensor: impl Fn() -> i16) -> Result<(), C::Error>
+//! where
+//!     C: embedded_can::nb::Can,
+//! {
+//!     let (mut clock, mut port) = (Clock::<1_000_000>::new(), Port::new());
+//!     let mut board = thermometer::Board::new(NodeId::ONE, Heater, NoStorage);
+//!     board.power_on(clock.at(timer())).ok(); // it fits: the compiler has checked it
+//!     loop {
+//!         let now = clock.at(timer());
+//!         port.serve_nb(&mut board, can, now)?;
+//!         board.set(now, thermometer::TEMPERATURE, sensor());
+//!         let mut filters = Filters::<14>::default();
+//!         board.poll_wanted_ids(&mut |id| filters.add(id));
+//!         // … set the filters of the controller if there are any, and sleep until an interrupt
+//!         # if now.as_micros() > u64::from(u32::MAX) + 3000 { return Ok(()) }
+//!     }
+//! }
+//! # // A controller with a master behind it.
+//! # #[derive(Default)]
+//! # struct Can(Vec<String>, bool);
+//! # #[derive(Debug)] struct Never;
+//! # impl embedded_can::Error for Never {
+//! #     fn kind(&self) -> embedded_can::ErrorKind { embedded_can::ErrorKind::Other }
+//! # }
+//! # impl embedded_can::nb::Can for Can {
+//! #     type Frame = odkit::Frame;
+//! #     type Error = Never;
+//! #     fn transmit(&mut self, frame: &odkit::Frame) -> nb::Result<Option<odkit::Frame>, Never> {
+//! #         self.0.push(frame.to_string());
+//! #         Ok(None)
+//! #     }
+//! #     fn receive(&mut self) -> nb::Result<odkit::Frame, Never> {
+//! #         if std::mem::replace(&mut self.1, true) { return Err(nb::Error::WouldBlock) }
+//! #         Ok(odkit::Frame::standard(0, &[1, 0]))
+//! #     }
+//! # }
+//! # let time = std::cell::Cell::new(u32::MAX - 1000);
+//! # let mut can = Can::default();
+//! # run(&mut can, || { time.set(time.get().wrapping_add(500)); time.get() }, || 21).unwrap();
+//! # assert_eq!(can.0, ["701#00", "181#0000", "181#1500"]);
+//! ```
+//!
+//! # RTIC
+//!
+//! The interrupt of the CAN controller handles frames, a task of low priority writes flash, and they share
+//! the board. [firmware/rtic] is a complete program; these are its two tasks:
+//!
+//! ```text
+//! #[task(binds = GPIOA, priority = 2, shared = [board, can], local = [port, clock])]
+//! fn frames(cx: frames::Context) {
+//!     let now = cx.local.clock.at(ticks());
+//!     (cx.shared.board, cx.shared.can).lock(|board, can| cx.local.port.serve_nb(board, can, now));
+//! }
+//!
+//! #[task(priority = 1, shared = [board], local = [log])]
+//! async fn keep(mut cx: keep::Context) {
+//!     cx.local.log.run(|act| cx.shared.board.lock(|board| act(&mut board.storage))).await;
+//! }
+//! ```
+//!
+//! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
+//! nobody holds the board, so a SYNC is answered at once. What the node does in one call is the longest that
+//! a frame can wait: a save that is taken over, which [firmware/rtic] measures.
+//!
+//! [firmware/rtic]: https://github.com/odkit/odkit/tree/main/firmware/rtic
+#![cfg_attr(
+    all(feature = "embassy", feature = "flash"),
+    doc = r#"
+# embassy
+
+One task runs the node, one keeps what it saves, and any other changes values; a change is on the bus at
+once. A half of a controller is a few lines: here is the receiving one of any driver with `embedded-can` frames.
+
+```
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use odkit::board::storage::{Log, Mirror, Steps};
+use odkit::board::{Receive, Shared, Transmit};
+use odkit::storage::image::capacity_needed;
+use odkit::{BusEvent, Frame, NoApplication, NodeId};
+
+odkit::object_dictionary! {
+    mod thermometer {
+        without lss;
+        add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
+        add 0x1001 { name = "Error register"; type = u8 }
+        add 0x1010 { code = array; name = "Store parameters" }
+        add 0x1010sub1 { name = "Save all parameters"; type = u32; access = rw; default = 1 }
+        add 0x1017 { name = "Producer heartbeat time"; type = u16; access = rw; default = 1000 }
+        add 0x1018 { code = record; name = "Identity object" }
+        add 0x1018sub1 { name = "Vendor-ID"; type = u32; default = 0x5F }
+        add 0x2000 { name = "Temperature"; type = i16; mappable = true; default = 0 }
+        rename 0x2000 = TEMPERATURE;
+    }
+}
+
+const SAVED: usize = capacity_needed(&thermometer::DICTIONARY);
+type Board = thermometer::Board<NoApplication, Mirror<SAVED>>;
+
+static NODE: Shared<CriticalSectionRawMutex, Board> =
+    Shared::new(Board::new(NodeId::ONE, NoApplication, Mirror::new()));
+
+struct Rx<D>(D);
+# trait Driver { type Frame: embedded_can::Frame; async fn read(&mut self) -> Result<Self::Frame, ()>; }
+
+impl<D: Driver> Receive for Rx<D> {
+    async fn receive(&mut self) -> Result<Frame, BusEvent> {
+        let frame = self.0.read().await.map_err(|_| BusEvent::Warning)?;
+        Ok(Frame::from_can(&frame).unwrap_or(Frame::standard(0x7FF, &[])))
+    }
+}
+
+async fn run(mut rx: impl Receive, mut tx: impl Transmit) {
+    NODE.run(&mut rx, &mut tx).await;
+}
+
+async fn keep<F: embedded_storage::nor_flash::NorFlash>(flash: F) {
+    let mut log = Log::<_, { SAVED / 2 + 64 }>::new(Steps(flash), 0x1_E000..0x2_0000);
+    let mut saved = Mirror::<SAVED>::new();
+    log.load(&mut saved).await.ok();
+    NODE.with(|board, now| {
+        board.storage = saved;
+        board.power_on(now).ok();
+    });
+    log.run(|act| NODE.with(|board, _| act(&mut board.storage))).await;
+}
+
+fn measured(temperature: i16) {
+    NODE.with(|board, now| board.set(now, thermometer::TEMPERATURE, temperature));
+}
+```
+"#
+)]
 #![no_std]
 #![forbid(unsafe_code)]
-
-#[cfg(test)]
-extern crate std;
 
 mod board;
 mod clock;

@@ -45,14 +45,31 @@ impl Port {
         self.len = 0;
     }
 
-    /// Returns the frame to send next, without taking it: the controller may have no room.
+    /// Returns the frame to send next, without taking it: the controller may have no room. As long as
+    /// there is room, frames go in the order of the node.
     pub fn peek(&mut self, owner: &mut impl Owner, now: Instant) -> Option<&Frame> {
-        while self.len < ROOM
+        if self.len == 0
             && let Some(frame) = owner.poll_transmit(now)
         {
             self.insert(frame, false);
         }
         self.frames[..self.len].first()
+    }
+
+    /// The controller has no room for the frame that was [`peek`](Self::peek)ed. Returns whether the node
+    /// has one of higher priority, for which it may have room. Nothing overtakes a boot-up message.
+    pub fn has_higher(&mut self, owner: &mut impl Owner, now: Instant) -> bool {
+        let waiting = &self.frames[..self.len];
+        let first = waiting.first().map(Frame::id);
+        if waiting.iter().any(is_boot_up) {
+            return false;
+        }
+        while self.len < ROOM
+            && let Some(frame) = owner.poll_transmit(now)
+        {
+            self.insert(frame, false);
+        }
+        self.frames[..self.len].first().map(Frame::id) != first
     }
 
     /// The controller took a frame that was [`peek`](Self::peek)ed, and threw another one out for it or
@@ -129,6 +146,7 @@ impl Port {
             let thrown_out = match frame.to_can() {
                 Some(as_theirs) => match can.transmit(&as_theirs) {
                     Ok(thrown_out) => thrown_out,
+                    Err(nb::Error::WouldBlock) if self.has_higher(owner, now) => continue,
                     Err(nb::Error::WouldBlock) => break,
                     Err(nb::Error::Other(error)) => return Err(error),
                 },
@@ -198,6 +216,10 @@ impl Port {
         }
         Ok(())
     }
+}
+
+fn is_boot_up(frame: &Frame) -> bool {
+    frame.id().raw() & 0x780 == 0x700 && frame.data() == [0]
 }
 
 /// Rank in arbitration, the highest priority first: 11 bits win over 29 bits that begin alike.

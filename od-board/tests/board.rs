@@ -58,8 +58,8 @@ fn a_board_saves_and_loads() {
 /// frequency.
 #[test]
 fn heartbeats_go_on_when_the_counter_wraps() {
-    fn run<const HZ: u32>(first: u32, millis: u64) -> Vec<u64> {
-        let mut clock = Clock::<HZ>::new();
+    fn run<const HZ: u32, const BITS: u32>(first: u32, millis: u64) -> Vec<u64> {
+        let mut clock = Clock::<HZ, BITS>::new();
         let mut board: Board<thermometer::Device, _, _, 1, 8, { thermometer::STORE_LEN }> =
             Board::new(NodeId::ONE, Heater::new(), Memory::new([0; 256]));
         let start = clock.at(first);
@@ -69,7 +69,8 @@ fn heartbeats_go_on_when_the_counter_wraps() {
         let mut beats = Vec::new();
         for milli in 0..millis {
             let passed = milli * u64::from(HZ) / 1000;
-            let now = clock.at(first.wrapping_add(passed as u32));
+            let ticks = first.wrapping_add(passed as u32);
+            let now = clock.at(ticks & u32::MAX >> (32 - BITS));
             board.catch_up(now);
             let frames = sent(&mut board, now);
             beats.extend(frames.iter().map(|_| milli));
@@ -77,9 +78,11 @@ fn heartbeats_go_on_when_the_counter_wraps() {
         beats
     }
     let expected: Vec<u64> = (1..20).map(|beat| beat * 100).collect();
-    assert_eq!(run::<1_000_000>(u32::MAX - 450_000, 2000), expected);
-    assert_eq!(run::<1_000>(u32::MAX - 450, 2000), expected);
-    assert_eq!(run::<72_000_000>(u32::MAX - 30_000_000, 2000), expected);
+    assert_eq!(run::<1_000_000, 32>(u32::MAX - 450_000, 2000), expected);
+    assert_eq!(run::<1_000, 32>(u32::MAX - 450, 2000), expected);
+    assert_eq!(run::<72_000_000, 32>(u32::MAX - 30_000_000, 2000), expected);
+    // SysTick: it wraps four times.
+    assert_eq!(run::<32_000_000, 24>(0xFF_0000, 2000), expected);
 }
 
 #[test]

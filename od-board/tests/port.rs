@@ -145,6 +145,20 @@ fn a_frame_of_high_priority_overtakes_those_that_wait() {
 }
 
 #[test]
+fn nothing_overtakes_a_boot_up_message() {
+    let (mut can, mut port) = (Mailboxes::default(), Port::new());
+    let first = ["701#00", "081#00", "181#00"].map(frame);
+    let mut talker = Talker(first.into(), Vec::new());
+    // Frames of low priority, which those of the node but the first would throw out.
+    can.pending = vec![frame("700#"); 3];
+    port.send_nb(&mut talker, &mut can, Instant::ZERO).unwrap();
+    assert_eq!((can.pending.len(), can.thrown_out), (3, 0));
+    can.pending.clear();
+    port.send_nb(&mut talker, &mut can, Instant::ZERO).unwrap();
+    assert_eq!(can.pending, first);
+}
+
+#[test]
 fn a_node_answers_through_an_nb_controller() {
     let (mut can, mut port) = (Mailboxes::default(), Port::new());
     let mut board = thermometer::Board::new(NodeId::ONE, NoApplication, odkit::storage::NoStorage);

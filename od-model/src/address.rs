@@ -15,6 +15,13 @@ pub struct Address {
     pub sub: u8,
 }
 
+#[cfg(feature = "defmt")]
+impl defmt::Format for Address {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "{=u16:04X}h:{=u8:02X}", self.index, self.sub);
+    }
+}
+
 impl Address {
     /// Index and sub-index; every pair is legal.
     pub const fn new(index: u16, sub: u8) -> Self {

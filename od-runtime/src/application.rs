@@ -10,6 +10,7 @@ use od_wire::time_of_day::TimeOfDay;
 use od_wire::{AbortCode, Instant, NodeId};
 
 /// Kind of a reset (CiA 301, chapter 7.3.2).
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Reset {

@@ -10,6 +10,7 @@ use crate::real;
 use od_wire::{AbortCode, NodeId};
 
 /// The slice is shorter than [`Dictionary::store_len`].
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct StoreTooSmall {
     /// Bytes that the dictionary needs.
@@ -29,6 +30,7 @@ impl fmt::Display for StoreTooSmall {
 impl core::error::Error for StoreTooSmall {}
 
 /// The text is longer than the object's capacity.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct TextTooLong {
     /// Bytes that the object can hold.

@@ -26,6 +26,14 @@ macro_rules! abort_codes {
                 match self { $(Self::$name => $text),* }
             }
         }
+
+        #[cfg(feature = "defmt")]
+        impl defmt::Format for AbortCode {
+            fn format(&self, f: defmt::Formatter<'_>) {
+                let text = match self { $(Self::$name => defmt::intern!($text)),* };
+                defmt::write!(f, "{=u32:08X}h {=istr}", self.code(), text);
+            }
+        }
     };
 }
 

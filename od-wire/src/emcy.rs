@@ -1,6 +1,7 @@
 //! EMCY frames (CiA 301, chapter 7.2.7.1): error code, error register, five bytes of the manufacturer's.
 
 /// An EMCY message: an error that comes, or with code 0000h one that goes.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Emcy {
     /// Emergency error code, for example 8130h; 0000h: error reset or no error.

@@ -24,6 +24,8 @@ mod abort;
 pub mod emcy;
 mod frame;
 mod ids;
+#[cfg(feature = "defmt")]
+mod log;
 pub mod lss;
 pub mod nmt;
 pub mod sdo;

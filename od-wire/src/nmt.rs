@@ -3,6 +3,7 @@
 use core::fmt;
 
 /// The NMT commands.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]
 pub enum Command {
@@ -33,6 +34,7 @@ impl Command {
 }
 
 /// The states of an NMT slave; the number is the one a heartbeat carries.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[repr(u8)]
 pub enum State {

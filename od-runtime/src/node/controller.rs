@@ -3,6 +3,7 @@
 use od_wire::Instant;
 
 /// State change or frame loss of the CAN controller (CiA 301, table 26, codes 81xxh).
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum BusEvent {

@@ -9,6 +9,7 @@ use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
 /// Something happened in the node.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Event {

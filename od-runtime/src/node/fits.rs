@@ -11,6 +11,7 @@ use crate::extras::Extras;
 use crate::store::StoreTooSmall;
 
 /// A reason why a node cannot serve a dictionary.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Unfit {

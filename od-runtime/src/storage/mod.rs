@@ -17,6 +17,7 @@ pub use file::{File, OpenError, Owner};
 pub use memory::Memory;
 
 /// Reason why bytes could not be read or written.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum StorageError {

@@ -1,6 +1,7 @@
 //! Outcome of a load.
 
 /// Content of the storage at the time of a load.
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum Loaded {

@@ -117,6 +117,10 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
             &[&args[..], &["--target", target::BARE]].concat(),
         )?;
     }
+    let args = ["check", "--manifest-path", "firmware/rtic/Cargo.toml"];
+    let place = context.repo.target.display().to_string();
+    let options = ["--target", target::BARE, "--target-dir", &place];
+    run(context, "a node in RTIC", &[&args[..], &options].concat())?;
     // The last one brings the others along.
     target::add(context.repo, context.console, target::SMALLEST)?;
     let args = ["build", "--package", "od-devices", "--package", "od-capi"];
@@ -125,6 +129,13 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
         context,
         "od-devices and od-capi for a Cortex-M0",
         &[&args[..], &options].concat(),
+    )?;
+    let args = ["check", "--package", "od-board", "--all-features"];
+    let args = [&args[..], &["--target", target::SMALLEST]].concat();
+    run(
+        context,
+        "od-board with every feature for a Cortex-M0",
+        &args,
     )
 }
 
