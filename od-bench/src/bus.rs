@@ -290,17 +290,6 @@ impl Bus {
         true
     }
 
-    /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
-    /// on a timed line.
-    pub fn next_deadline(&self) -> Option<Instant> {
-        let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
-        let controller = self.line.next_recovery().map(|(at, _)| at);
-        devices
-            .chain(controller)
-            .chain(self.line.medium.due())
-            .min()
-    }
-
     /// The next frame that a device sent, oldest first.
     pub fn poll(&mut self) -> Option<Sent> {
         self.sent.pop_front()

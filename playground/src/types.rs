@@ -195,9 +195,8 @@ export interface Status {
 /** The wire, and the controller of the outside. */
 export interface LineStatus {
   real: boolean;
-  /** Frames take the time of their bits. */
+  /** Frames take the time of their bits; `busy`: microseconds that they took so far. */
   timed: boolean;
-  /** Microseconds that a timed line was busy so far. */
   busy: number;
   terminators: number;
   fixedRate: number | null;

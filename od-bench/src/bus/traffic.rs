@@ -19,6 +19,23 @@ impl Bus {
         self.line.medium.push(0, *frame, self.now);
     }
 
+    /// The next deadline of any device, of a controller that recovers from bus-off, or of a frame
+    /// on a timed line.
+    pub fn next_deadline(&self) -> Option<Instant> {
+        let devices = (0..self.devices.len()).filter_map(|device| self.deadline(device));
+        let controller = self.line.next_recovery().map(|(at, _)| at);
+        devices
+            .chain(controller)
+            .chain(self.line.medium.due())
+            .min()
+    }
+
+    /// The next frame that a device sent; those of the outside are dropped. For a host that passes
+    /// frames of the outside on when they come.
+    pub(crate) fn poll_device(&mut self) -> Option<Sent> {
+        core::iter::from_fn(|| self.poll()).find(|sent| sent.device.is_some())
+    }
+
     /// Does a frame of this station wait for a timed line, or is it on it? Station 0 is the outside.
     pub fn is_sending(&self, station: usize) -> bool {
         self.line.medium.holds(station)

@@ -69,7 +69,10 @@ pub fn check(entries: &[Entry], until: Instant) -> Result<(), Excess> {
 
 #[cfg(test)]
 mod tests {
+    use std::format;
+
     use super::super::parts::Source;
+    use super::super::{Journal, Trouble};
     use super::*;
 
     fn add(place: Option<u8>) -> Input {
@@ -124,6 +127,42 @@ mod tests {
             run([repeat(1)], 1001),
             Err(Excess::Frames),
             "100 us at the least"
+        );
+    }
+
+    #[cfg(feature = "lessons")]
+    #[test]
+    fn scripts_and_lessons_of_a_journal_have_limits() {
+        let mut journal = Journal::new(od_devices::DEVICES);
+        journal.restore(Vec::new(), false);
+        journal.act(add(None));
+        let at = journal.rig.bus.now();
+        for text in ["wait 1000000000s", &"device gxmm\n".repeat(2000)] {
+            let added = journal.act(Input::Script { text: text.into() });
+            assert!(
+                matches!(added.trouble, Trouble::Message(why) if why.contains("limit") || why.contains("room"))
+            );
+            assert_eq!(journal.rig.bus.now(), at, "nothing of it happened");
+        }
+        // Frames of devices count as they come: 1800h:05 is 1 ms.
+        let text = "send 601#2B 00 18 05 01 00\nnmt start\nwait 500s";
+        let added = journal.act(Input::Script { text: text.into() });
+        assert!(
+            matches!(&added.trouble, Trouble::Message(why) if why.contains("100000 frames")),
+            "{:?}",
+            added.trouble
+        );
+        let lesson = "+++\ntitle = \"x\"\nlevel = 1\nminutes = 1\n+++\n```set-up\ndevice gxmm\nwait 1000000000s\n```\n\n\
+            ## One\ntext\n```checkpoint\nstate operational\n```\n### Hint\nx\n```solution\nnmt start\n```\n\
+            ### What just happened\nx\n";
+        let added = journal.act(Input::Lesson {
+            text: lesson.into(),
+        });
+        assert!(added.node.is_none());
+        assert!(
+            matches!(&added.trouble, Trouble::Problems(all) if format!("{all:?}").contains("limit")),
+            "{:?}",
+            added.trouble
         );
     }
 }

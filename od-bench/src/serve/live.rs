@@ -182,11 +182,7 @@ impl Live {
     }
 
     pub(super) fn deliver(&mut self) {
-        while let Some(sent) = self.bench.bus.poll() {
-            // The others heard a frame from outside when it came.
-            if sent.device.is_none() {
-                continue;
-            }
+        while let Some(sent) = self.bench.bus.poll_device() {
             self.pass_on(&sent.frame, sent.at, None);
         }
         events(&mut self.bench, |_| true);

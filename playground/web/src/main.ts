@@ -4,9 +4,6 @@ import * as state from './state';
 import { T } from './texts';
 import './views/app';
 
-/** Milliseconds after which the page begins without the lesson that it waits for. */
-const SLOW = 1500;
-
 start();
 void open().then(settle);
 window.addEventListener('hashchange', () => {
@@ -24,12 +21,13 @@ async function open(): Promise<void> {
   const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {
     const { openNamed } = await import('./lessons/open');
-    // A server that is slow leaves a bench to work with meanwhile.
-    const opening = openNamed(lesson);
-    const slow = new Promise<'slow'>((resolve) => setTimeout(resolve, SLOW, 'slow'));
-    const result = await Promise.race([opening, slow]);
-    if (result === true) return;
-    if (result === 'slow') state.toast.value = { text: T.lessons.slow(lesson), tone: 'info' };
+    let isThere = false;
+    const meanwhile = (): Promise<void> => {
+      isThere = true;
+      state.toast.value = { text: T.lessons.slow(lesson), tone: 'info' };
+      return begin(recall());
+    };
+    if ((await openNamed(lesson, meanwhile)) || isThere) return;
   }
   await begin(recall());
 }

@@ -19,6 +19,9 @@ const LONGEST = 1_000_000;
 /** Milliseconds that a server has for a lesson. */
 const PATIENCE = 10_000;
 
+/** Milliseconds after which there is a bench without the lesson that is to come. */
+const SLOW = 1500;
+
 let list: Promise<Listed[]> | null = null;
 
 /** The lessons that come with odkit; they are fetched once. */
@@ -44,15 +47,24 @@ function unreachable(name: string, error: unknown): false {
   return false;
 }
 
-/** Opens one of ours, or the text at an address; false where that does not work. */
-export async function openNamed(name: string): Promise<boolean> {
+/**
+ * Opens one of ours, or the text at an address; false where that does not work. A server that is slow
+ * leaves time to make a bench `meanwhile`, which the lesson takes the place of.
+ */
+export async function openNamed(name: string, meanwhile?: () => Promise<void>): Promise<boolean> {
+  let made: Promise<void> | undefined;
+  const timer = setTimeout(() => (made = meanwhile?.()), SLOW);
   try {
     const isOurs = (await lessons().catch(() => [])).some((one) => one.name === name);
     const text = await load(isOurs ? `lesson-${name}.md` : name);
+    clearTimeout(timer);
+    await made;
     if (!(await tried(name, text))) return false;
     if (isOurs) history.replaceState(null, '', `${location.pathname}#lesson=${name}`);
     return true;
   } catch (error) {
+    clearTimeout(timer);
+    await made;
     return unreachable(name, error);
   }
 }
