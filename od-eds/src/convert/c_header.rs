@@ -221,4 +221,19 @@ mod tests {
         assert_eq!(unique(&mut names, "A".into(), 0x2001, None), "A_2001");
         assert_eq!(unique(&mut names, "A".into(), 0x2001, Some(3)), "A_2001_03");
     }
+
+    #[test]
+    fn an_address_is_two_arguments() {
+        let eds = "[1017]\nParameterName=Producer heartbeat time\nDataType=6\nAccessType=rw\n\
+                   [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+                   [1018sub0]\nParameterName=Last\nDataType=5\nAccessType=const\n\
+                   [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\n";
+        let text = addresses(&crate::parse(eds).description, "OD", "x.eds");
+        for line in [
+            "#define OD_PRODUCER_HEARTBEAT_TIME 0x1017u, 0x00u /* UNSIGNED16, rw */\n",
+            "#define OD_IDENTITY_VENDOR_ID 0x1018u, 0x01u /* UNSIGNED32, ro */\n",
+        ] {
+            assert!(text.contains(line), "{text}");
+        }
+    }
 }
