@@ -17,6 +17,8 @@ use crate::clock::Clock;
 use crate::eeprom::Eeprom;
 #[cfg(feature = "eds")]
 use crate::long::{Beside, Long};
+#[cfg(feature = "eds")]
+use crate::programs::Programs;
 use crate::roomy::roomy;
 use crate::services::Services;
 use crate::shaft;
@@ -43,6 +45,8 @@ pub struct VirtualDevice {
     pub(super) long: Option<Long>,
     #[cfg(feature = "eds")]
     clock: Clock,
+    #[cfg(feature = "eds")]
+    pub(super) programs: Programs,
     pub(super) wanted_id: NodeId,
     pub(super) wanted_rate: Option<u16>,
     /// When the turning shaft is looked at again.
@@ -110,6 +114,8 @@ impl VirtualDevice {
             long: None,
             #[cfg(feature = "eds")]
             clock: Clock::default(),
+            #[cfg(feature = "eds")]
+            programs: Programs::new(),
             wanted_rate: None,
             look_at: None,
             activated: None,
@@ -313,6 +319,8 @@ impl VirtualDevice {
             long,
             #[cfg(feature = "eds")]
             clock,
+            #[cfg(feature = "eds")]
+            programs,
             ..
         } = self;
         if let Behaviour::Encoder(encoder) = behaviour {
@@ -328,6 +336,7 @@ impl VirtualDevice {
                     application,
                     long,
                     clock,
+                    programs,
                 };
                 &mut beside
             }

@@ -36,6 +36,8 @@ pub mod notice;
 mod own;
 pub mod pdos;
 mod plain;
+#[cfg(feature = "eds")]
+mod programs;
 pub mod rig;
 mod roomy;
 mod saved;

@@ -8,6 +8,7 @@ use od_runtime::{LssProfile, NodeId, Profile};
 use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
 use crate::long::Long;
+use crate::programs;
 use crate::roomy::roomy;
 use crate::services::Services;
 use crate::source::Source;
@@ -62,6 +63,7 @@ impl VirtualDevice {
             description.info_is_set(key)
         });
         device.long = Some(Long::default());
+        device.programs = programs::of(device.dictionary());
         let commissioning = description.commissioning().unwrap_or_default();
         if let Some(number) = commissioning.serial_number {
             device = device.with_serial_number(number);

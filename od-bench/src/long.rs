@@ -10,6 +10,7 @@ use od_runtime::{
 };
 
 use crate::clock::Clock;
+use crate::programs::{Loader, Programs};
 
 /// Most bytes of a DOMAIN that a master writes, where nothing says another number.
 pub(crate) const DOMAIN_SIZE: usize = 1 << 20;
@@ -91,6 +92,7 @@ pub(crate) struct Beside<'d> {
     pub(crate) application: &'d mut dyn Application,
     pub(crate) long: &'d mut Long,
     pub(crate) clock: &'d mut Clock,
+    pub(crate) programs: &'d mut Programs,
 }
 
 impl Beside<'_> {
@@ -208,6 +210,9 @@ impl Application for Beside<'_> {
             *self.clock = Clock::default();
             self.clock.set(cx.now, TimeOfDay::default());
         }
+        for loader in self.programs.iter_mut() {
+            loader.reset(cx, reset);
+        }
         self.application.reset(cx, reset);
     }
 
@@ -229,20 +234,30 @@ impl Application for Beside<'_> {
         address: Address,
         value: &[u8],
     ) -> Result<(), AbortCode> {
+        for loader in self.programs.iter_mut() {
+            loader.validate(cx, address, value)?;
+        }
         self.application.validate(cx, address, value)
     }
 
     fn written(&mut self, cx: &mut Context<'_, '_>, address: Address) {
         // From the side of the device it goes into the store.
         self.long.remove(address);
+        for loader in self.programs.iter_mut() {
+            loader.written(cx, address);
+        }
         if Clock::is_configuration(address) {
             cx.signals.wake();
         }
         self.application.written(cx, address);
     }
 
-    fn stream(&mut self, _: Address) -> Option<&mut dyn Stream> {
-        Some(self)
+    fn stream(&mut self, address: Address) -> Option<&mut dyn Stream> {
+        let loads = |loader: &mut Loader| loader.stream(address).is_some();
+        match self.programs.iter_mut().position(loads) {
+            Some(at) => self.programs[at].stream(address),
+            None => Some(self),
+        }
     }
 
     fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {

@@ -14,7 +14,7 @@ pub struct Services {
 }
 
 /// Objects that turn a service on (CiA 301, chapter 7.5.2).
-const ON: [(u16, u16, &str); 14] = [
+const ON: [(u16, u16, &str); 15] = [
     (0x1005, 0x1005, "SYNC consumer"),
     (0x1006, 0x1006, "SYNC producer"),
     (0x1012, 0x1012, "TIME"),
@@ -28,16 +28,16 @@ const ON: [(u16, u16, &str); 14] = [
     (0x1201, 0x127F, "further SDO servers"),
     (0x1400, 0x15FF, "RPDOs"),
     (0x1800, 0x19FF, "TPDOs"),
+    (0x1F51, 0x1F51, "program download"),
     (0x6004, 0x6004, "encoder (CiA 406)"),
 ];
 
 /// Objects of services that a node does not have.
-const MISSING: [(u16, u16, &str); 7] = [
+const MISSING: [(u16, u16, &str); 6] = [
     (0x1007, 0x1007, "synchronous window (1007h)"),
     (0x1013, 0x1013, "high resolution time stamp (1013h)"),
     (0x1280, 0x12FF, "SDO clients (1280h to 12FFh)"),
     (0x1F20, 0x1F2F, "configuration manager (1F20h to 1F2Fh)"),
-    (0x1F50, 0x1F57, "program download (1F50h to 1F57h)"),
     (0x1F81, 0x1F8F, "NMT master (1F81h to 1F8Fh)"),
     (0x1FA0, 0x1FCF, "multiplexed PDOs (1FA0h to 1FCFh)"),
 ];
