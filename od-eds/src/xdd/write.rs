@@ -323,15 +323,17 @@ fn entry_attributes(address: Address, entry: &EntryDescription) -> Attributes {
     attributes
 }
 
-/// The hexadecimal digits of a type that odkit does not know; empty without one.
+/// The hexadecimal digits of a type that odkit does not know, or its text; empty without one.
 fn unknown_type(entry: &EntryDescription) -> String {
     let found = entry
         .extra
         .iter()
         .find(|(key, _)| key.eq_ignore_ascii_case("DataType"));
-    let number = found.and_then(|(_, text)| crate::scan::number::number(text));
-    let number = number.and_then(|number| u16::try_from(number).ok());
-    number.map_or(String::new(), |number| format!("{number:04X}"))
+    let text = found.map_or("", |(_, text)| text.as_str());
+    let number = crate::scan::number::number(text);
+    let number = number.and_then(|number| u64::try_from(number).ok());
+    // What is not a number is read again as it is.
+    number.map_or_else(|| text.into(), |number| format!("{number:04X}"))
 }
 
 fn flags(flags: u32) -> String {

@@ -103,3 +103,17 @@ fn a_file_says_what_it_is() {
         assert_eq!(before, after, "{key}");
     }
 }
+
+#[test]
+fn a_type_that_odkit_does_not_know_is_kept() {
+    for data_type in ["0x21478", "0x123456789ABCDEF01", "MINE"] {
+        let text = format!(
+            "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+            [1018sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+            [1018sub1]\nParameterName=x\nDataType={data_type}\nAccessType=ro\n"
+        );
+        let description = crate::parse(&text).description;
+        let again = crate::parse(&write(&description)).description;
+        assert_eq!(again.objects, description.objects, "{data_type}");
+    }
+}

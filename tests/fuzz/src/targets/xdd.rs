@@ -1,4 +1,4 @@
-//! XDD and XDC text: it is read whatever it is, and written as EDS it reads the same.
+//! XDD and XDC text: it is read whatever it is, and written as XDD or as EDS it reads the same.
 
 use od_eds::Tables;
 
@@ -73,5 +73,7 @@ fn run(input: &[u8]) {
     eds::written_again(&parsed.description);
     let written = od_eds::xdd::write(&parsed.description);
     let again = od_eds::parse(&written).description;
-    let _ = od_eds::xdd::write(&again);
+    eds::same_values(&parsed.description, &again, &written);
+    let twice = od_eds::xdd::write(&again);
+    eds::same_values(&again, &od_eds::parse(&twice).description, &twice);
 }
