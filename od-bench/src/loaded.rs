@@ -36,7 +36,7 @@ impl VirtualDevice {
     /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
     pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
         let parsed = od_eds::load(text);
-        if !options.lenient && parsed.findings.iter().any(Finding::is_error) {
+        if !options.lenient && parsed.findings.iter().any(Finding::is_unsound) {
             return (None, parsed.findings);
         }
         let description = &parsed.description;

@@ -125,7 +125,7 @@ pub fn say(finding: &Finding, words: &dyn Vocabulary) -> Sentence {
     });
     Sentence {
         code: finding.rule.code,
-        severity: finding.rule.severity,
+        severity: finding.severity,
         message: filled(finding.form.says),
         span: finding.span(),
         address: finding.object,

@@ -99,6 +99,8 @@ pub struct Document {
     text: String,
     encoding: Encoding,
     mark: usize,
+    /// Name of the file on the disk, if it is known.
+    pub(crate) file_name: Option<String>,
 }
 
 impl Document {
@@ -112,7 +114,15 @@ impl Document {
             text,
             encoding,
             mark,
+            file_name: None,
         }
+    }
+
+    /// The document of a file with this name, which tells an EDS from a DCF; without one, FileName does.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.file_name = Some(name.into());
+        self
     }
 
     /// The text, without a byte order mark; what [`parse`](crate::parse) reads.

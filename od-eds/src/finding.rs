@@ -92,7 +92,8 @@ pub(crate) enum Check {
 #[derive(Clone, Copy)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Rule {
-    /// Stable code; the letter is the severity's. A code never changes its meaning.
+    /// Stable code. The letter is that of the severity that the rule began with; a code never changes its meaning,
+    /// nor its letter.
     pub code: &'static str,
     /// Severity of its findings.
     pub severity: Severity,
@@ -116,6 +117,8 @@ pub struct Rule {
     /// Other sentences of its findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub also: &'static [Form],
+    /// Can a device be built of the file all the same? Then only its master fails.
+    pub buildable: bool,
     /// The way to the findings.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) check: Check,
@@ -147,6 +150,7 @@ impl Rule {
         says: "",
         help: "",
         also: &[],
+        buildable: false,
         check: Check::ByReader,
     };
 
@@ -168,6 +172,7 @@ impl Rule {
     pub(crate) fn finding(&'static self) -> Finding {
         Finding {
             rule: self,
+            severity: self.severity,
             form: Form {
                 says: self.says,
                 help: self.help,
@@ -235,6 +240,8 @@ pub struct Related {
 pub struct Finding {
     /// The rule that reports it.
     pub rule: &'static Rule,
+    /// Severity: that of the rule, unless a project has another opinion.
+    pub severity: Severity,
     /// Its sentences, with blanks.
     pub form: Form,
     /// Place of the finding.
@@ -257,14 +264,19 @@ impl Finding {
         self.rule.code
     }
 
-    /// Severity of its rule.
+    /// Severity of the finding.
     pub const fn severity(&self) -> Severity {
-        self.rule.severity
+        self.severity
     }
 
     /// Is it an error?
     pub fn is_error(&self) -> bool {
-        self.rule.severity == Severity::Error
+        self.severity == Severity::Error
+    }
+
+    /// Is it an error with which no sound device can be built?
+    pub fn is_unsound(&self) -> bool {
+        self.is_error() && !self.rule.buildable
     }
 
     /// Place of the finding; `None` if something is missing.

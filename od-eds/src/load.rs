@@ -11,6 +11,7 @@ use crate::log::Log;
 use crate::read::modules;
 use crate::read::parsed::Parsed;
 use crate::read::sorted;
+use crate::rules::lists::W0216;
 use crate::rules::text::{i0111, w0112};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
@@ -29,7 +30,7 @@ pub fn is_xml(text: &str) -> bool {
 /// it was. It does not check: see [`check`](crate::check::check) and [`load`].
 pub fn parse(text: &str) -> Parsed {
     let mut log = Log::default();
-    let description = read(text, &mut log);
+    let description = read(text, None, &mut log);
     ordered(description, log.finish(), text)
 }
 
@@ -37,7 +38,7 @@ pub fn parse(text: &str) -> Parsed {
 /// text [allows](crate::check::Allows).
 pub fn load(text: &str) -> Parsed {
     let mut log = Log::default();
-    let description = read(text, &mut log);
+    let description = read(text, None, &mut log);
     checked(description, log, text)
 }
 
@@ -56,20 +57,20 @@ impl Document {
 
     fn read(&self) -> (Description, Log) {
         let mut log = Log::default();
-        let description = read(self.text(), &mut log);
+        let description = read(self.text(), self.file_name.as_deref(), &mut log);
         log.extend(encoded(self));
         (description, log)
     }
 }
 
 /// Reads a text in its form.
-fn read(text: &str, log: &mut Log) -> Description {
+fn read(text: &str, file: Option<&str>, log: &mut Log) -> Description {
     #[cfg(feature = "xdd")]
     if is_xml(text) {
         return xdd::parse(text, log);
     }
-    let description = sorted::eds(text, log);
-    modules::check(&description.sections, log);
+    let description = sorted::eds(text, file, log);
+    modules::check(&description, log);
     description
 }
 
@@ -89,7 +90,10 @@ fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Pars
     };
     sort(&mut parsed.findings);
     if cfg!(feature = "xdd") && is_xml(text) {
-        // A fix of an EDS would break an XML.
+        // Of the keys of an EDS an XDD has other elements, and a fix of an EDS would break an XML.
+        parsed
+            .findings
+            .retain(|finding| finding.code() != W0216.code);
         for finding in &mut parsed.findings {
             finding.fix = None;
         }

@@ -78,7 +78,7 @@ pub(crate) fn build(input: &Input, source: &Source, report: &mut Report) -> Fami
         .collect();
     let mut family = devices(input, source, base, variants, report);
     if source.files.is_some() {
-        family.remarks = eds.iter().filter(|finding| !finding.is_error()).count();
+        family.remarks = eds.iter().filter(|finding| !finding.is_unsound()).count();
     }
     family
 }
@@ -95,7 +95,7 @@ fn fixed(finding: &Finding, base: &Description, statements: &[Statement]) -> boo
     // An edit of the default takes the place of a DCF's value, too.
     let key = match finding.key {
         Some(Key::ParameterValue) => Key::DefaultValue,
-        Some(key) if finding.is_error() => key,
+        Some(key) if finding.is_unsound() => key,
         _ => return false,
     };
     statements.iter().any(|statement| match statement {
@@ -190,10 +190,10 @@ impl Findings<'_> {
             true => Vec::new(),
             false => od_eds::check::check(before),
         };
-        known.retain(Finding::is_error);
+        known.retain(Finding::is_unsound);
         let (old, new): (Vec<_>, Vec<_>) = found
             .into_iter()
-            .partition(|f| !f.is_error() || known.contains(f));
+            .partition(|f| !f.is_unsound() || known.contains(f));
         let patch = findings::Patch {
             edits: &edits,
             tokens: first..report.numbers(),

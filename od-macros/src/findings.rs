@@ -27,7 +27,7 @@ pub(crate) fn tell(
 ) {
     let mut shown = 0;
     let mut hidden = 0usize;
-    for finding in findings.iter().filter(|f| f.is_error()) {
+    for finding in findings.iter().filter(|f| f.is_unsound()) {
         if let Some(place) = report.token(finding) {
             report.at(place, at_token(&say(finding, &Row), description, None));
         } else if shown < SHOWN {
@@ -64,7 +64,7 @@ impl Patch<'_> {
         description: &Description,
         report: &mut Report,
     ) {
-        for finding in findings.iter().filter(|f| f.is_error()) {
+        for finding in findings.iter().filter(|f| f.is_unsound()) {
             let own = finding.span().and_then(token_of);
             let own = own.filter(|id| self.tokens.contains(id));
             let mut told = say(finding, &Row);

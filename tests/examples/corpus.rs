@@ -81,7 +81,7 @@ impl File {
         let bytes = fs::read(&path).ok()?;
         let length = bytes.len();
         let start = Instant::now();
-        let document = Document::new(bytes);
+        let document = Document::new(bytes).named(path.display().to_string());
         let loaded = document.load();
         let time = start.elapsed();
         let name = path.strip_prefix(root).unwrap_or(&path);

@@ -23,8 +23,8 @@ const FOLDERS: [(&str, &str); 9] = [
 fn page() -> String {
     let mut page = String::from(
         "# Rules for EDS files\n\n\
-         What `odkit check` finds. A code never changes its meaning. An error is what makes generated\n\
-         code unsound or a master fail; what many shipped files have is a warning; a remark is worth\n\
+         What `odkit check` finds. A code never changes; its letter is the severity that it began with. An error is what makes generated\n\
+         code unsound or a master fail; what a master survives is a warning; a remark is worth\n\
          knowing. `odkit explain CODE` shows an example before and after.\n\n\
          **Fixes.** `--fix` makes the safe ones: they say to every reader what odkit read before.\n\
          `--unsafe-fixes` makes likely guesses, too. `--diff` shows both and writes nothing. A fix\n\

@@ -13,7 +13,7 @@ use crate::read::values;
 use crate::read::words;
 use crate::rules;
 use crate::rules::standard::table;
-use crate::rules::structure::w0315;
+use crate::rules::structure::{w0315, w0342};
 use crate::rules::text::w0109;
 use crate::rules::values::{e0402, e0405, e0417, shared, w0404, w0406, w0407, w0416, w0426};
 use crate::scan::number;
@@ -56,9 +56,10 @@ impl Reader<'_> {
 
     /// ParameterName; empty where it is missing.
     pub(crate) fn name(&mut self, fields: &mut Fields<'_>) -> Spanned<String> {
+        let place = fields.place("ParameterName").unwrap_or(fields.header);
         let name = fields.take("ParameterName").map(placed::owned);
         name.unwrap_or_else(|| {
-            self.report(w0315::finding(fields.header));
+            self.report(w0315::finding(place));
             Spanned::from(String::new())
         })
     }
@@ -228,8 +229,13 @@ impl Reader<'_> {
     /// ObjFlags; 0 where it is missing.
     pub(crate) fn flags(&mut self, fields: &mut Fields<'_>, unread: &mut Unread) -> u32 {
         let key = Key::ObjFlags;
-        let read =
-            |reader: &mut Self, given: &Text<'_>| u32::try_from(reader.number(key, given)?).ok();
+        let read = |reader: &mut Self, given: &Text<'_>| {
+            let flags = u32::try_from(reader.number(key, given)?).ok()?;
+            if let Some(finding) = w0342::finding(given, flags) {
+                reader.report(finding);
+            }
+            Some(flags)
+        };
         let found = self.keyed(fields, unread, key, read, w0407::finding);
         found.and_then(|found| found.value).unwrap_or(0)
     }

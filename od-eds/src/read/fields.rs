@@ -10,7 +10,7 @@ use crate::log::Log;
 use crate::read::other::unknown_object_keys;
 use crate::rules;
 use crate::rules::structure::i0320;
-use crate::rules::text::w0107;
+use crate::rules::text::{e0117, w0107};
 use crate::scan::number::before_comment;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
@@ -68,6 +68,13 @@ impl<'a> Fields<'a> {
         (!value.is_empty()).then_some(value)
     }
 
+    /// Place of a key, with a value or without one.
+    pub(crate) fn place(&self, key: &str) -> Option<Span> {
+        let mut pairs = self.pairs.iter();
+        let found = pairs.find(|(k, _)| k.eq_ignore_ascii_case(key))?;
+        Some(found.0.span)
+    }
+
     /// Does the section give a value for this key?
     pub(crate) fn has(&self, key: &str) -> bool {
         self.pairs
@@ -114,9 +121,10 @@ pub(crate) fn duplicates(pairs: &[(Text<'_>, Text<'_>)], log: &mut Log) -> Vec<u
     let mut found = Vec::new();
     let mut report = |(first, same): (&Text<'_>, &Text<'_>), at: usize| {
         let (key, value) = &pairs[at];
-        log.add(&rules::W0107, || {
-            w0107::finding(first.span, key, value, value == same)
-        });
+        match value == same {
+            true => log.add(&rules::W0107, || w0107::finding(first.span, key, value)),
+            false => log.add(&rules::E0117, || e0117::finding(first.span, key, value)),
+        }
         found.push(at);
     };
     // Sections are short; a tree is for the text that was made to be slow.

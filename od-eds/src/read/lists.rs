@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use crate::description::{Description, ObjectDescription};
 use crate::fix::Fix;
 use crate::log::Log;
-use crate::rules::lists::{w0201, w0202, w0203, w0204, w0205, w0206, w0207, w0214, w0242};
+use crate::rules::lists::{w0201, w0202, w0203, w0204, w0205, w0206, w0207, w0214, w0218, w0242};
 use crate::scan::names::List;
-use crate::scan::number::number;
+use crate::scan::number::{before_comment, number};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Span;
 
@@ -48,7 +48,7 @@ fn entries(
     log: &mut Log,
 ) {
     let mut count: Option<&Text<'_>> = None;
-    let mut found = 0;
+    let (mut found, mut invalid) = (0, 0);
     let mut numbers: BTreeMap<Option<i128>, Span> = BTreeMap::new();
     let mut ordered = true;
     // Each of these fixes numbers all entries: more of them are of no use to anybody.
@@ -68,9 +68,18 @@ fn entries(
         }
         let Some(index) = index(key, value, description) else {
             log.push(w0205::finding(key, value));
+            invalid += 1;
             continue;
         };
         found += 1;
+        if !is_plain(value, index) {
+            log.push(w0218::index(value, index));
+        }
+        if let Some(given) = number(key)
+            && key.bytes().any(|b| !b.is_ascii_digit())
+        {
+            log.push(w0218::number(key, given));
+        }
         if let Some(first) = numbers.get(&number(key)) {
             ordered = false;
             log.push(w0214::finding(renumbered(), key, *first));
@@ -94,20 +103,34 @@ fn entries(
         }
     }
     let given = count.and_then(|count| number(count));
-    if given != Some(found) && (found > 0 || count.is_some()) {
+    // An entry that is not valid is one all the same.
+    let counted = given == Some(found) || given == Some(found + invalid);
+    if !counted && (found > 0 || count.is_some()) {
         log.push(w0204::finding(placed.header, count, found));
     }
 }
 
-/// The index of a list entry; one without `0x` is decimal, unless only hexadecimal makes sense.
+/// The index of a list entry, however it is written; one without `0x` is decimal, unless only
+/// hexadecimal makes sense.
 fn index(key: &str, value: &str, description: &Description) -> Option<u16> {
     number(key)?;
     let read = number(value).and_then(|n| u16::try_from(n).ok());
-    let text = value.split([';', '#']).next().unwrap_or(value).trim();
+    let text = before_comment(value);
     let exists = |index: &u16| description.objects.contains_key(index);
     if read.as_ref().is_some_and(exists) {
         return read;
     }
-    let hex = u16::from_str_radix(text, 16).ok();
+    let bare = text.strip_prefix('$').unwrap_or(text);
+    let hex = u16::from_str_radix(bare, 16).ok();
     hex.filter(exists).or(read)
+}
+
+/// Is the index written as CiA 306 has it: hexadecimal with `0x`, or decimal?
+fn is_plain(value: &str, index: u16) -> bool {
+    let text = before_comment(value);
+    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    match hex {
+        Some(digits) => u16::from_str_radix(digits, 16) == Ok(index),
+        None => !text.starts_with('0') && text.parse() == Ok(index),
+    }
 }

@@ -2,6 +2,7 @@
 
 mod compact;
 mod compact_pdo;
+mod configured;
 mod entry;
 mod faults;
 pub(crate) mod fields;

@@ -13,7 +13,7 @@ use alloc::vec::Vec;
 use crate::description::{Description, EntryDescription, ObjectDescription, Section};
 use crate::log::Log;
 use crate::read::sorted;
-use crate::rules::lists::w0215;
+use crate::rules::lists::{w0215, w0249};
 use crate::rules::structure::w0323;
 use crate::scan::known;
 use crate::scan::known::ModulePart;
@@ -144,13 +144,39 @@ fn extend(object: &mut ObjectDescription, extension: &Extension, left: &mut u8) 
 }
 
 /// Names what is wrong with the modules of a file.
-pub(crate) fn check(sections: &[Section], log: &mut Log) {
-    if sections
-        .iter()
-        .any(|section| known::module_part(&section.name).is_some())
-    {
-        read(sections, log);
+pub(crate) fn check(description: &Description, log: &mut Log) {
+    let sections = &description.sections;
+    let is_part = |section: &Section| {
+        let name = &section.name;
+        known::module_part(name).is_some() || list_of(name).is_some()
+    };
+    if !sections.iter().any(is_part) {
+        return;
     }
+    let modules = read(sections, log);
+    for section in sections {
+        let part = known::module_part(&section.name).filter(|part| part.extends);
+        if let Some(part) = part
+            && let Place::Object(index) = part.place
+        {
+            let module = modules.iter().find(|module| module.number == part.module);
+            let fixed = module.is_some_and(|module| module.fixed.contains_key(&index));
+            if !fixed && !description.objects.contains_key(&index) {
+                log.push(w0249::finding(section.name.span, index, part.module));
+            }
+        }
+    }
+}
+
+/// The module and the kind of a list `M1FixedObjects` or `M1SubExtends`.
+fn list_of(name: &str) -> Option<(u16, bool)> {
+    let rest = name.strip_prefix(['M', 'm'])?;
+    let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+    let module = rest[..digits].parse().ok()?;
+    let words = [("FixedObjects", false), ("SubExtends", true)];
+    let is_word = |(word, _): &(&str, bool)| rest[digits..].eq_ignore_ascii_case(word);
+    let (_, extends) = words.into_iter().find(is_word)?;
+    Some((module, extends))
 }
 
 fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
@@ -177,6 +203,11 @@ fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
                 .entry((module, extends))
                 .or_default()
                 .push((place, section));
+        }
+    }
+    for section in sections {
+        if let Some(key) = list_of(&section.name) {
+            parts.entry(key).or_default();
         }
     }
     for ((number, extends), found) in parts {

@@ -1,7 +1,7 @@
 //! One object: its own section and those of its members.
 
 use alloc::collections::BTreeMap;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::description::{EntryDescription, ObjectDescription};
@@ -12,7 +12,7 @@ use crate::read::compact::CompactSections;
 use crate::read::entry::{Assumed, Reader, Unread, extra};
 use crate::read::fields::Fields;
 use crate::rules::lists::e0208;
-use crate::rules::structure::{e0301, e0305, e0353, w0302, w0316, w0317, w0322};
+use crate::rules::structure::{e0301, e0305, e0353, w0302, w0316, w0317, w0322, w0324, w0325};
 use crate::scan::placed::{Placed, Text};
 use crate::span::Spanned;
 use od_model::{Address, ObjectCode};
@@ -40,7 +40,15 @@ pub(crate) fn object(
     let name = reader.name(&mut fields);
     let mut unread = Vec::new();
     let sub_number = sub_number(&mut reader, &mut fields, &mut unread);
-    let count = compact::count(&mut reader, &mut fields, &mut unread);
+    let mut count = compact::count(&mut reader, &mut fields, &mut unread);
+    if let Some(given) = count.take_if(|_| !sections.members.is_empty()) {
+        reader.report(w0324::finding(given.span));
+        if fields.has("DataType") {
+            count = Some(given);
+        } else {
+            unread.push(("CompactSubObj".into(), given.value.to_string()));
+        }
+    }
     let has_members = !sections.members.is_empty() || count.is_some();
     let code = object_code(&mut reader, &mut fields, &mut unread, has_members);
     let members = sections.members;
@@ -81,6 +89,12 @@ pub(crate) fn object(
         entries.insert(0, entry);
     } else {
         flags = reader.flags(&mut fields, &mut unread).max(flags);
+        if matches!(*code, ObjectCode::Array | ObjectCode::Record) {
+            for key in w0325::KEYS.into_iter().filter(|key| fields.has(key.name())) {
+                let place = fields.place(key.name()).unwrap_or(fields.header);
+                reader.report(w0325::finding(place, key, *code));
+            }
+        }
     }
     let group = fields.group;
     for (sub, section) in members {

@@ -1,10 +1,12 @@
 //! Sections that describe no object: do they say what CiA 306 knows, and in its form?
 
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::finding::Finding;
 use crate::log::Log;
-use crate::rules::lists::{i0211, w0213};
+use crate::rules::lists::{i0211, w0213, w0252};
 use crate::rules::standard::{i0610, i0611, w0609};
 use crate::rules::structure::{i0319, w0318};
 use crate::scan::known;
@@ -30,6 +32,9 @@ pub(crate) fn check(placed: &Placed<'_>, log: &mut Log) {
     for (key, value) in &placed.pairs {
         match known::key(known, key) {
             Some((_, form)) => check_value(known, key, value, form, log),
+            None if known.name == "DeviceInfo" && w0252::is_rate(key) => {
+                log.push(w0252::finding(key));
+            }
             None => log.push(unknown_key(
                 key,
                 value,
@@ -45,10 +50,27 @@ fn unknown_section(placed: &Placed<'_>, log: &mut Log) {
         .iter()
         .map(|known| known.name)
         .chain(List::ALL.map(List::name));
-    log.push(match known::near(name, names) {
+    let object = object_section(name);
+    log.push(match object.as_deref().or(known::near(name, names)) {
         Some(meant) => w0213::finding(placed, meant),
         None => i0211::finding(placed),
     });
+}
+
+/// The section of a sub-object that is probably meant: `2005sub3` by `2005sb3`.
+fn object_section(name: &str) -> Option<String> {
+    let (index, rest) = name.split_at_checked(4)?;
+    let word = rest.trim_end_matches(|c: char| c.is_ascii_hexdigit());
+    // The `b` of `sub` is a hexadecimal digit.
+    let word = if rest[word.len()..].starts_with(['b', 'B']) {
+        rest.get(..word.len() + 1)?
+    } else {
+        word
+    };
+    let sub = u8::from_str_radix(rest.get(word.len()..)?, 16).ok()?;
+    let index = u16::from_str_radix(index, 16).ok()?;
+    known::nearest(word.trim(), ["sub"].into_iter(), 1)?;
+    Some(format!("{index:04X}sub{sub:X}"))
 }
 
 /// The finding about a key that nobody reads, with the one that may be meant.
@@ -93,9 +115,9 @@ fn check_value(known: &Known, key: &str, value: &Text<'_>, form: Form, log: &mut
     }
 }
 
+/// A version of CiA 306 for CANopen 4.
 fn is_version(text: &str) -> bool {
-    text.split('.')
-        .all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
+    matches!(text, "4.0" | "4.1" | "4.2")
 }
 
 fn parts(text: &str, at: char) -> Vec<Option<u32>> {
@@ -103,10 +125,19 @@ fn parts(text: &str, at: char) -> Vec<Option<u32>> {
 }
 
 fn is_date(text: &str) -> bool {
-    matches!(
-        parts(text, '-')[..],
-        [Some(1..=12), Some(1..=31), Some(1000..=9999)]
-    )
+    match parts(text, '-')[..] {
+        [Some(month @ 1..=12), Some(day @ 1..), Some(1000..=9999)] => day <= days(month),
+        _ => false,
+    }
+}
+
+/// Days of a month in a leap year.
+const fn days(month: u32) -> u32 {
+    match month {
+        2 => 29,
+        4 | 6 | 9 | 11 => 30,
+        _ => 31,
+    }
 }
 
 fn is_time(text: &str) -> bool {

@@ -12,7 +12,7 @@ use crate::log::Log;
 use crate::read::fields::duplicates;
 use crate::read::object;
 use crate::read::object::Sections;
-use crate::read::{compact_pdo, faults, lists, other, own_types};
+use crate::read::{compact_pdo, configured, faults, lists, other, own_types};
 use crate::rules::lists::{i0212, w0209};
 use crate::rules::structure::{e0303, w0304};
 use crate::rules::text::w0106;
@@ -22,9 +22,10 @@ use crate::scan::{lines, number::number};
 use crate::span::Span;
 use od_model::Address;
 
-/// Reads an EDS or a DCF.
-pub(crate) fn eds(text: &str, log: &mut Log) -> Description {
+/// Reads an EDS or a DCF; `file` is its name on the disk, if it has one.
+pub(crate) fn eds(text: &str, file: Option<&str>, log: &mut Log) -> Description {
     let sections = lines::scan(text, &mut |fault| faults::report(fault, log));
+    configured::check(&sections, file, log);
     let mut sorted = Sorted::of(sections, log);
     sorted.has_lists = true;
     sorted.described()
@@ -327,6 +328,6 @@ mod tests {
             .collect();
         assert_eq!(names, ["FileInfo", "2000Name", "Mine"]);
         assert_eq!(parsed.description.sections[2].pairs.len(), 2);
-        assert_eq!(codes(&parsed), ["I0319", "W0209", "I0211", "W0107"]);
+        assert_eq!(codes(&parsed), ["I0319", "W0209", "I0211", "E0117"]);
     }
 }

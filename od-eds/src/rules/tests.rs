@@ -9,17 +9,19 @@ use super::*;
 use crate::finding::Severity;
 
 #[test]
-fn codes_are_unique_ascending_and_tell_their_severity() {
+fn codes_are_unique_and_ascending() {
     for pair in RULES.windows(2) {
         assert!(pair[0].code[1..] < pair[1].code[1..], "{}", pair[1].code);
     }
     for r in RULES {
-        let letter = match r.severity {
-            Severity::Error => 'E',
-            Severity::Warning => 'W',
-            Severity::Info => 'I',
+        // A code is a name and stays; a severity was raised where a master stops, never lowered.
+        let letter = match r.code.as_bytes().first() {
+            Some(b'E') => Severity::Error,
+            Some(b'W') => Severity::Warning,
+            Some(b'I') => Severity::Info,
+            _ => panic!("{}", r.code),
         };
-        assert!(r.code.starts_with(letter), "{}", r.code);
+        assert!(r.severity >= letter, "{}", r.code);
         assert_eq!(r.code.len(), 5);
         assert!(!r.title.is_empty() && !r.why.is_empty() && !r.source.is_empty());
     }

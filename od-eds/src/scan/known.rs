@@ -77,7 +77,14 @@ pub(crate) const SECTIONS: &[Known] = &[
             ("ProductVersion", U32),
             ("RevisionNumber", U32),
             ("OrderCode", Form::Text),
-            ("BaudRate_#", Form::Flag),
+            ("BaudRate_10", Form::Flag),
+            ("BaudRate_20", Form::Flag),
+            ("BaudRate_50", Form::Flag),
+            ("BaudRate_125", Form::Flag),
+            ("BaudRate_250", Form::Flag),
+            ("BaudRate_500", Form::Flag),
+            ("BaudRate_800", Form::Flag),
+            ("BaudRate_1000", Form::Flag),
             ("SimpleBootUpMaster", Form::Flag),
             ("SimpleBootUpSlave", Form::Flag),
             ("ExtendedBootUpMaster", Form::Flag),
@@ -360,11 +367,7 @@ mod tests {
             key(device, "nrofrxpdo"),
             Some(("NrOfRXPDO", Form::Number(512)))
         );
-        assert_eq!(
-            key(device, "Baudrate_100"),
-            Some(("BaudRate_#", Form::Flag))
-        );
-        assert_eq!(key(device, "BaudRate_"), None);
+        assert_eq!(key(device, "Baudrate_100"), None);
         let dummies = section("DummyUsage").unwrap().1;
         assert_eq!(key(dummies, "dummy001B"), Some(("Dummy#", Form::Flag)));
     }
@@ -393,7 +396,5 @@ mod tests {
         assert_eq!(find("datatyp"), Some("DataType"));
         assert_eq!(find("LowLimits"), Some("LowLimit"));
         assert_eq!(find("Description"), None);
-        assert_eq!(find("DataType"), None);
-        assert_eq!(find("Unit"), None);
     }
 }

@@ -9,6 +9,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::scan::find::either;
+use crate::scan::known::OBJECT_KEYS;
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
@@ -23,8 +24,16 @@ struct Scan<'a, 'f> {
 /// A line that is not plain INI.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Fault<'a> {
+    /// A line that git writes between two versions; ignored.
+    Conflict(Spanned<&'a str>),
     /// Not a section, a `key=value` line or a comment; ignored.
     NoPair(Spanned<&'a str>),
+    /// A key of an object and its value, with blanks between them.
+    NoSign {
+        at: Span,
+        key: &'a str,
+        value: &'a str,
+    },
     /// A line with nothing before its `=`; ignored.
     NoKey(Spanned<&'a str>),
     /// A header without a closing bracket; its name ends before a comment, or with the line.
@@ -160,6 +169,9 @@ impl<'a> Scan<'a, '_> {
         let trimmed = line.text.trim();
         match trimmed.as_bytes().first() {
             None => {}
+            Some(b'<' | b'=' | b'>' | b'|') if is_conflict(line.text) => {
+                (self.fault)(&Fault::Conflict(line.spanned(trimmed)));
+            }
             Some(b';' | b'#') => self.comment(line, trimmed),
             Some(b'[') => self.header(line, trimmed),
             Some(_) => self.pair(line, trimmed),
@@ -213,7 +225,18 @@ impl<'a> Scan<'a, '_> {
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
         let Some(at) = either(trimmed, ['=', ':']) else {
-            (self.fault)(&Fault::NoPair(line.spanned(trimmed)));
+            match without_sign(trimmed) {
+                Some((key, value)) => {
+                    let at = &trimmed[key.len()..trimmed.len() - value.len()];
+                    let at = line.span(at);
+                    (self.fault)(&Fault::NoSign { at, key, value });
+                    let pair = (line.text(key), line.text(value));
+                    if let Some(section) = self.sections.last_mut() {
+                        section.pairs.push(pair);
+                    }
+                }
+                None => (self.fault)(&Fault::NoPair(line.spanned(trimmed))),
+            }
             return;
         };
         let (key, value) = (trimmed[..at].trim_end(), trimmed[at + 1..].trim_start());
@@ -241,6 +264,23 @@ impl<'a> Scan<'a, '_> {
             }
         }
     }
+}
+
+/// `AccessType rww`: a key of an object and one word.
+fn without_sign(line: &str) -> Option<(&str, &str)> {
+    let (key, value) = line.split_once(char::is_whitespace)?;
+    let value = value.trim_start();
+    let known = OBJECT_KEYS
+        .iter()
+        .any(|known| known.eq_ignore_ascii_case(key));
+    (known && !value.contains(char::is_whitespace)).then_some((key, value))
+}
+
+/// Is this a mark of a merge conflict: seven equal signs or brackets, alone or before a name?
+fn is_conflict(line: &str) -> bool {
+    let marks = ["<<<<<<<", "=======", ">>>>>>>", "|||||||"];
+    let rest = marks.iter().find_map(|mark| line.strip_prefix(mark));
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '))
 }
 
 #[cfg(test)]

@@ -113,6 +113,7 @@ pub(crate) fn intended(name: &str, describes: bool) -> Option<Place> {
         // `[add]` is somebody's own section; `[5]` is an object.
         match text.len() {
             4 => hex(text),
+            5..=8 if describes && text.starts_with('0') => hex(text),
             1..=3 if describes || starts.is_ascii_digit() => hex(text),
             _ => None,
         }

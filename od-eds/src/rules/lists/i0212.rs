@@ -1,12 +1,12 @@
 use alloc::format;
 
-use crate::finding::{Finding, Fixability, Rule, Severity::Info};
+use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::scan::placed::Placed;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0212",
-    severity: Info,
+    severity: Warning,
     title: "section name is not written as `1018` or `1018sub2`",
     why: "Many tools do not find the object. odkit reads it. An index has four hexadecimal digits, a sub-index no leading 0.",
     source: "CiA 306-1, object sections",

@@ -1,11 +1,11 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Info};
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0240",
-    severity: Info,
+    severity: Warning,
     title: "[FileInfo] or [DeviceInfo] is missing",
     why: "A tool reads there what the file is and which device it describes.",
     source: "CiA 306-1, FileInfo and DeviceInfo",

@@ -1,10 +1,11 @@
-use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0201",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "listed object has no section",
     why: "A master that trusts the lists fails at the missing section. odkit ignores the entry.",
     source: "CiA 306-1, object lists",

@@ -1,8 +1,9 @@
-use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Error};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0203",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "object lists are missing or empty",
     why: "A tool that follows the lists finds no objects. odkit reads the section of every object.",
     source: "CiA 306-1, object lists",

@@ -1,11 +1,12 @@
 use alloc::format;
 
-use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0205",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "list entry is not valid",
     why: "A tool does not find the object, or stops. odkit ignores the entry. An entry is a number and an index, as in `1=0x1000`.",
     source: "CiA 306-1, object lists",

@@ -36,8 +36,12 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
     }
 }
 
-/// `[M1FixedObjects]`, `[M1SubExtends]`
+/// `[SupportedModules]`, `[ConnectedModules]`, `[M1FixedObjects]`, `[M1SubExtends]`
 fn is_counted(name: &str) -> bool {
+    let whole = ["SupportedModules", "ConnectedModules"];
+    if whole.iter().any(|known| name.eq_ignore_ascii_case(known)) {
+        return true;
+    }
     let Some(rest) = name.strip_prefix(['M', 'm']) else {
         return false;
     };

@@ -4,11 +4,12 @@ use alloc::vec::Vec;
 
 use od_model::{Address, DataType};
 
+use crate::description::Value;
 use crate::fact::Fact;
 use crate::finding::{Finding, Rule};
 use crate::rules::values::shared::DECLARED;
 use crate::span::{Span, Spanned};
-use crate::subject::{Entry, Object, shown, start_number};
+use crate::subject::{Entry, Object, shown, start_number, start_value};
 
 /// Does this object hold the mapping of an RPDO? `None` if it holds no mapping.
 pub(crate) const fn maps_rpdo(index: u16) -> Option<bool> {
@@ -182,4 +183,41 @@ impl WrongLength {
             None => finding,
         }
     }
+}
+
+/// A COB-ID of the default SDO that is not the standard's.
+pub(super) struct DefaultSdo {
+    pub(super) span: Span,
+    /// What the node ID is added to.
+    pub(super) base: u32,
+    /// Is it a number, not the node ID and a number?
+    pub(super) lacks_node_id: bool,
+}
+
+/// The COB-ID of the default SDO at this entry, if it is another than the standard's.
+pub(super) fn default_sdo(entry: &Entry<'_>) -> Option<DefaultSdo> {
+    let base = match (entry.address.index, entry.address.sub) {
+        (0x1200, 1) => 0x600,
+        (0x1200, 2) => 0x580,
+        _ => return None,
+    };
+    let value = start_value(entry.entry)?;
+    let (right, lacks_node_id) = match value.value {
+        Value::NodeId(offset) => (offset == base, false),
+        Value::Unsigned(number) => {
+            let id = entry.description.commissioned_node_id();
+            let right = id.is_some_and(|id| number == u64::from(base) + u64::from(id));
+            (
+                right,
+                (u64::from(base)..=u64::from(base) + 127).contains(&number),
+            )
+        }
+        _ => return None,
+    };
+    let span = value.span;
+    (!right).then_some(DefaultSdo {
+        span,
+        base,
+        lacks_node_id,
+    })
 }

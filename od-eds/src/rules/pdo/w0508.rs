@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0508",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "PDO has only one of its two objects",
     why: "A PDO needs a communication parameter and a mapping parameter, whose indices differ by 200h.",
     source: "CiA 301, PDO communication parameter",

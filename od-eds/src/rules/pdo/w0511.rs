@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Error};
 use crate::subject::{Object, start_number};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0511",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "transmission type is reserved",
     why: "CiA 301 defines 0 to 240 and 252 to 255, for an RPDO 0 to 240, 254 and 255. A device aborts the download of another value.",
     source: "CiA 301, PDO communication parameter",

@@ -2,13 +2,14 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0521",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "two PDOs have the same COB-ID",
     why: "A receiver cannot tell two PDOs with the same COB-ID apart.",
     source: "CiA 301, PDO communication parameter",

@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::cob_ids::{CobId, cob_ids};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0522",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "CAN-ID is too long for an 11-bit COB-ID",
     why: "Bit 29 of a COB-ID marks a CAN-ID of 29 bits; without it, bits 11 to 28 must be 0.",
     source: "CiA 301, COB-ID",

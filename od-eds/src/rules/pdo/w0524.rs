@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::{count, maps_rpdo};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0524",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "mapping counts more than 64 objects",
     why: "A PDO has 64 bits, so it maps at most 64 objects. 254 and 255 mark a multiplexed PDO.",
     source: "CiA 301, PDO mapping parameter",

@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::pdo::shared::numbers;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0525",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "mapping entry in use is 0",
     why: "Sub-index 0 is the number of mapped objects, and each of these entries names one. A device aborts such a mapping.",
     source: "CiA 301, PDO mapping parameter",

@@ -1,6 +1,6 @@
 //! 09: device profiles. One file per rule.
 
-mod shared;
+pub(crate) mod shared;
 mod table;
 
 catalogue! {
@@ -10,6 +10,14 @@ catalogue! {
     w0904 W0904
     w0905 W0905
     w0906 W0906
+    e0907 E0907
+    e0908 E0908
+    w0909 W0909
+    w0910 W0910
+    w0911 W0911
+    w0912 W0912
+    w0913 W0913
+    w0914 W0914
     w0950 W0950
     w0951 W0951
     w0952 W0952
@@ -21,5 +29,7 @@ catalogue! {
     w0958 W0958
     w0959 W0959
     w0960 W0960
+    e0961 E0961
+    w0962 W0962
     w0963 W0963
 }

@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use od_model::{Access, Address};
+use od_model::{Access, Address, ObjectCode};
 
 use crate::description::Description;
 use crate::fact::{Fact, Key};
@@ -42,6 +42,22 @@ fn device_type(description: &Description) -> Option<DeviceType> {
     })
 }
 
+/// Of an I/O module: a bit of 1000h, the objects one of which it announces, and the channels.
+pub(super) const IO_BLOCKS: [(u32, &[u16], &str); 4] = [
+    (0, &[0x6000, 0x6100, 0x6120], "digital inputs"),
+    (1, &[0x6200, 0x6300, 0x6320], "digital outputs"),
+    (
+        2,
+        &[0x6400, 0x6401, 0x6402, 0x6403, 0x6404],
+        "analogue inputs",
+    ),
+    (
+        3,
+        &[0x6410, 0x6411, 0x6412, 0x6413, 0x6414],
+        "analogue outputs",
+    ),
+];
+
 /// The finding about a mandatory object that is missing; one of these is enough.
 pub(super) fn need(
     rule: &'static Rule,
@@ -57,6 +73,11 @@ pub(super) fn need(
     let finding = finding.about(Address::new(*first, 0)).fact("what", what);
     let finding = finding.fact("objects", Fact::OneOf(objects));
     Some(finding.fact("missing", Fact::Section(*first, None)))
+}
+
+/// Does the profile of the device specify an ARRAY here?
+pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
+    in_profile(object).is_some_and(|(_, standard)| standard.code == ObjectCode::Array)
 }
 
 /// The profile of the device, and what it says of this object.
@@ -108,10 +129,12 @@ pub(super) fn types(
     }
 }
 
-/// Reports the access of the values of an object of one of these profiles.
+/// Reports the access of the values of an object of one of these profiles: of those that cannot be
+/// read or written as the profile specifies if `stops`, else of those that can be written besides.
 pub(super) fn access(
     rule: &'static Rule,
     profiles: &[u16],
+    stops: bool,
     object: &Object<'_>,
     findings: &mut Vec<Finding>,
 ) {
@@ -130,7 +153,12 @@ pub(super) fn access(
         .entries()
         .filter(|entry| subs.contains(&entry.address.sub))
     {
-        if entry.access.writable() != writable {
+        let own = *entry.access;
+        let is_wrong = match stops {
+            true => writable && !own.writable() || !writable && own == Access::Wo,
+            false => !writable && own.writable() && own != Access::Wo,
+        };
+        if is_wrong {
             let right = if writable { Access::Rw } else { Access::Ro };
             let finding = rule
                 .on(&entry, entry.access.span)
@@ -165,6 +193,11 @@ impl<'a> Encoder<'a> {
     /// The number that an object starts with.
     pub(super) fn value(&self, index: u16) -> Option<Spanned<u64>> {
         start_number(self.description, Address::new(index, 0))
+    }
+
+    /// Returns if its type is none of the profile.
+    pub(super) const fn has_unknown_type(&self) -> bool {
+        self.device.additional > 10
     }
 
     /// Returns if it counts revolutions; `None` for linear and unknown encoders.

@@ -7,8 +7,8 @@ use crate::rules::profile::shared::{device, need};
 pub(crate) static RULE: Rule = Rule {
     code: "W0902",
     severity: Warning,
-    title: "drive lacks a mandatory object",
-    why: "A master that controls drives by CiA 402 gets an abort.",
+    title: "drive lacks its supported modes",
+    why: "A master that chooses a mode by CiA 402 gets an abort.",
     source: "CiA 402, object overview",
     says: "mandatory object {objects} ({what}) is missing",
     help: "add {missing}, or correct the profile number in bits 0 to 15 of 1000h",
@@ -16,17 +16,8 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Objects that control a drive, with their names. A device of several axes has them 800h apart.
-const OBJECTS: [(u16, &str); 3] = [
-    (0x6040, "controlword"),
-    (0x6041, "statusword"),
-    (0x6502, "supported drive modes"),
-];
-
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     if device(description, 402).is_some() {
-        let objects = OBJECTS.iter();
-        findings
-            .extend(objects.filter_map(|(index, what)| need(&RULE, description, &[*index], what)));
+        findings.extend(need(&RULE, description, &[0x6502], "supported drive modes"));
     }
 }

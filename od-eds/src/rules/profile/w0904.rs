@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::profile::shared::{Encoder, POSITIONS, need};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0904",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "encoder lacks a mandatory object",
     why: "A master that reads position, resolution or status from the objects of CiA 406 gets an abort.",
     source: "CiA 406, object overview",

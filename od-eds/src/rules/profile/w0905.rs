@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::profile::shared::types;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0905",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "profile object has another object code or type",
     why: "A master that knows the object from the device profile reads and writes it with another length.",
     source: "CiA 401 and CiA 402, object overview",

@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::profile::shared::types;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0950",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "encoder object has another object code or type",
     why: "A master that knows the object from CiA 406 reads and writes it with another length.",
     source: "CiA 406, object overview",

@@ -7,8 +7,8 @@ use crate::subject::Object;
 pub(crate) static RULE: Rule = Rule {
     code: "W0951",
     severity: Warning,
-    title: "encoder object has another access",
-    why: "A master that writes the object gets an abort, or can change a value that only the device sets.",
+    title: "encoder object is writable",
+    why: "A master can change a value that only the device sets.",
     source: "CiA 406, object overview",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} is `{given}`, but CiA {profile} specifies `{right}`",
@@ -18,5 +18,5 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    access(&RULE, &[406], object, findings);
+    access(&RULE, &[406], false, object, findings);
 }

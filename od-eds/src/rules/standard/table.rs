@@ -105,6 +105,11 @@ const fn mapped(sub: u8) -> Option<DataType> {
     }
 }
 
+/// Does a standard specify an ARRAY here?
+pub(crate) fn is_standard_array(index: u16) -> bool {
+    of(index).is_some_and(|standard| matches!(standard.members, Members::Array(_)))
+}
+
 /// The entry of an index.
 pub(super) fn of(index: u16) -> Option<&'static Standard> {
     let at = TABLE.partition_point(|entry| entry.last < index);

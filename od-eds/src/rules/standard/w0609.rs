@@ -23,7 +23,7 @@ const LONG: Form = Form {
     ..Form::OWN
 };
 const VERSION: Form = Form {
-    help: "write a version such as `4.0`, or leave the value empty",
+    help: "write `4.0`, `4.1` or `4.2`, the versions of CiA 306",
     ..Form::OWN
 };
 

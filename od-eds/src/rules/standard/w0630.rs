@@ -1,13 +1,14 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::standard::table::of;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0630",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "standard object has another object code",
     why: "A master that knows the object from the standard reads sub-indices that do not exist, or misses some that exist.",
     source: "CiA 301, chapter 7.5; CiA 302",

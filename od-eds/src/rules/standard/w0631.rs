@@ -1,16 +1,17 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::{is_communication, maps_rpdo};
 use crate::rules::standard::table::of;
 use crate::subject::Entry;
-use od_model::Address;
+use od_model::{Address, DataType};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0631",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "standard object has another data type",
     why: "A master that knows the object from the standard reads and writes it with another length.",
     source: "CiA 301, chapter 7.5; CiA 302",
@@ -30,6 +31,8 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
         && let Some(value) = standard.value(sub)
         && let Some(given) = entry.data_type.filter(|given| **given != value.data_type)
         && !own_rule
+        // The same bytes on the bus.
+        && (*given, value.data_type) != (DataType::Domain, DataType::OctetString)
     {
         let code = format!("0x{:04X}", value.data_type.code());
         let finding = RULE.on(entry, given.span).fact("object", entry.shown());

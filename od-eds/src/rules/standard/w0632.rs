@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0632",
     severity: Warning,
     title: "standard object has another access",
-    why: "A master that writes the object gets an abort, or can change a value that only the device sets.",
+    why: "A master can change a value that only the device sets, or cannot reset a value that it resets.",
     source: "CiA 301, chapter 7.5; CiA 302",
     fixability: Fixability::Unsafe,
     says: "{AccessType} of {object} ({name}) is `{given}`, but {standard} specifies `{right}`",
@@ -21,31 +21,25 @@ pub(crate) static RULE: Rule = Rule {
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let Address { index, sub } = entry.address;
-    let standard = of(index).filter(|found| found.is_like(*entry.object.code));
-    let Some((standard, value)) = standard.and_then(|found| Some((found, found.value(sub)?)))
-    else {
+    let Some(standard) = of(index).filter(|found| found.is_like(*entry.object.code)) else {
         return;
     };
     let own = *entry.access;
-    let (wrong, fixed) = match value.access {
-        // Values that the device itself sets.
-        Access::Ro | Access::Const => (own.writable(), Access::Ro),
-        // A device may fix a value that others could set.
-        Access::Rw => (own == Access::Wo, Access::Rw),
-        Access::Wo => (!own.writable(), Access::Wo),
-        Access::Rwr | Access::Rww => return,
+    let fixed = match standard.value(sub).map(|value| value.access) {
+        // Values that the device itself sets; what cannot be read has a rule of its own.
+        Some(Access::Ro | Access::Const) if own.writable() && own != Access::Wo => Access::Ro,
+        // A master empties the error history by writing 0.
+        None if (index, sub) == (0x1003, 0) && !own.writable() => Access::Rw,
+        _ => return,
     };
-    if wrong {
-        let finding = RULE
-            .on(entry, entry.access.span)
-            .fact("object", entry.shown());
-        let finding = finding
-            .fact("name", standard.name)
-            .fact("right", value.access);
-        let finding = finding
-            .fact("standard", standard.source())
-            .fact("given", own);
-        let fix = Fix::unsafe_fix().replace(entry.access.span, fixed.name());
-        findings.push(finding.fact("fixed", fixed).fix(fix));
-    }
+    let right = standard.value(sub).map_or(fixed, |value| value.access);
+    let finding = RULE
+        .on(entry, entry.access.span)
+        .fact("object", entry.shown());
+    let finding = finding.fact("name", standard.name).fact("right", right);
+    let finding = finding
+        .fact("standard", standard.source())
+        .fact("given", own);
+    let fix = Fix::unsafe_fix().replace(entry.access.span, fixed.name());
+    findings.push(finding.fact("fixed", fixed).fix(fix));
 }

@@ -1,14 +1,15 @@
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::rules::standard::table::{Members, of};
 use crate::subject::Object;
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0633",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "standard object lacks a sub-object",
     why: "A master that knows the object from the standard reads the sub-object and gets an abort.",
     source: "CiA 301, chapter 7.5; CiA 302",

@@ -2,13 +2,14 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Rule, Severity::Error};
 use crate::scan::number::number;
 use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0634",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "LSS without a complete LSS address",
     why: "An LSS master cannot select the device: an LSS address is vendor-ID, product code, revision number and serial number, all in 1018h.",
     source: "CiA 305, LSS address",

@@ -2,6 +2,7 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::lists::w0252::is_rate;
 use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
@@ -19,10 +20,6 @@ pub(crate) static RULE: Rule = Rule {
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let Some(info) = description.section("DeviceInfo") else {
         return;
-    };
-    let is_rate = |key: &str| {
-        let start = key.get(.."BaudRate_".len());
-        start.is_some_and(|start| start.eq_ignore_ascii_case("BaudRate_"))
     };
     let mut rates = info.pairs.iter().filter(|(key, _)| is_rate(key)).peekable();
     let Some((_, first)) = rates.peek() else {

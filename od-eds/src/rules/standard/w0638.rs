@@ -1,50 +1,47 @@
+use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::rules::standard::shared::commissioning;
 use crate::scan::number::number;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0638",
     severity: Warning,
-    title: "node ID or bit rate of a DCF is not valid",
-    why: "A configuration tool cannot set the node ID or the bit rate. A node ID is 1 to 127, and CiA 301 defines the bit rates.",
+    title: "bit rate of a DCF is not valid",
+    why: "A configuration tool cannot set the bit rate. CiA 301 defines the bit rates, and [DeviceInfo] gives those of the device.",
     source: "CiA 306-1, DeviceComissioning",
-    says: "{field} `{given}` is not valid",
-    help: "write 1 to 127, or 255 for a node that gets its node ID by LSS",
-    also: &[RATE],
+    says: "Baudrate `{given}` is not valid",
+    help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s)",
+    also: &[LACKS],
     check: Check::Device(check),
     ..Rule::NEW
 };
 
-/// Sentence for a bit rate.
-const RATE: Form = Form {
-    help: "write 10, 20, 50, 125, 250, 500, 800 or 1000 (kbit/s)",
-    ..Form::OWN
+/// Sentence for a bit rate that the device does not support.
+const LACKS: Form = Form {
+    says: "Baudrate is {given}, but BaudRate_{given} in [DeviceInfo] is 0",
+    help: "write a bit rate that the device supports",
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    let section = description.section("DeviceComissioning");
-    let section = section.or_else(|| description.section("DeviceCommissioning"));
-    let mut report = |field, is_wrong: fn(i128) -> bool, form: Option<&Form>| {
-        let given = section.and_then(|section| section.get(field));
-        let Some(given) = given.filter(|given| number(given).is_some_and(is_wrong)) else {
-            return;
-        };
-        let finding = RULE
-            .at(given.span)
-            .fact("field", field)
-            .fact("given", given.as_str());
-        findings.push(match form {
-            Some(form) => finding.form(form),
-            None => finding,
-        });
+    let given = commissioning(description).and_then(|section| section.get("Baudrate"));
+    let Some((given, rate)) = given.and_then(|given| Some((given, number(given)?))) else {
+        return;
     };
-    // The reader reports what is not a number.
-    report("NodeID", |id| matches!(id, 0 | 128..=254), None);
-    let is_wrong = |rate| {
-        let valid = matches!(rate, 10 | 20 | 50 | 100 | 125 | 250 | 500 | 800 | 1000);
-        (0..=0xFFFF).contains(&rate) && !valid
-    };
-    report("Baudrate", is_wrong, Some(&RATE));
+    // The reader reports what is not a number of 16 bits.
+    if !(0..=0xFFFF).contains(&rate) {
+        return;
+    }
+    let finding = RULE.at(given.span).fact("given", given.as_str());
+    if !matches!(rate, 10 | 20 | 50 | 100 | 125 | 250 | 500 | 800 | 1000) {
+        findings.push(finding);
+        return;
+    }
+    let info = description.section("DeviceInfo");
+    let own = info.and_then(|info| info.get(&format!("BaudRate_{rate}")));
+    if own.is_some_and(|own| number(own) == Some(0)) {
+        findings.push(finding.form(&LACKS));
+    }
 }

@@ -22,10 +22,13 @@ const COMPACT: Form = Form {
     ..Form::OWN
 };
 
-/// The finding about sub-objects of an object whose code allows none, at the first of them.
+/// The finding about sub-objects of an object whose code allows none, at its code if that is given.
 pub(crate) fn finding(member: Span, code: Spanned<ObjectCode>, compact: bool) -> Finding {
-    let finding = RULE.at(member).fact("code", *code);
-    let finding = finding.related(code.span, "declared as {code} here");
+    let finding = RULE.at(code.span.or(member)).fact("code", *code);
+    let finding = match code.span.line {
+        0 => finding,
+        _ => finding.related(member, "this is a sub-object of it"),
+    };
     let fix = |right| Fix::unsafe_fix().replace(code.span, right);
     match compact {
         true => finding.form(&COMPACT).fix(fix("0x8")),

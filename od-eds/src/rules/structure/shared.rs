@@ -1,9 +1,11 @@
 //! Sub-index 0 and the highest sub-index, for the rules about them.
 
+use alloc::format;
 use alloc::string::ToString;
 
 use od_model::{DataType, ObjectCode};
 
+use crate::description::ObjectDescription;
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::maps_rpdo;
@@ -20,6 +22,14 @@ pub(super) fn counts(object: &Object<'_>) -> bool {
 pub(super) fn highest(object: &Object<'_>) -> u8 {
     let subs = object.object.entries.range(..255);
     subs.map(|(sub, _)| *sub).next_back().unwrap_or(0)
+}
+
+/// A sub-index whose section is named in decimal, and the one that is meant: `sub10` behind sub-index 9.
+pub(super) fn decimal(object: &ObjectDescription) -> Option<(u8, u8)> {
+    let mut subs = object.entries.keys().zip(object.entries.keys().skip(1));
+    let (before, sub) = subs.find(|(before, sub)| u16::from(**before) + 1 < u16::from(**sub))?;
+    let meant = format!("{sub:X}").parse::<u8>().ok()?;
+    (meant == before + 1 && *sub != meant).then_some((*sub, meant))
 }
 
 /// Sub-index 0, if there is one.
@@ -74,12 +84,24 @@ impl<'a> Count<'a> {
         maps_rpdo(self.entry.address.index).is_some() || token_of(self.given.span).is_some()
     }
 
-    /// The finding that it is wrong.
+    /// The finding that it is wrong. A fix would be wrong where the sub-objects are: of a CompactSubObj beside
+    /// sections, or where a sub-index is written in decimal.
     pub(super) fn finding(&self, rule: &'static Rule) -> Finding {
-        let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());
-        rule.on(&self.entry, self.given.span)
+        let object = self.entry.object;
+        let compact = object
+            .entries
+            .values()
+            .any(|entry| entry.span == object.span);
+        let finding = rule
+            .on(&self.entry, self.given.span)
             .fact("given", self.given.value)
-            .fact("highest", self.highest)
-            .fix(fix)
+            .fact("highest", self.highest);
+        match compact || decimal(object).is_some() {
+            true => finding,
+            false => {
+                let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());
+                finding.fix(fix)
+            }
+        }
     }
 }

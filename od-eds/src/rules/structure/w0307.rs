@@ -2,7 +2,7 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::fact::Fact;
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::rules::structure::shared::{counts, highest};
 use crate::subject::Object;
@@ -10,7 +10,8 @@ use od_model::DataType;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0307",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "ARRAY or RECORD has no sub-index 0",
     why: "A master reads sub-index 0 to learn how many sub-objects exist.",
     source: "CiA 301, object structure",

@@ -1,7 +1,9 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
 use crate::fix::Fix;
+use crate::rules::profile::shared::is_profile_array;
+use crate::rules::standard::table::is_standard_array;
 use crate::subject::Object;
 use od_model::ObjectCode;
 
@@ -14,8 +16,15 @@ pub(crate) static RULE: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "{object} is {given}, but {first} of the same ARRAY is {right}",
     help: "write `{ObjectType=0x9}` (RECORD) if the types are correct{fix}",
+    also: &[PRESCRIBED],
     check: Check::Object(check),
     ..Rule::NEW
+};
+
+/// The help for an object that is an ARRAY by the standard.
+const PRESCRIBED: Form = Form {
+    help: "write the same {DataType} for every sub-object; the standard specifies an ARRAY",
+    ..Form::OWN
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -35,6 +44,10 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
         let finding = finding.fact("right", *right);
         let finding = finding.related(right.span, "declared as {right} here");
         let finding = finding.related(object.code.span, "declared as ARRAY here");
-        findings.push(finding.fix(Fix::unsafe_fix().replace(object.code.span, "0x9")));
+        let prescribed = is_standard_array(object.index) || is_profile_array(object);
+        findings.push(match prescribed {
+            true => finding.form(&PRESCRIBED),
+            false => finding.fix(Fix::unsafe_fix().replace(object.code.span, "0x9")),
+        });
     }
 }

@@ -1,10 +1,11 @@
 use crate::fact::Key;
-use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::finding::{Finding, Rule, Severity::Error};
 use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0316",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "SubNumber is not a number",
     why: "A tool cannot tell how many sub-objects to read. odkit counts the sections.",
     source: "CiA 306-1, object sections",

@@ -1,8 +1,6 @@
-use alloc::vec::Vec;
-
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
-use crate::subject::Object;
-use crate::subject::Subject;
+use crate::fact::Key;
+use crate::finding::{Finding, Rule, Severity::Warning};
+use crate::scan::placed::Text;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0342",
@@ -12,19 +10,11 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, ObjFlags",
     says: "{ObjFlags} is 0x{flags:X}, but only bits 0 and 1 are defined",
     help: "write a number from 0 to 3",
-    check: Check::Object(check),
     ..Rule::NEW
 };
 
-fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
-    report(object, object.flags, findings);
-    for entry in object.entries() {
-        report(&entry, entry.flags, findings);
-    }
-}
-
-fn report(subject: &impl Subject, flags: u32, findings: &mut Vec<Finding>) {
-    if flags & !3 != 0 {
-        findings.push(RULE.on(subject, subject.span()).fact("flags", flags));
-    }
+/// The finding about ObjFlags with bits that have no meaning.
+pub(crate) fn finding(given: &Text<'_>, flags: u32) -> Option<Finding> {
+    let finding = RULE.at(given.span).key(Key::ObjFlags);
+    (flags & !3 != 0).then(|| finding.fact("flags", flags))
 }

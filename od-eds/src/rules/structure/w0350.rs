@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Rule, Severity::Error};
 use crate::rules::structure::shared::Count;
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0350",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "sub-index 0 is higher than the highest sub-index",
     why: "A master that reads up to sub-index 0 gets an abort for each sub-object that does not exist.",
     source: "CiA 301, object structure",

@@ -1,6 +1,9 @@
+use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::fix::Fix;
+use crate::rules::structure::shared::decimal;
 use crate::subject::Object;
 use od_model::ObjectCode;
 
@@ -12,8 +15,16 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 301, object codes",
     says: "this ARRAY has sub-index {given} but no sub-index {missing}",
     help: "number the sub-objects without a gap, or write `{ObjectType=0x9}` (RECORD)",
+    fixability: Fixability::Unsafe,
+    also: &[DECIMAL],
     check: Check::Object(check),
     ..Rule::NEW
+};
+
+/// The help for a sub-index that is probably written in decimal.
+const DECIMAL: Form = Form {
+    help: "write `{right}` if the sub-index is decimal{fix}; CiA 306 numbers sub-objects in hexadecimal",
+    ..Form::OWN
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -23,6 +34,14 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     let gap = gaps.find(|(expected, entry)| entry.address.sub != *expected);
     if let Some((missing, entry)) = gap.filter(|_| *object.code == ObjectCode::Array) {
         let finding = RULE.on(&entry, entry.span).fact("missing", missing);
-        findings.push(finding.fact("given", entry.address.sub));
+        let finding = finding.fact("given", entry.address.sub);
+        findings.push(match decimal(object.object) {
+            Some((sub, meant)) if sub == entry.address.sub => {
+                let right = format!("[{:04X}sub{meant:X}]", object.index);
+                let fix = Fix::unsafe_fix().replace(entry.span, right.as_str());
+                finding.form(&DECIMAL).fact("right", right).fix(fix)
+            }
+            _ => finding,
+        });
     }
 }

@@ -17,4 +17,6 @@ catalogue! {
     e0114 E0114 (xdd)
     e0115 E0115 (xdd)
     w0116 W0116 (example)
+    e0117 E0117
+    e0118 E0118
 }

@@ -1,12 +1,13 @@
 use alloc::format;
 
-use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::span::{Span, Spanned};
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0103",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "section header has no closing bracket",
     why: "Most EDS parsers stop at such a line. odkit assumes that the header ends with its line.",
     source: "CiA 306-1, file format",

@@ -2,8 +2,8 @@ use alloc::vec::Vec;
 
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
-use crate::subject::{Entry, is_definition};
 use crate::span::Span;
+use crate::subject::{Entry, is_definition};
 use od_model::{Address, DataType};
 
 pub(crate) static RULE: Rule = Rule {

@@ -1,10 +1,11 @@
-use crate::finding::{Finding, Fixability, Rule, Severity::Warning};
+use crate::finding::{Finding, Fixability, Rule, Severity::Error};
 use crate::fix::Fix;
 use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0404",
-    severity: Warning,
+    severity: Error,
+    buildable: true,
     title: "AccessType is missing",
     why: "Every value has an AccessType. odkit assumes `ro`.",
     source: "CiA 306-1, object sections",

@@ -1,5 +1,6 @@
 use alloc::vec::Vec;
 
+use crate::fact::Key;
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
 use crate::subject::Entry;
@@ -19,7 +20,8 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    if matches!(*entry.access, Access::Rwr | Access::Rww) && !*entry.mappable {
+    let denied = !*entry.mappable && !entry.is_unread(Key::PdoMapping);
+    if matches!(*entry.access, Access::Rwr | Access::Rww) && denied {
         // PDOMapping is what the vendor says; the direction is what no tool uses then.
         let fix = Fix::unsafe_fix().replace(entry.access.span, "rw");
         let finding = RULE

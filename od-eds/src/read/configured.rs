@@ -1,0 +1,59 @@
+//! What only a DCF has, in a file that is an EDS.
+
+use crate::log::Log;
+use crate::rules::lists::w0217;
+use crate::scan::names::{Compact, Place, place};
+use crate::scan::placed::Placed;
+
+/// Keys of an object that only a DCF has.
+const KEYS: [&str; 5] = [
+    "ParameterValue",
+    "Denotation",
+    "UploadFile",
+    "DownloadFile",
+    "ParamRefd",
+];
+
+/// Sections that only a DCF has.
+const SECTIONS: [&str; 3] = [
+    "DeviceComissioning",
+    "DeviceCommissioning",
+    "ConnectedModules",
+];
+
+/// Reports what only a DCF has, if the file is an EDS: by its name on the disk, else by FileName.
+pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) {
+    let info = |section: &&Placed<'_>| section.name.eq_ignore_ascii_case("FileInfo");
+    let name = sections
+        .iter()
+        .find(info)
+        .and_then(|info| info.get("FileName"));
+    let name = file.or(name.map(|name| &*name.value)).unwrap_or_default();
+    let ends = name.len().checked_sub(4).and_then(|at| name.get(at..));
+    if !ends.is_some_and(|ends| ends.eq_ignore_ascii_case(".eds")) {
+        return;
+    }
+    for section in sections {
+        let name = &section.name;
+        match place(name) {
+            Place::Object(_) | Place::Member(..) => {
+                let own = |key: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(key));
+                let keys = section.pairs.iter();
+                for (key, _) in keys.filter(|(key, value)| own(key) && !value.is_empty()) {
+                    log.push(w0217::key(key));
+                }
+            }
+            Place::Compact(_, Compact::Value | Compact::Denotation) => {
+                log.push(w0217::section(section.header, name));
+            }
+            Place::Other
+                if SECTIONS
+                    .iter()
+                    .any(|known| name.eq_ignore_ascii_case(known)) =>
+            {
+                log.push(w0217::section(section.header, name));
+            }
+            _ => {}
+        }
+    }
+}

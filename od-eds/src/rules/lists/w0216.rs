@@ -1,0 +1,79 @@
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0216",
+    severity: Warning,
+    title: "mandatory key of [FileInfo] or [DeviceInfo] is missing",
+    why: "A tool that identifies the file or the device by the key finds nothing, and some tools stop. odkit assumes that the value is empty or 0.",
+    source: "CiA 306-1, FileInfo and DeviceInfo",
+    says: "[{section}] lacks {missing}",
+    help: "add each key with its value, such as `{first}=`",
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// The mandatory keys. ModificationTime, ModificationDate and ModifiedBy belong to files that were changed;
+/// OrderCode, DynamicChannelsSupported and GroupMessaging to devices that have them.
+const SECTIONS: [(&str, &[&str]); 2] = [
+    (
+        "FileInfo",
+        &[
+            "FileName",
+            "FileVersion",
+            "FileRevision",
+            "EDSVersion",
+            "Description",
+            "CreationTime",
+            "CreationDate",
+            "CreatedBy",
+        ],
+    ),
+    (
+        "DeviceInfo",
+        &[
+            "VendorName",
+            "VendorNumber",
+            "ProductName",
+            "ProductNumber",
+            "RevisionNumber",
+            "BaudRate_10",
+            "BaudRate_20",
+            "BaudRate_50",
+            "BaudRate_125",
+            "BaudRate_250",
+            "BaudRate_500",
+            "BaudRate_800",
+            "BaudRate_1000",
+            "SimpleBootUpMaster",
+            "SimpleBootUpSlave",
+            "Granularity",
+            "NrOfRXPDO",
+            "NrOfTXPDO",
+            "LSS_Supported",
+        ],
+    ),
+];
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    if description.objects.is_empty() {
+        return;
+    }
+    for (name, keys) in SECTIONS {
+        let Some(section) = description.section(name) else {
+            continue;
+        };
+        let missing = keys.iter().filter(|key| section.get(key).is_none());
+        let missing: Vec<&&str> = missing.collect();
+        if let Some(first) = missing.first() {
+            let list = missing.iter().map(|key| Fact::Text(format!("`{key}`")));
+            let finding = RULE.at(section.name.span).fact("section", name);
+            let finding = finding.fact("missing", list.collect::<Vec<_>>());
+            findings.push(finding.fact("first", **first));
+        }
+    }
+}

@@ -1,0 +1,46 @@
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::scan::number::number;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0219",
+    severity: Warning,
+    title: "[Tools] does not match its sections",
+    why: "A tool cannot start the program that belongs to the device.",
+    source: "CiA 306-1, Tools",
+    says: "Items is {given}, but section [Tool{tool}] is missing",
+    help: "add a section [Tool{tool}], or lower Items",
+    also: &[LACKS],
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a tool without a name or a command.
+const LACKS: Form = Form {
+    says: "[Tool{tool}] lacks `{field}`",
+    help: "add `{field}=` and its value",
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let items = description
+        .section("Tools")
+        .and_then(|tools| tools.get("Items"));
+    let Some(items) = items else {
+        return;
+    };
+    for tool in 1..=number(items).unwrap_or(0).clamp(0, 255) {
+        let Some(section) = description.section(&format!("Tool{tool}")) else {
+            findings.push(RULE.given(items).fact("tool", tool));
+            continue;
+        };
+        for field in ["Name", "Command"] {
+            if section.get(field).is_none() {
+                let finding = RULE.at(section.name.span).form(&LACKS);
+                findings.push(finding.fact("tool", tool).fact("field", field));
+            }
+        }
+    }
+}

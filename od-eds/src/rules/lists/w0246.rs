@@ -1,0 +1,93 @@
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::scan::number::number;
+use od_model::{Access, DataType};
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0246",
+    severity: Warning,
+    title: "segment of [DynamicChannels] is not valid",
+    why: "A programmable device cannot place its variables. Network variables are at A000h to AFFFh.",
+    source: "CiA 306-1, DynamicChannels; CiA 302, network variables",
+    says: "{field} `{given}` is not a range of A000h to AFFFh",
+    help: "write the first and the last index, such as `0xA080-0xA0BF`",
+    also: &[TYPE, DIRECTION, MEETS, COUNT],
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a type.
+const TYPE: Form = Form {
+    says: "{field} `{given}` is not a data type",
+    help: "write the code of a data type, such as `0x0007` (UNSIGNED32)",
+};
+
+/// Sentence for a direction.
+const DIRECTION: Form = Form {
+    says: "{field} `{given}` is not a valid direction",
+    help: "write `ro` for outputs of the program, `rww` or `rwr` for inputs",
+};
+
+/// Sentence for two segments that share indices.
+const MEETS: Form = Form {
+    says: "{field} `{given}` shares indices with segment {other}",
+    help: "write a range that no other segment has",
+};
+
+/// Sentence for a section without a number of segments.
+const COUNT: Form = Form {
+    says: "[DynamicChannels] lacks `NrOfSeg`",
+    help: "add `NrOfSeg=` and the number of segments",
+};
+
+/// `0xA080-0xA0BF`
+fn range(text: &str) -> Option<(i128, i128)> {
+    let (first, last) = text.split_once('-')?;
+    let (first, last) = (number(first.trim())?, number(last.trim())?);
+    (0xA000 <= first && first <= last && last <= 0xAFFF).then_some((first, last))
+}
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(channels) = description.section("DynamicChannels") else {
+        return;
+    };
+    let Some(count) = channels.get("NrOfSeg") else {
+        findings.push(RULE.at(channels.name.span).form(&COUNT));
+        return;
+    };
+    let mut ranges: Vec<(i128, (i128, i128))> = Vec::new();
+    for segment in 1..=number(count).unwrap_or(0).clamp(0, 255) {
+        let field = |word| {
+            let name = format!("{word}{segment}");
+            let given = channels.get(&name).filter(|given| !given.is_empty())?;
+            Some((RULE.given(given).fact("field", name), given))
+        };
+        if let Some((finding, given)) = field("Type") {
+            let code = number(given).and_then(|code| u16::try_from(code).ok());
+            if code.and_then(DataType::from_code).is_none() {
+                findings.push(finding.form(&TYPE));
+            }
+        }
+        if let Some((finding, given)) = field("Dir") {
+            let is = |access: &Access| given.eq_ignore_ascii_case(access.name());
+            if !Access::ALL.iter().any(is) {
+                findings.push(finding.form(&DIRECTION));
+            }
+        }
+        if let Some((finding, given)) = field("Range") {
+            let Some(own) = range(given) else {
+                findings.push(finding);
+                continue;
+            };
+            let meets =
+                |(_, (first, last)): &&(i128, (i128, i128))| own.0 <= *last && *first <= own.1;
+            if let Some((other, _)) = ranges.iter().find(meets) {
+                findings.push(finding.form(&MEETS).fact("other", *other));
+            }
+            ranges.push((segment, own));
+        }
+    }
+}

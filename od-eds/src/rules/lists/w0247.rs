@@ -1,0 +1,39 @@
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::scan::number::number;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0247",
+    severity: Warning,
+    title: "DynamicChannelsSupported does not match [DynamicChannels]",
+    why: "A tool for programmable devices places no variables, or looks for a section that does not exist.",
+    source: "CiA 306-1, DeviceInfo and DynamicChannels",
+    says: "DynamicChannelsSupported is {given}, but section [DynamicChannels] is missing",
+    help: "add a section [DynamicChannels], or write 0",
+    also: &[DENIED],
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a section that [DeviceInfo] denies.
+const DENIED: Form = Form {
+    says: "section [DynamicChannels] exists, but [DeviceInfo] does not declare dynamic channels",
+    help: "write the number of segments to `DynamicChannelsSupported`",
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(info) = description.section("DeviceInfo") else {
+        return;
+    };
+    let given = info.get("DynamicChannelsSupported");
+    let count = given.and_then(|given| number(given)).unwrap_or(0);
+    match (description.section("DynamicChannels"), given) {
+        (None, Some(given)) if count > 0 => findings.push(RULE.given(given)),
+        (Some(channels), _) if count == 0 => {
+            findings.push(RULE.at(channels.name.span).form(&DENIED));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,50 @@
+use alloc::format;
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::scan::number::number;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0248",
+    severity: Warning,
+    title: "[MxModuleInfo] is incomplete or belongs to no module",
+    why: "A configuration tool does not offer the module, or shows it without a name.",
+    source: "CiA 306-1, MxModuleInfo",
+    says: "[{section}] describes a module that [SupportedModules] does not list",
+    help: "add `{module}=` and the name of the module to [SupportedModules]",
+    also: &[LACKS],
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a module without a key.
+const LACKS: Form = Form {
+    says: "[{section}] lacks `{field}`",
+    help: "add `{field}=` and its value",
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let list = description.section("SupportedModules");
+    for section in &description.sections {
+        let name = section.name.as_str();
+        let number_of = name.len().checked_sub("ModuleInfo".len()).and_then(|at| {
+            let (start, word) = name.split_at_checked(at)?;
+            let own = word.eq_ignore_ascii_case("ModuleInfo");
+            number(start.strip_prefix(['M', 'm']).filter(|_| own)?)
+        });
+        let Some(module) = number_of else {
+            continue;
+        };
+        let finding = RULE.at(section.name.span).fact("section", name);
+        if list.is_none_or(|list| list.get(&format!("{module}")).is_none()) {
+            findings.push(finding.fact("module", module));
+            continue;
+        }
+        for field in ["ProductName", "ProductVersion", "ProductRevision"] {
+            if section.get(field).is_none() {
+                findings.push(finding.clone().form(&LACKS).fact("field", field));
+            }
+        }
+    }
+}

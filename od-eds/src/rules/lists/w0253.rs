@@ -1,0 +1,30 @@
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use od_model::DataType;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0253",
+    severity: Warning,
+    title: "[DummyUsage] names a type that cannot be a dummy entry",
+    why: "A tool may offer a dummy entry that has no length. Only data types with a fixed length can be mapped.",
+    source: "CiA 306-1, DummyUsage; CiA 301, dummy mapping",
+    says: "`{name}` does not name a data type with a fixed length",
+    help: "remove the line; the dummy entries are `Dummy0001` to `Dummy0007`",
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let usage = description.section("DummyUsage");
+    for (key, _) in usage.into_iter().flat_map(|usage| &usage.pairs) {
+        let digits = key.get("Dummy".len()..).unwrap_or_default();
+        let Ok(code) = u16::from_str_radix(digits, 16) else {
+            continue;
+        };
+        if DataType::from_code(code).and_then(DataType::bits).is_none() {
+            findings.push(RULE.at(key.span).fact("name", key.as_str()));
+        }
+    }
+}

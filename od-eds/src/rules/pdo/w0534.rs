@@ -1,0 +1,38 @@
+use alloc::vec::Vec;
+
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::{Object, start_number, start_value};
+use od_model::Address;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0534",
+    severity: Warning,
+    title: "RTR-only TPDO does not allow RTR",
+    why: "A master never gets the TPDO: the device sends it only on a remote frame, and bit 30 of its COB-ID says that it does not answer one.",
+    source: "CiA 301, PDO communication parameter",
+    says: "transmission type {given} is RTR-only, but bit 30 of the COB-ID does not allow RTR",
+    help: "clear bit 30 of sub-index 1, or write 254 or 255",
+    check: Check::Object(check),
+    ..Rule::NEW
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    if !matches!(object.index, 0x1800..=0x19FF) {
+        return;
+    }
+    let address = Address::new(object.index, 2);
+    let given = start_number(object.description, address);
+    let cob_id = object.object.entries.get(&1).and_then(start_value);
+    if let Some(given) = given.filter(|given| matches!(given.value, 252 | 253))
+        && let Some(cob_id) = cob_id
+        && cob_id
+            .integer(0)
+            .is_some_and(|id| id & 1 << 30 != 0 && id & 1 << 31 == 0)
+    {
+        let finding = RULE
+            .on(object, given.span)
+            .about(address)
+            .fact("given", given.value);
+        findings.push(finding.related(cob_id.span, "bit 30 is set here"));
+    }
+}

@@ -1,0 +1,30 @@
+use alloc::vec::Vec;
+
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::subject::{Object, start_number};
+use od_model::Address;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0536",
+    severity: Warning,
+    title: "SYNC start value without a SYNC counter",
+    why: "The device ignores the start value: SYNC messages have a counter only if 1019h is not 0.",
+    source: "CiA 301, PDO communication parameter and object 1019h",
+    says: "SYNC start value is {given}, but object 1019h is missing",
+    help: "add a section [1019], or write 0",
+    check: Check::Object(check),
+    ..Rule::NEW
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let counts = object.description.objects.contains_key(&0x1019);
+    if counts || !matches!(object.index, 0x1800..=0x19FF) {
+        return;
+    }
+    let address = Address::new(object.index, 6);
+    let given = start_number(object.description, address);
+    if let Some(given) = given.filter(|given| given.value != 0) {
+        let finding = RULE.on(object, given.span).about(address);
+        findings.push(finding.fact("given", given.value));
+    }
+}

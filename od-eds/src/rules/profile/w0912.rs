@@ -1,0 +1,76 @@
+use alloc::vec::Vec;
+
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::rules::profile::shared::device;
+use crate::subject::Object;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0912",
+    severity: Warning,
+    title: "parameters of channels that the I/O module lacks",
+    why: "A master that sets the parameter of a channel finds no channel for it.",
+    source: "CiA 401, object overview",
+    says: "{object} sets channels of {channels}, which is missing",
+    help: "add {missing}, or remove {object}",
+    also: &[MORE],
+    check: Check::Object(check),
+    ..Rule::NEW
+};
+
+/// Sentence for more parameters than channels.
+const MORE: Form = Form {
+    says: "{object} has sub-index {sub}, but {channels} ends at {last}",
+    help: "remove the sub-object, or add the channel",
+};
+
+/// The objects one of which has the channels that an object sets.
+const fn channels(index: u16) -> &'static [u16] {
+    match index {
+        0x6002 | 0x6003 | 0x6006..=0x6008 => &[0x6000],
+        0x6102 | 0x6103 | 0x6106..=0x6108 => &[0x6100],
+        0x6122 | 0x6123 | 0x6126..=0x6128 => &[0x6120],
+        0x6202 | 0x6206..=0x6208 => &[0x6200],
+        0x6302 | 0x6306..=0x6308 => &[0x6300],
+        0x6322 | 0x6326..=0x6328 => &[0x6320],
+        0x6421 | 0x6424..=0x6428 => &[0x6401, 0x6400, 0x6402, 0x6403, 0x6404],
+        0x6443 | 0x6444 => &[0x6411, 0x6410, 0x6412, 0x6413, 0x6414],
+        _ => &[],
+    }
+}
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let description = object.description;
+    let of = channels(object.index);
+    let Some(first) = of.first().filter(|_| device(description, 401).is_some()) else {
+        return;
+    };
+    let present = of
+        .iter()
+        .filter_map(|index| Some((index, description.objects.get(index)?)));
+    let last = present.map(|(index, channels)| {
+        let last = channels.entries.range(..255).next_back();
+        (last.map_or(0, |(sub, _)| *sub), index)
+    });
+    let named = |finding: Finding, channels: u16| {
+        let finding = finding.fact("object", Fact::Index(object.index));
+        finding.fact("channels", Fact::Index(channels))
+    };
+    match last.max() {
+        None => {
+            let finding = named(RULE.on(object, object.span), *first);
+            findings.push(finding.fact("missing", Fact::Section(*first, None)));
+        }
+        Some((last, channels)) => {
+            let more = object
+                .entries()
+                .find(|entry| (last + 1..255).contains(&entry.address.sub));
+            // A module without channels has them by its modules.
+            if let Some(entry) = more.filter(|_| last > 0) {
+                let finding = named(RULE.on(&entry, entry.span), *channels).form(&MORE);
+                let finding = finding.fact("sub", entry.address.sub);
+                findings.push(finding.fact("last", last));
+            }
+        }
+    }
+}

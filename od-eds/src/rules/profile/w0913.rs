@@ -1,0 +1,38 @@
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::{IO_BLOCKS, device};
+use crate::subject::start_number;
+use od_model::Address;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0913",
+    severity: Warning,
+    title: "1000h does not declare the channels of an I/O module",
+    why: "A master that reads from 1000h which channels exist does not use them.",
+    source: "CiA 401, object 1000h",
+    says: "bit {bit} of 1000h ({what}) is 0, but object {object} exists",
+    help: "set bit {bit} of 1000h",
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let address = Address::new(0x1000, 0);
+    let number = start_number(description, address);
+    let Some((device, number)) = device(description, 401).zip(number) else {
+        return;
+    };
+    for (bit, objects, what) in IO_BLOCKS.iter().filter(|(bit, _, _)| !device.has(*bit)) {
+        let found = objects
+            .iter()
+            .find(|index| description.objects.contains_key(index));
+        if let Some(index) = found {
+            let finding = RULE.at(number.span).about(address).fact("bit", bit + 16);
+            let finding = finding.fact("what", *what);
+            findings.push(finding.fact("object", Fact::Index(*index)));
+        }
+    }
+}

@@ -1,0 +1,28 @@
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::standard::shared::commissioning;
+use crate::scan::number::number;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "E0646",
+    severity: Error,
+    buildable: true,
+    title: "node ID of a DCF is not valid",
+    why: "A master cannot address the device. A node ID is 1 to 127.",
+    source: "CiA 306-1, DeviceComissioning; CiA 301, node ID",
+    says: "NodeID `{given}` is not valid",
+    help: "write 1 to 127, or 255 for a node that gets its node ID by LSS",
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let given = commissioning(description).and_then(|section| section.get("NodeID"));
+    // The reader reports what is not a number.
+    let wrong = |id| matches!(id, 0 | 128..=254);
+    if let Some(given) = given.filter(|given| number(given).is_some_and(wrong)) {
+        findings.push(RULE.given(given));
+    }
+}

@@ -1,0 +1,56 @@
+use alloc::vec::Vec;
+
+use crate::fact::Fact;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::rules::standard::table::of;
+use crate::subject::Object;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0647",
+    severity: Warning,
+    title: "index or sub-index is reserved by CiA 301",
+    why: "A later version of the standard may use it, and a tool for conformance tests rejects it.",
+    source: "CiA 301, chapter 7.5",
+    says: "{object} is reserved in CiA 301",
+    help: "move the object to 2000h to 5FFFh (manufacturer-specific objects)",
+    also: &[SUB],
+    check: Check::Object(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a sub-index.
+const SUB: Form = Form {
+    says: "{object} ({name}) has no sub-index {sub} in CiA 301",
+    help: "remove the sub-object, or move it to 2000h to 5FFFh (manufacturer-specific objects)",
+};
+
+fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
+    let index = object.index;
+    let shown = Fact::Index(index);
+    if matches!(index, 0x1004 | 0x100B | 0x100E | 0x100F) {
+        findings.push(RULE.on(object, object.span).fact("object", shown));
+        return;
+    }
+    // FFh describes the structure of any object.
+    let last = match index {
+        0x1018 => 4,
+        0x1029 => 254,
+        0x1200..=0x12FF => 3,
+        0x1400..=0x15FF | 0x1800..=0x19FF => 6,
+        _ => return,
+    };
+    let Some(standard) = of(index).filter(|_| object.code.has_members()) else {
+        return;
+    };
+    for entry in object
+        .entries()
+        .filter(|entry| (last + 1..255).contains(&entry.address.sub))
+    {
+        let finding = RULE
+            .on(&entry, entry.span)
+            .form(&SUB)
+            .fact("object", shown.clone());
+        let finding = finding.fact("name", standard.name);
+        findings.push(finding.fact("sub", entry.address.sub));
+    }
+}

@@ -1,0 +1,54 @@
+use alloc::vec::Vec;
+
+use crate::description::Description;
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
+use crate::rules::standard::shared::commissioning;
+use crate::scan::number::number;
+use crate::subject::start_number;
+use od_model::Address;
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0653",
+    severity: Warning,
+    title: "[DeviceComissioning] is incomplete, or contradicts 1018h",
+    why: "A configuration tool does not know which node it configures, or configures another one by LSS.",
+    source: "CiA 306-1, DeviceComissioning",
+    says: "[{section}] lacks `{field}`",
+    help: "add `{field}=` and its value",
+    also: &[SERIAL],
+    check: Check::Device(check),
+    ..Rule::NEW
+};
+
+/// Sentence for a serial number that is not the one of 1018h.
+const SERIAL: Form = Form {
+    says: "LSS_SerialNumber is {given}, but 1018h:04 is {right}",
+    help: "write `LSS_SerialNumber={right}`, or correct 1018h:04",
+};
+
+fn check(description: &Description, findings: &mut Vec<Finding>) {
+    let Some(section) = commissioning(description) else {
+        return;
+    };
+    for field in ["NodeID", "Baudrate"] {
+        if section.get(field).is_none() {
+            let finding = RULE.at(section.name.span).fact("field", field);
+            findings.push(finding.fact("section", section.name.as_str()));
+        }
+    }
+    let address = Address::new(0x1018, 4);
+    let given = section
+        .get("LSS_SerialNumber")
+        .filter(|given| !given.is_empty());
+    // 0 is the serial number of a type of device.
+    let own = start_number(description, address).filter(|own| own.value != 0);
+    if let Some((given, own)) = given.zip(own)
+        && let Some(serial) = number(given)
+        && serial != 0
+        && serial != i128::from(own.value)
+    {
+        let finding = RULE.at(given.span).about(address).form(&SERIAL);
+        let finding = finding.fact("given", serial).fact("right", own.value);
+        findings.push(finding.related(own.span, "serial number set here"));
+    }
+}

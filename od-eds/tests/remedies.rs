@@ -1,0 +1,123 @@
+//! Fixes that look right and are wrong: what odkit does instead.
+
+use od_eds::Document;
+use od_eds::fix::{Applicability, fix};
+
+/// An object with sub-objects of one type; `subs` are the names of their sections.
+fn array(index: &str, types: &[(&str, &str)]) -> String {
+    let count = types.len();
+    let mut text = format!(
+        "[{index}]\nParameterName=a\nObjectType=0x8\nSubNumber={}\n\
+        [{index}sub0]\nParameterName=n\nDataType=0x0005\nAccessType=const\nDefaultValue={count}\n",
+        count + 1
+    );
+    for (sub, data_type) in types {
+        text += &format!(
+            "[{index}{sub}]\nParameterName={sub}\nDataType={data_type}\nAccessType=rw\nDefaultValue=0\n"
+        );
+    }
+    text
+}
+
+/// The text with all fixes of a level.
+fn fixed(text: &str, level: Applicability) -> String {
+    let find = |document: &Document| document.load().findings;
+    fix(&Document::new(text), level, find)
+        .document
+        .text()
+        .into()
+}
+
+#[test]
+fn an_array_of_a_standard_stays_one() {
+    for (index, device_type) in [
+        ("1020", "0"),
+        ("6000", "0x00030191"),
+        ("6401", "0x00040191"),
+    ] {
+        let start = format!(
+            "[1000]\nParameterName=t\nDataType=0x0007\nAccessType=ro\nDefaultValue={device_type}\n"
+        );
+        let text = start + &array(index, &[("sub1", "0x0005"), ("sub2", "0x0006")]);
+        let fixed = fixed(&text, Applicability::Unsafe);
+        assert!(fixed.contains("ObjectType=0x8"), "{fixed}");
+    }
+    // Of the manufacturer, a RECORD is what is most likely meant.
+    let text = array("2000", &[("sub1", "0x0005"), ("sub2", "0x0006")]);
+    assert!(fixed(&text, Applicability::Unsafe).contains("ObjectType=0x9"));
+}
+
+#[test]
+fn a_section_with_a_misspelled_name_still_counts() {
+    let subs = ["sub1", "sub2", "sb3", "sub4"].map(|sub| (sub, "0x0005"));
+    let text = array("2005", &subs);
+    assert!(fixed(&text, Applicability::Safe).contains("SubNumber=5"));
+    let fixed = fixed(&text, Applicability::Unsafe);
+    assert!(
+        fixed.contains("SubNumber=5") && fixed.contains("[2005sub3]"),
+        "{fixed}"
+    );
+}
+
+#[test]
+fn a_sub_index_in_decimal_does_not_raise_sub_index_0() {
+    let subs = [
+        "sub1", "sub2", "sub3", "sub4", "sub5", "sub6", "sub7", "sub8", "sub9", "sub10",
+    ];
+    let text = array("2010", &subs.map(|sub| (sub, "0x0005")));
+    let fixed = fixed(&text, Applicability::Unsafe);
+    assert!(
+        fixed.contains("DefaultValue=10") && fixed.contains("[2010subA]"),
+        "{fixed}"
+    );
+}
+
+#[test]
+fn a_missing_equals_sign_is_written() {
+    let text = "[2000]\nParameterName=a\nDataType=0x0005\nAccessType rww\nPDOMapping=1\n";
+    let fixed = fixed(text, Applicability::Safe);
+    assert!(fixed.contains("\nAccessType=rww\n"), "{fixed}");
+    assert!(
+        !fixed.contains(";AccessType") && !fixed.contains("=ro"),
+        "{fixed}"
+    );
+}
+
+#[test]
+fn pdo_mapping_2_is_what_a_pdo_says() {
+    for access in ["rw", "rww"] {
+        let text = format!(
+            "[1A00]\nParameterName=m\nObjectType=0x9\nSubNumber=2\n\
+            [1A00sub0]\nParameterName=n\nDataType=0x0005\nAccessType=rw\nDefaultValue=1\n\
+            [1A00sub1]\nParameterName=e\nDataType=0x0007\nAccessType=rw\nDefaultValue=0x20000008\n\
+            [2000]\nParameterName=a\nDataType=0x0005\nAccessType={access}\nPDOMapping=2\n"
+        );
+        let findings = Document::new(text.as_str()).load().findings;
+        let own = findings.iter().find(|finding| finding.code() == "W0406");
+        assert!(own.expect("a finding").fix.is_none());
+        assert!(!findings.iter().any(|finding| finding.code() == "W0445"));
+        let fixed = fixed(&text, Applicability::Unsafe);
+        // A PDO maps it, which says more than the number.
+        assert!(fixed.contains("PDOMapping=1"), "{fixed}");
+    }
+}
+
+#[test]
+fn compact_sub_objects_beside_sections_change_no_count() {
+    let text = "[2000]\nParameterName=a\nObjectType=0x8\nSubNumber=3\nCompactSubObj=8\nDataType=0x0005\n\
+        AccessType=rw\n[2000sub0]\nParameterName=n\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n\
+        [2000sub1]\nParameterName=b\nDataType=0x0005\nAccessType=rw\n\
+        [2000sub2]\nParameterName=c\nDataType=0x0005\nAccessType=rw\n";
+    let codes: Vec<_> = Document::new(text)
+        .load()
+        .findings
+        .iter()
+        .map(|f| f.code())
+        .collect();
+    assert!(codes.contains(&"W0324"), "{codes:?}");
+    let fixed = fixed(text, Applicability::Unsafe);
+    assert!(
+        fixed.contains("DefaultValue=2") && fixed.contains("SubNumber=3"),
+        "{fixed}"
+    );
+}
