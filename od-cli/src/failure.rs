@@ -33,3 +33,13 @@ impl From<od_bench::serve::Failure> for Failure {
         }
     }
 }
+
+/// Error of the operating system as a clause.
+pub(crate) fn read_error(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "it does not exist".into(),
+        std::io::ErrorKind::PermissionDenied => "it cannot be read (permission denied)".into(),
+        std::io::ErrorKind::IsADirectory => "it is a folder".into(),
+        _ => format!("it cannot be read: {error}"),
+    }
+}

@@ -6,6 +6,7 @@
 //! writes to a pipe that may close, `report` shows findings.
 
 mod check;
+mod config;
 mod convert;
 mod ctl;
 mod diff;
@@ -35,6 +36,9 @@ use crate::failure::Failure;
 #[command(about = "Check, convert and simulate CANopen devices described by EDS files")]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 struct Cli {
+    /// Settings of the project; otherwise the nearest `odkit.toml` above each file
+    #[arg(long, global = true, value_name = "FILE")]
+    config: Option<std::path::PathBuf>,
     #[command(subcommand)]
     command: Command,
 }
@@ -72,6 +76,9 @@ pub fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
+    if let Some(path) = cli.config {
+        config::use_file(path);
+    }
     let result = match cli.command {
         Command::Sim(args) => sim::run(&args),
         Command::Ctl(args) => ctl::run(&args),

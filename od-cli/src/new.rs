@@ -104,12 +104,12 @@ fn device(name: &str) -> Result<(DeviceFile, usize), Failure> {
         .is_some_and(|ending| ending.eq_ignore_ascii_case("dcf"));
     let ending = if is_dcf { "dcf" } else { "eds" };
     let mut notes = repair::Notes::default();
-    let is_sound = !findings.iter().any(Finding::is_error);
+    let is_sound = !findings.iter().any(Finding::is_unsound);
     if !is_sound {
         notes = repair::fix(&mut description).map_err(|left| {
             let text = od_eds::canonical(&description);
-            let colours = output::error_colours();
-            output::note_text(&report::render(&source.path, &text, &left, colours));
+            let (names, colours) = (report::names(&description, &left), output::error_colours());
+            output::note_text(&report::render(&source.path, &text, &left, &names, colours));
             Failure::Failed(format!(
                 "{} has errors that odkit cannot fix; correct them (`odkit check` shows all findings)",
                 source.path

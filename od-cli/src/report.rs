@@ -1,13 +1,63 @@
 //! Findings with their source line and a caret.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use od_eds::{Eds, Finding, Label, Sentence, Severity, Span, say};
+use od_eds::{Description, Eds, Finding, Label, Sentence, Severity, Span, say};
+use od_model::Address;
+
+/// Objects and sub-objects in words: `2001h "Temperature"`.
+pub(crate) type Names = BTreeMap<Address, String>;
+
+/// The objects that findings are about, in words; a VAR has no sub-index.
+pub(crate) fn names(description: &Description, findings: &[Finding]) -> Names {
+    let addresses = findings.iter().filter_map(|finding| finding.object);
+    let named = addresses.filter_map(|address| {
+        let object = description.objects.get(&address.index)?;
+        let whole = address.sub == 0 && !object.code.has_members();
+        let name = match object.entries.get(&address.sub) {
+            Some(entry) if !whole => &entry.name,
+            _ => &object.name,
+        };
+        let shown = match whole {
+            true => format!("{:04X}h", address.index),
+            false => address.to_string(),
+        };
+        let named = !name.is_empty();
+        Some((
+            address,
+            if named {
+                format!("{shown} \"{}\"", name.value)
+            } else {
+                shown
+            },
+        ))
+    });
+    named.collect()
+}
+
+/// `object 2001h "Temperature" (CiA 306-1, object sections)`
+fn note(finding: &Finding, names: &Names) -> String {
+    let source = finding.rule.source;
+    match finding.object {
+        Some(address) => match names.get(&address) {
+            Some(name) => format!("object {name} ({source})"),
+            None => format!("object {address} ({source})"),
+        },
+        None => source.to_owned(),
+    }
+}
 
 /// A file's findings as text, an empty line behind each.
-pub(crate) fn render(path: &str, text: &str, findings: &[Finding], colours: bool) -> String {
+pub(crate) fn render(
+    path: &str,
+    text: &str,
+    findings: &[Finding],
+    names: &Names,
+    colours: bool,
+) -> String {
     let renderer = if colours {
         Renderer::styled()
     } else {
@@ -17,13 +67,14 @@ pub(crate) fn render(path: &str, text: &str, findings: &[Finding], colours: bool
     let mut out = String::new();
     for finding in findings {
         let sentence = say(finding, &Eds);
-        out.push_str(&renderer.render(&[group(path, text, &sentence)]));
+        let note = note(finding, names);
+        out.push_str(&renderer.render(&[group(path, text, &sentence, &note)]));
         out.push_str("\n\n");
     }
     out
 }
 
-fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence) -> Group<'a> {
+fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence, note: &'a str) -> Group<'a> {
     let level = match sentence.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -36,9 +87,7 @@ fn group<'a>(path: &'a str, text: &'a str, sentence: &'a Sentence) -> Group<'a> 
     if sentence.span.is_none() {
         group = group.element(annotate_snippets::Origin::path(path));
     }
-    if let Some(address) = sentence.address {
-        group = group.element(Level::NOTE.message(format!("object {address}")));
-    }
+    group = group.element(Level::NOTE.message(note));
     if !sentence.help.is_empty() {
         group = group.element(Level::HELP.message(sentence.help.as_str()));
     }

@@ -8,7 +8,7 @@ use od_bench::script;
 use od_bench::script::{Reason, Script};
 use od_runtime::NodeId;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, read_error};
 use crate::output::{self, Output, note};
 use crate::terminal::Terminal;
 use crate::{report, source};
@@ -84,9 +84,6 @@ fn read(path: &str) -> Result<String, Failure> {
     match result {
         Ok(()) => String::from_utf8(bytes)
             .map_err(|_| Failure::Usage(format!("{path}: the file is not UTF-8"))),
-        Err(error) => Err(Failure::Usage(format!(
-            "{path}: {}",
-            source::read_error(&error)
-        ))),
+        Err(error) => Err(Failure::Usage(format!("{path}: {}", read_error(&error)))),
     }
 }

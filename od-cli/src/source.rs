@@ -13,7 +13,9 @@ use od_runtime::NodeId;
 
 pub(crate) use od_bench::serve::options::node_id;
 
-use crate::failure::Failure;
+use crate::config::Config;
+use crate::failure::{Failure, read_error};
+use crate::report::{Names, names};
 use crate::{output, report};
 
 /// A built-in device, or a file, or a base with an overlay.
@@ -31,9 +33,16 @@ pub(crate) struct Source {
 /// Parts of an overlaid text.
 struct Laid {
     base: Source,
-    /// Path and text.
-    overlay: (String, String),
+    /// Path and file.
+    overlay: (String, Document),
     made: Overlaid,
+}
+
+/// One file of a source, and the findings about it.
+pub(crate) struct Part<'a> {
+    pub(crate) path: &'a str,
+    pub(crate) document: &'a Document,
+    pub(crate) findings: Vec<Finding>,
 }
 
 /// Findings of the objects that a target lacks.
@@ -79,7 +88,10 @@ impl Source {
         }
         let path = folder.join(name);
         match fs::read(&path) {
-            Ok(bytes) => Ok(Self::of(path.display().to_string(), Document::new(bytes))),
+            Ok(bytes) => {
+                let name = path.display().to_string();
+                Ok(Self::of(name.clone(), Document::new(bytes).named(name)))
+            }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 match name.rsplit_once('+') {
                     Some((base, overlay)) => {
@@ -98,7 +110,7 @@ impl Source {
     /// Why it cannot be read.
     pub(crate) fn file(path: &str) -> Result<Self, String> {
         match fs::read(path) {
-            Ok(bytes) => Ok(Self::of(path.into(), Document::new(bytes))),
+            Ok(bytes) => Ok(Self::of(path.into(), Document::new(bytes).named(path))),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound && path.contains('+') => {
                 Self::find(path).map_err(|failure| failure.to_string())
             }
@@ -121,8 +133,8 @@ impl Source {
             let why = read_error(&error);
             Failure::Failed(format!("overlay {shown}: {why}"))
         })?;
-        let overlay = od_eds::decode(&bytes).into_owned();
-        let made = od_eds::overlay(self.text(), &overlay).map_err(|faults| {
+        let overlay = Document::new(bytes);
+        let made = od_eds::overlay(self.text(), overlay.text()).map_err(|faults| {
             for (line, fault) in &faults {
                 output::note!("{shown}:{line}: {fault}");
             }
@@ -205,42 +217,66 @@ impl Source {
             let all: Vec<_> = findings.iter().chain(&checked).cloned().collect();
             lost.extend(lost::untyped(&description, &all));
         }
-        let mut shown: Vec<_> = findings.into_iter().filter(Finding::is_error).collect();
+        let mut shown: Vec<_> = findings.into_iter().filter(Finding::is_unsound).collect();
         shown.extend(
             lost.iter()
                 .filter(|one| !shown.contains(one))
                 .cloned()
                 .collect::<Vec<_>>(),
         );
-        self.note(&shown);
+        Config::of(&self.path)?.apply(&self.path, &mut shown);
+        self.note(&shown, &names(&description, &shown));
         Ok((description, Lost(lost)))
     }
 
     /// Shows findings on standard error.
-    fn note(&self, findings: &[Finding]) {
-        output::note_text(&self.render(findings, output::error_colours()));
+    fn note(&self, findings: &[Finding], names: &Names) {
+        output::note_text(&self.render(findings, names, output::error_colours()));
     }
 
     /// Findings of the text with line and caret, each in the file that it is about.
-    pub(crate) fn render(&self, findings: &[Finding], colours: bool) -> String {
+    pub(crate) fn render(&self, findings: &[Finding], names: &Names, colours: bool) -> String {
+        let parts = self.parts(findings.to_vec());
+        let rendered = parts.iter().map(|part| {
+            report::render(
+                part.path,
+                part.document.text(),
+                &part.findings,
+                names,
+                colours,
+            )
+        });
+        let rendered: Vec<String> = rendered.filter(|text| !text.is_empty()).collect();
+        let trimmed: Vec<&str> = rendered.iter().map(|text| text.trim_end()).collect();
+        match rendered.len() {
+            0 | 1 => rendered.concat(),
+            _ => trimmed.join("\n\n") + "\n\n",
+        }
+    }
+
+    /// The files that it is made of, each with the findings that are about it.
+    pub(crate) fn parts(&self, findings: Vec<Finding>) -> Vec<Part<'_>> {
         let Some(laid) = &self.laid else {
-            return report::render(&self.path, self.text(), findings, colours);
+            return vec![Part {
+                path: &self.path,
+                document: self.document(),
+                findings,
+            }];
         };
         let (mut base, mut overlay) = (Vec::new(), Vec::new());
         for finding in findings {
-            match laid.made.place(finding.clone()) {
+            match laid.made.place(finding) {
                 (Origin::Base, finding) => base.push(finding),
                 (Origin::Overlay, finding) => overlay.push(finding),
             }
         }
-        let (path, text) = &laid.overlay;
-        let base = laid.base.render(&base, colours);
-        let overlay = report::render(path, text, &overlay, colours);
-        match (base.is_empty(), overlay.is_empty()) {
-            (false, false) => format!("{}\n\n{overlay}", base.trim_end()),
-            (true, _) => overlay,
-            (_, true) => base,
-        }
+        let mut parts = laid.base.parts(base);
+        parts.push(Part {
+            path: &laid.overlay.0,
+            document: &laid.overlay.1,
+            findings: overlay,
+        });
+        parts
     }
 
     /// A device with power off. Errors of a text are reported on standard error; what can
@@ -254,8 +290,8 @@ impl Source {
             lenient: true,
         };
         let (device, mut findings) = VirtualDevice::read_eds(self.text(), options);
-        findings.retain(Finding::is_error);
-        self.note(&findings[..findings.len().min(SHOWN)]);
+        findings.retain(Finding::is_unsound);
+        self.note(&findings[..findings.len().min(SHOWN)], &Names::new());
         let path = &self.path;
         match device {
             Some(device) if findings.is_empty() => Ok(device),
@@ -283,16 +319,6 @@ fn unknown(name: &str, error: &std::io::Error) -> Failure {
         "no built-in device or file is named `{name}`\nhelp: built-in devices are {}",
         names.join(", ")
     ))
-}
-
-/// Error of the operating system as a clause.
-pub(crate) fn read_error(error: &std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => "it does not exist".into(),
-        std::io::ErrorKind::PermissionDenied => "it cannot be read (permission denied)".into(),
-        std::io::ErrorKind::IsADirectory => "it is a folder".into(),
-        _ => format!("it cannot be read: {error}"),
-    }
 }
 
 /// The built-in devices, for the end of `--help`.

@@ -10,7 +10,7 @@ use support::{file, odkit, repository};
 /// A safe fix, an unsafe one, a remark, and two line ends and an encoding to keep.
 const ODD: &[u8] =
     b"; \xB5 is Windows-1252\r\n[2000]\r\nParameterName=Gr\xF6\xDFe\r\nDataType:0x5\r\n\
-    AccessType=rw\r\n; kept\r\nDefaultValue=010\r\nPDOMapping=maybe\r\n";
+    AccessType=rw\r\n; kept\r\nDefaultValue=010\r\nObjFlags=maybe\r\n";
 
 fn odd(name: &str) -> String {
     let path = file(name, "");
@@ -179,7 +179,7 @@ fn offsets_are_bytes_of_the_file() {
         let json: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
         let number = |value: &serde_json::Value| value.as_u64().expect("a number") as usize;
         let found = json["files"][0]["diagnostics"].as_array().expect("a list");
-        for (code, part) in [("W0108", ":"), ("I0408", "010"), ("W0406", "maybe")] {
+        for (code, part) in [("W0108", ":"), ("I0408", "010"), ("W0407", "maybe")] {
             let one = found.iter().find(|one| one["code"] == code).expect(code);
             let (start, end) = (number(&one["span"]["start"]), number(&one["span"]["end"]));
             assert_eq!(&bytes[start..end], body(part), "{encoding} {code}");

@@ -226,7 +226,7 @@ fn a_crate_finds_odkit_wherever_it_is() {
     assert!(!Path::new(&path).exists());
 }
 
-/// Every file that ships makes a crate whose EDS has no error left.
+/// Every file that ships makes a crate whose EDS has no error left with which no device can be built.
 #[test]
 fn the_corpus_makes_crates() {
     let all = fresh("new-corpus");
@@ -248,8 +248,25 @@ fn the_corpus_makes_crates() {
         assert_eq!(made.code, 0, "{from}: {}", made.err);
     }
     if !files.is_empty() {
-        let check = odkit(&["check", &all.display().to_string()], "");
-        assert_eq!(check.code, 0, "{}", check.out);
+        let check = odkit(
+            &["check", "--format", "json", &all.display().to_string()],
+            "",
+        );
+        let report: serde_json::Value = serde_json::from_str(&check.out).expect("JSON");
+        let files = report["files"].as_array().expect("files");
+        for finding in files
+            .iter()
+            .flat_map(|file| file["diagnostics"].as_array())
+            .flatten()
+        {
+            let code = finding["code"].as_str().expect("a code");
+            let rule = od_eds::check::rule(code).expect("a rule");
+            // What only a master fails at stays: it is what the vendor says.
+            assert!(
+                finding["severity"] != "error" || rule.buildable,
+                "{finding}"
+            );
+        }
     }
 }
 

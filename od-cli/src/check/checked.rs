@@ -4,7 +4,8 @@ use od_eds::fix::{Held, Why};
 use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
 use serde::Serialize;
 
-use crate::source::Source;
+use crate::report::Names;
+use crate::source::{Part, Source};
 
 /// Result for one file.
 #[derive(Default)]
@@ -19,6 +20,12 @@ pub(super) struct Checked {
     pub(super) held: Vec<Held>,
     /// Why the file could not be read or written.
     pub(super) failed: Option<String>,
+    /// The objects that the findings are about, in words.
+    pub(super) names: Names,
+    /// What is wrong with the project's settings.
+    pub(super) misused: Option<String>,
+    /// Do warnings of this file count as errors?
+    pub(super) strict: bool,
 }
 
 impl Checked {
@@ -34,6 +41,13 @@ impl Checked {
         checked.file.path = path.into();
         checked.failed = Some(why);
         checked
+    }
+}
+
+impl Checked {
+    /// The files that it is about: of base and overlay, each with its own findings.
+    pub(super) fn parts(&self) -> Vec<Part<'_>> {
+        self.file.parts(self.findings.clone())
     }
 }
 

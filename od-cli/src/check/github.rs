@@ -1,15 +1,19 @@
 //! Workflow commands of GitHub Actions: an annotation at the line of each finding.
 
-use od_eds::{Eds, Sentence, Severity, say};
+use od_eds::{Eds, Finding, Sentence, Severity, say};
 
 use super::checked::{Checked, about, end_column};
+use crate::source::Part;
 
-pub(super) fn lines(checked: &Checked, remarks: bool) -> impl Iterator<Item = String> {
-    checked
-        .findings
-        .iter()
-        .filter(move |finding| remarks || finding.severity() > Severity::Info)
-        .map(|finding| line(&checked.file.path, checked.file.text(), &say(finding, &Eds)))
+pub(super) fn lines(checked: &Checked, remarks: bool) -> Vec<String> {
+    let wanted = |finding: &&Finding| remarks || finding.severity() > Severity::Info;
+    let of = |part: Part<'_>| {
+        let findings = part.findings.iter().filter(wanted);
+        let lines =
+            findings.map(|finding| line(part.path, part.document.text(), &say(finding, &Eds)));
+        lines.collect::<Vec<_>>()
+    };
+    checked.parts().into_iter().flat_map(of).collect()
 }
 
 fn line(path: &str, text: &str, finding: &Sentence) -> String {

@@ -61,7 +61,7 @@ pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
     let report = Report {
         version: 3,
         odkit: env!("CARGO_PKG_VERSION"),
-        files: checked.iter().map(file).collect(),
+        files: checked.iter().flat_map(files).collect(),
         summary,
     };
     // Keys in the order of the alphabet. None of these types can fail.
@@ -69,20 +69,26 @@ pub(super) fn report(checked: &[Checked], summary: &Summary) -> String {
     format!("{value:#}")
 }
 
-fn file(checked: &Checked) -> File<'_> {
-    let document = checked.file.document();
-    let offsets = document.offsets();
-    File {
-        path: &checked.file.path,
-        failed: checked.failed.as_deref(),
-        fixed: checked.fixed,
-        held: checked.held.iter().map(held).collect(),
-        findings: checked
-            .findings
-            .iter()
-            .map(|finding| reported(finding, document.text(), &offsets))
-            .collect(),
-    }
+/// The files of a check; what was fixed and what failed is told of the first.
+fn files(checked: &Checked) -> Vec<File<'_>> {
+    let parts = checked.parts().into_iter();
+    let files = parts.enumerate().map(|(at, part)| {
+        let (document, offsets) = (part.document, part.document.offsets());
+        let findings = part.findings.iter();
+        File {
+            path: part.path,
+            failed: checked.failed.as_deref().filter(|_| at == 0),
+            fixed: if at == 0 { checked.fixed } else { 0 },
+            held: match at {
+                0 => checked.held.iter().map(held).collect(),
+                _ => Vec::new(),
+            },
+            findings: findings
+                .map(|finding| reported(finding, document.text(), &offsets))
+                .collect(),
+        }
+    });
+    files.collect()
 }
 
 /// Edits of the text as edits of the file.

@@ -4,8 +4,9 @@ use od_eds::Document;
 use od_eds::check::parse_allow;
 use od_eds::fix;
 use od_eds::fix::{Applicability, Held};
-use od_eds::{Finding, Severity};
+use od_eds::{Finding, Parsed, Severity};
 
+use crate::config::Config;
 use crate::failure::Failure;
 use crate::output::{self, Output};
 use crate::report;
@@ -17,7 +18,9 @@ mod files;
 mod fixed;
 mod github;
 mod json;
+mod lines;
 mod sarif;
+mod statistics;
 
 /// Check EDS and DCF files; show findings with source line and caret, and apply fixes
 ///
@@ -45,8 +48,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "CODE[:INDEX]", value_parser = parse_allow)]
     allow: Vec<(&'static str, Option<u16>)>,
     /// Format of the report
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Full)]
+    output_format: Format,
+    /// Show how often each rule reports, not the findings
+    #[arg(long)]
+    statistics: bool,
     /// Show remarks too (JSON and SARIF always contain them)
     #[arg(long)]
     remarks: bool,
@@ -58,7 +64,12 @@ pub(crate) struct Args {
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
     /// Findings with source line and caret
-    Text,
+    #[value(alias = "text")]
+    Full,
+    /// One line for each finding
+    Concise,
+    /// One line for each finding, below the name of its file
+    Grouped,
     /// One JSON object for all files
     Json,
     /// SARIF 2.1.0, for code scanning
@@ -77,16 +88,17 @@ impl Args {
         }
     }
 
-    fn find(&self, document: &Document) -> Vec<Finding> {
-        let mut findings = document.load().findings;
-        findings.retain(|finding| {
+    fn find(&self, document: &Document, path: &str, config: &Config) -> Parsed {
+        let mut parsed = document.load();
+        config.apply(path, &mut parsed.findings);
+        parsed.findings.retain(|finding| {
             let index = finding.object.map(|address| address.index);
             let allows = |(code, object): &(&str, Option<u16>)| {
                 *code == finding.code() && (object.is_none() || *object == index)
             };
             !self.allow.iter().any(allows)
         });
-        findings
+        parsed
     }
 
     /// Reads, checks and fixes one file. An overlaid file is not fixed: odkit cannot know which of
@@ -96,12 +108,26 @@ impl Args {
             Ok(file) => Checked::new(file),
             Err(why) => return Checked::unreadable(path, why),
         };
+        let config = match Config::of(path) {
+            Ok(config) => config,
+            Err(why) => {
+                checked.misused = Some(why.to_string());
+                return checked;
+            }
+        };
         let file = &checked.file;
         let is_overlaid = file.is_overlaid();
         match self.level().filter(|_| !is_overlaid) {
-            None => checked.findings = self.find(file.document()),
+            None => {
+                let parsed = self.find(file.document(), path, &config);
+                checked.names = report::names(&parsed.description, &parsed.findings);
+                checked.findings = parsed.findings;
+            }
             Some(level) => {
-                let done = fix::fix(file.document(), level, |file| self.find(file));
+                let find = |file: &Document| self.find(file, path, &config).findings;
+                let done = fix::fix(file.document(), level, find);
+                let description = done.document.parse().description;
+                checked.names = report::names(&description, &done.findings);
                 if self.diff {
                     checked.shown = fixed::difference(path, file.text(), done.document.text());
                 } else if done.edits > 0 {
@@ -117,10 +143,19 @@ impl Args {
                 finding.fix = None;
             }
         }
-        if self.format == Format::Text && (is_overlaid || !self.diff) {
-            let wanted = |finding: &&Finding| self.remarks || finding.severity() > Severity::Info;
+        let remarks = self.remarks || config.remarks;
+        checked.strict = config.strict;
+        if !self.statistics && (is_overlaid || !self.diff) {
+            let wanted = |finding: &&Finding| remarks || finding.severity() > Severity::Info;
             let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
-            checked.shown = checked.file.render(&wanted, output::colours());
+            checked.shown = match self.output_format {
+                Format::Full => checked
+                    .file
+                    .render(&wanted, &checked.names, output::colours()),
+                Format::Concise => lines::concise(&checked, wanted),
+                Format::Grouped => lines::grouped(&checked, wanted),
+                _ => String::new(),
+            };
         }
         checked
     }
@@ -129,11 +164,21 @@ impl Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let paths = files::find(&args.files);
     let checked = files::at_once(&paths, |path| args.check(path));
+    if let Some(why) = checked.iter().find_map(|file| file.misused.clone()) {
+        return Err(Failure::Usage(why));
+    }
     let summary = Summary::of(&checked);
     let mut output = Output::new();
-    match args.format {
+    match args.output_format {
+        Format::Json if args.statistics => drop(output.line(&statistics::json(&checked))?),
+        _ if args.statistics => {
+            output.line(statistics::text(&checked).trim_end())?;
+            text(args, &checked, &summary, &mut output)?;
+        }
         _ if args.diff => text(args, &checked, &summary, &mut output)?,
-        Format::Text => text(args, &checked, &summary, &mut output)?,
+        Format::Full | Format::Concise | Format::Grouped => {
+            text(args, &checked, &summary, &mut output)?;
+        }
         Format::Json => drop(output.line(&json::report(&checked, &summary))?),
         Format::Sarif => drop(output.line(&sarif::report(&checked))?),
         Format::Github => {
@@ -150,7 +195,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             output::error(&format!("{}: {why}", file.file.path));
         }
     }
-    let wrong = summary.errors > 0 || args.strict && summary.warnings > 0;
+    let warned = |file: &Checked| {
+        let mut findings = file.findings.iter();
+        findings.any(|finding| finding.severity() == Severity::Warning)
+    };
+    let strict = checked
+        .iter()
+        .any(|file| (args.strict || file.strict) && warned(file));
+    let wrong = summary.errors > 0 || strict;
     if wrong || summary.failed > 0 || args.diff && summary.fixed > 0 {
         return Err(Failure::Reported(1));
     }
@@ -166,8 +218,9 @@ fn text(
     summary: &Summary,
     output: &mut Output,
 ) -> Result<(), Failure> {
-    for file in checked {
-        if !file.shown.is_empty() && (!output.line(file.shown.trim_end())? || !output.line("")?) {
+    let apart = args.output_format != Format::Concise;
+    for file in checked.iter().filter(|file| !file.shown.is_empty()) {
+        if !output.line(file.shown.trim_end())? || apart && !output.line("")? {
             return Ok(());
         }
     }
@@ -211,7 +264,9 @@ fn text(
         output.line(line)?;
     }
     if let Some(more @ 1..) = held.len().checked_sub(HELD) {
-        output.line(&format!("{more} more held back; `--format json` lists all"))?;
+        output.line(&format!(
+            "{more} more held back; `--output-format json` lists all"
+        ))?;
     }
     for hint in hints(args, checked, summary) {
         output.line(&hint)?;

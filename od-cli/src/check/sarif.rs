@@ -6,7 +6,7 @@ use od_eds::{Eds, Finding, Offsets, Severity, Span, say};
 use serde_json::{Value, json};
 
 use super::checked::{Checked, about, end_column};
-use crate::source::Source;
+use crate::source::Part;
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json";
@@ -26,10 +26,13 @@ pub(super) fn report(checked: &[Checked]) -> String {
         .collect();
     let results: Vec<Value> = checked
         .iter()
-        .flat_map(|file| {
-            let places = Places::of(file);
-            let results = file.findings.iter();
-            results.map(move |finding| result(&places, finding))
+        .flat_map(Checked::parts)
+        .flat_map(|part| {
+            let places = Places::of(&part);
+            let results = part.findings.iter();
+            results
+                .map(|finding| result(&places, finding))
+                .collect::<Vec<_>>()
         })
         .collect();
     let failed: Vec<Value> = checked
@@ -72,7 +75,7 @@ const fn level(severity: Severity) -> &'static str {
 
 /// A file, and the places of its text.
 struct Places<'a> {
-    file: &'a Source,
+    file: &'a Part<'a>,
     offsets: Offsets<'a>,
     /// Characters before every [`STEP`] bytes of the text.
     characters: Vec<usize>,
@@ -82,10 +85,9 @@ struct Places<'a> {
 const STEP: usize = 512;
 
 impl<'a> Places<'a> {
-    fn of(checked: &'a Checked) -> Self {
-        let file = &checked.file;
+    fn of(file: &'a Part<'a>) -> Self {
         let starts = |piece: &[u8]| piece.iter().filter(|byte| is_start(**byte)).count();
-        let pieces = file.text().as_bytes().chunks(STEP);
+        let pieces = file.document.text().as_bytes().chunks(STEP);
         let mut before = 0;
         let counted = pieces.map(|piece| {
             let here = before;
@@ -94,14 +96,14 @@ impl<'a> Places<'a> {
         });
         Self {
             file,
-            offsets: file.document().offsets(),
+            offsets: file.document.offsets(),
             characters: counted.collect(),
         }
     }
 
     /// The characters before a byte of the text.
     fn characters(&self, at: usize) -> usize {
-        let text = self.file.text().as_bytes();
+        let text = self.file.document.text().as_bytes();
         let at = at.min(text.len());
         let near = (at / STEP).min(self.characters.len().saturating_sub(1));
         let known = self.characters.get(near).copied().unwrap_or(0);
@@ -123,7 +125,7 @@ const fn is_start(byte: u8) -> bool {
 
 fn result(file: &Places<'_>, finding: &Finding) -> Value {
     let finding = say(finding, &Eds);
-    let text = file.file.text();
+    let text = file.file.document.text();
     let mut message = about(&finding);
     if !finding.help.is_empty() {
         message = format!("{message} ({})", finding.help);
@@ -149,7 +151,7 @@ fn result(file: &Places<'_>, finding: &Finding) -> Value {
         result["fixes"] = json!([{
             "description": { "text": finding.help },
             "artifactChanges": [{
-                "artifactLocation": { "uri": uri(&file.file.path) },
+                "artifactLocation": { "uri": uri(file.file.path) },
                 "replacements": replacements,
             }],
         }]);
@@ -158,14 +160,14 @@ fn result(file: &Places<'_>, finding: &Finding) -> Value {
 }
 
 fn location(file: &Places<'_>, span: Option<Span>, what: Option<&str>) -> Value {
-    let mut place = json!({ "artifactLocation": { "uri": uri(&file.file.path) } });
+    let mut place = json!({ "artifactLocation": { "uri": uri(file.file.path) } });
     if let Some(span) = span {
         let (start, length) = file.bytes(span.start, span.end);
         place["region"] = json!({
             "startLine": span.line,
             "startColumn": span.column,
             "endLine": span.line,
-            "endColumn": end_column(file.file.text(), span),
+            "endColumn": end_column(file.file.document.text(), span),
             "byteOffset": start,
             "byteLength": length,
         });

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use od_bench::lesson::{Lesson, Problem};
 
 use super::builtin;
-use crate::failure::Failure;
+use crate::failure::{Failure, read_error};
 use crate::output::note;
-use crate::{report, source};
+use crate::report;
 
 /// A file with its lesson, or what is wrong with it.
 pub(super) struct File {
@@ -26,7 +26,7 @@ impl File {
             });
         }
         let failed = |why: &str| Failure::Usage(format!("{shown}: {why}"));
-        let bytes = fs::read(path).map_err(|error| failed(&source::read_error(&error)))?;
+        let bytes = fs::read(path).map_err(|error| failed(&read_error(&error)))?;
         let text = String::from_utf8(bytes).map_err(|_| failed("the file is not UTF-8"))?;
         Ok(Self {
             path: shown,
@@ -59,7 +59,7 @@ pub(super) fn files(paths: &[PathBuf]) -> Result<Vec<File>, Failure> {
             continue;
         }
         let entries = fs::read_dir(path).map_err(|error| {
-            let why = source::read_error(&error);
+            let why = read_error(&error);
             Failure::Usage(format!("{}: {why}", path.display()))
         })?;
         let mut found: Vec<_> = entries

@@ -37,7 +37,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
     let mut tries: BTreeMap<(&'static str, Option<Address>), u8> = BTreeMap::new();
     for _ in 0..ROUNDS {
         let found = od_eds::load(&od_eds::canonical(description)).findings;
-        let errors: Vec<Finding> = found.into_iter().filter(Finding::is_error).collect();
+        let errors: Vec<Finding> = found.into_iter().filter(Finding::is_unsound).collect();
         if errors.is_empty() {
             return Ok(notes);
         }
@@ -52,7 +52,7 @@ pub(super) fn fix(description: &mut Description) -> Result<Notes, Vec<Finding>> 
         }
     }
     let left = od_eds::load(&od_eds::canonical(description)).findings;
-    Err(left.into_iter().filter(Finding::is_error).collect())
+    Err(left.into_iter().filter(Finding::is_unsound).collect())
 }
 
 /// Removes sub-objects without a valid type, and fields whose text is not valid.
