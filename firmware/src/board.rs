@@ -171,7 +171,18 @@ pub fn exit(well: bool) -> ! {
     }
 }
 
+#[cfg(feature = "may-panic")]
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
     exit(false)
+}
+
+/// A program with a path that leads here does not link.
+#[cfg(not(feature = "may-panic"))]
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    unsafe extern "C" {
+        safe fn a_panic_can_be_reached() -> !;
+    }
+    a_panic_can_be_reached()
 }

@@ -177,7 +177,7 @@ impl<'a> Dictionary<'a> {
         let (mut from, mut to) = (0, self.rows.len());
         while from < to {
             let middle = from + (to - from) / 2;
-            if self.rows[middle].index() < index {
+            if middle < self.rows.len() && self.rows[middle].index() < index {
                 from = middle + 1;
             } else {
                 to = middle;
@@ -188,7 +188,11 @@ impl<'a> Dictionary<'a> {
 
     /// Index of the object of the value at a position.
     pub(crate) const fn index_at(&self, position: usize) -> u16 {
-        self.rows[position].index()
+        if position < self.rows.len() {
+            self.rows[position].index()
+        } else {
+            0
+        }
     }
 
     /// The object whose entries begin at a position.

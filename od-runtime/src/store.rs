@@ -118,11 +118,23 @@ impl<'a> Store<'a> {
     /// One value becomes its default.
     #[inline(never)]
     pub(crate) fn reset_row(&mut self, row: &Row) {
-        // A number of one word, as most are, is written as it stands.
-        let mut number = [0; 8];
-        let bytes = default_bytes(self.dictionary, row, self.node_id, &mut number);
         // The layout left room for the default; a longer one cannot be.
-        let _ = self.put_row(row, bytes);
+        match row.is_variable() {
+            true => _ = self.put_row(row, self.dictionary.default_bytes(row)),
+            false => self.put_number(row, default(self.dictionary, row, self.node_id)),
+        }
+    }
+
+    /// Puts a number in its place, cut to its length, if it has one.
+    #[inline(always)]
+    fn put_number(&mut self, row: &Row, number: u64) {
+        if row.is_stored()
+            && let start = row.slot(&[]).offset as usize
+            && let Some(room) = self.values.get_mut(start..start + row.size())
+        {
+            let bytes = number.to_le_bytes();
+            room.iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
+        }
     }
 
     /// Returns whether the value is its default.
@@ -296,9 +308,11 @@ impl<'a> Store<'a> {
         let Ok(row) = self.dictionary.row_of(address) else {
             return false;
         };
-        let bytes = value.to_le_bytes();
-        let bytes = bytes.get(..row.size()).unwrap_or_default();
-        !row.is_variable() && self.put_row(row, bytes).is_ok()
+        let is_number = row.is_stored() && !row.is_variable();
+        if is_number {
+            self.put_number(row, value);
+        }
+        is_number
     }
 }
 
@@ -352,11 +366,16 @@ fn default_bytes<'b>(
     if row.is_variable() {
         return dictionary.default_bytes(row);
     }
+    *number = default(dictionary, row, node_id).to_le_bytes();
+    number.get(..row.size()).unwrap_or_default()
+}
+
+/// The default of a number.
+#[inline]
+fn default(dictionary: &Dictionary<'_>, row: &Row, node_id: NodeId) -> u64 {
     let default = row.default(dictionary.pool(), node_id.raw());
-    let default = match row.data_type() {
+    match row.data_type() {
         DataType::Real32 => real::narrowed(default).into(),
         _ => default,
-    };
-    *number = default.to_le_bytes();
-    number.get(..row.size()).unwrap_or_default()
+    }
 }

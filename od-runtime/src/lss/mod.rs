@@ -96,7 +96,7 @@ impl Slave {
                 None
             }
             Request::SwitchSelective { part, value } => {
-                let matches = address[part as usize] == value;
+                let matches = address.get(part as usize) == Some(&value);
                 let complete = self.selective.step(part as u8, 3, matches);
                 self.configuration |= complete;
                 complete.then_some(Response::Selected { state: 1 })
@@ -184,7 +184,7 @@ impl Slave {
             }
             Request::Inquire { part } => Some(Response::Number {
                 part,
-                value: address[part as usize],
+                value: address.get(part as usize).copied().unwrap_or_default(),
             }),
             Request::InquireNodeId if profile.inquire_node_id => Some(Response::NodeId {
                 node_id: self.node_id.unwrap_or(active),

@@ -18,6 +18,7 @@ mod errors;
 mod event;
 mod fits;
 mod input;
+mod listen;
 mod output;
 mod own;
 mod servers;

@@ -16,7 +16,7 @@ use crate::storage::{Storage, image};
 use crate::store::Store;
 use od_wire::{AbortCode, Instant};
 
-use outbox::{Saving, live_bit};
+use outbox::{RESTORE, Saving, live_bit};
 
 pub(crate) use communication::check_mapped;
 pub(crate) use outbox::{Effect, Outbox};
@@ -275,7 +275,7 @@ impl<'c, D: Device> Objects<'c, D> {
         }
         self.outbox.effect(Effect::Restored(sub));
         if self.storage.is_writing() {
-            self.await_memory(None);
+            self.await_memory(RESTORE);
             self.outbox.answer_later = true;
         }
         Ok(())
@@ -293,8 +293,8 @@ impl<'c, D: Device> Objects<'c, D> {
             return Err(profile.failed);
         };
         self.outbox.saving = Some(Saving {
-            pending: Some(pending),
-            sub: Some(sub),
+            pending,
+            sub,
             due: self.now.plus_micros(profile.duration_us.into()),
         });
         if profile.duration_us > 0 {
@@ -316,10 +316,7 @@ impl<'c, D: Device> Objects<'c, D> {
         let Some(Saving { pending, sub, .. }) = self.outbox.saving.take() else {
             return Some(true);
         };
-        let is_written = match pending {
-            Some(pending) => image::commit(self.storage, pending).is_ok(),
-            None => true,
-        };
+        let is_written = !pending.is_some() || image::commit(self.storage, pending).is_ok();
         if is_written && self.storage.is_writing() {
             self.await_memory(sub);
             return None;
@@ -330,16 +327,16 @@ impl<'c, D: Device> Objects<'c, D> {
         }
         match sub {
             _ if !done => self.outbox.effect(Effect::NotSaved),
-            Some(sub) => self.outbox.effect(Effect::Saved(sub)),
-            None => {}
+            RESTORE => {}
+            sub => self.outbox.effect(Effect::Saved(sub)),
         }
         Some(done)
     }
 
     /// All is written, and on its way to the memory that keeps it.
-    fn await_memory(&mut self, sub: Option<u8>) {
+    fn await_memory(&mut self, sub: u8) {
         self.outbox.saving = Some(Saving {
-            pending: None,
+            pending: image::Pending::NONE,
             sub,
             due: self.now.plus_micros(ASK_AGAIN_US),
         });

@@ -49,13 +49,17 @@ pub(super) const fn live_bit(address: Address) -> u32 {
 /// A save that takes its time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Saving {
-    /// `None`: it is written, and on its way to the memory that keeps it.
-    pub(super) pending: Option<image::Pending>,
-    /// Sub-index of 1010h; `None`: it is a restore, which was told.
-    pub(super) sub: Option<u8>,
+    /// None: it is written, and on its way to the memory that keeps it. No `Option` here or below: its
+    /// niche would keep a node without power from being all zeros.
+    pub(super) pending: image::Pending,
+    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was told.
+    pub(super) sub: u8,
     /// It is complete then.
     pub(crate) due: Instant,
 }
+
+/// No sub-index of 1010h that saves.
+pub(super) const RESTORE: u8 = u8::MAX;
 
 impl Outbox {
     pub(crate) const fn new() -> Self {

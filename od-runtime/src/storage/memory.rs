@@ -81,7 +81,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
             .as_ref()
             .get(offset..offset.saturating_add(to.len()))
             .ok_or(StorageError::OutOfRange)?;
-        to.copy_from_slice(from);
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         Ok(())
     }
 
@@ -103,7 +103,8 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
             }
             None => bytes.len(),
         };
-        to[..len].copy_from_slice(&bytes[..len]);
+        let part = to.iter_mut().zip(bytes).take(len);
+        part.for_each(|(to, from)| *to = *from);
         if self.cut {
             Err(StorageError::PowerCut)
         } else {

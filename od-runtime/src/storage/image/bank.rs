@@ -154,7 +154,7 @@ fn look(storage: &mut dyn Storage, layout: &Layout, start: usize) -> Result<Bank
         return Ok(bank);
     }
     let mut header = [0; MAX_HEADER];
-    let header = &mut header[..layout.header()];
+    let header = header.get_mut(..layout.header()).unwrap_or_default();
     storage.read(start, header)?;
     bank.is_old = header.starts_with(MAGIC_1);
     (bank.code, bank.mark, bank.is_clean) = decode(header, layout.word);
@@ -177,14 +177,16 @@ pub(super) fn content(
     bank: usize,
 ) -> Result<Option<Set>, StorageError> {
     let mut fields = [0; MAX_HEADER];
-    let fields = &mut fields[..layout.header() - 2 * layout.word];
-    storage.read(bank + 2 * layout.word, fields)?;
+    let len = layout.header() - 2 * layout.word;
+    let read = fields.get_mut(..len).unwrap_or_default();
+    storage.read(bank + 2 * layout.word, read)?;
     let number = |at: usize| {
         u32::from_le_bytes([fields[at], fields[at + 1], fields[at + 2], fields[at + 3]])
     };
     let start = bank + layout.header();
+    let mut rest = fields.iter().take(len).skip(FIELDS);
     let len = number(4) as usize;
-    if len > layout.size - layout.header() || fields[FIELDS..].iter().any(|byte| *byte != ERASED) {
+    if len > layout.size - layout.header() || rest.any(|byte| *byte != ERASED) {
         return Ok(None);
     }
     let mut crc = Crc32::new();

@@ -117,7 +117,7 @@ impl Layout {
             word,
         } = storage.geometry();
         let half = capacity / 2;
-        let fits = word.is_power_of_two() && word <= MAX_WORD && page % word == 0;
+        let fits = word.is_power_of_two() && word <= MAX_WORD && page & (word - 1) == 0;
         let mut layout = Self {
             page,
             word: if fits { word } else { 1 },
@@ -162,9 +162,9 @@ impl Layout {
         code: Code,
     ) -> Result<(), StorageError> {
         let wanted = [code.byte(); MAX_WORD];
-        let wanted = &wanted[..self.word];
+        let wanted = wanted.get(..self.word).unwrap_or(&wanted);
         let mut word = [0; MAX_WORD];
-        let word = &mut word[..self.word];
+        let word = word.get_mut(..self.word).unwrap_or_default();
         storage.read(at, word)?;
         // A word of flash is written once.
         if word != wanted && (self.page == 0 || word.iter().all(|byte| *byte == ERASED)) {
@@ -181,7 +181,13 @@ impl Layout {
 
 /// Bytes of a header on a storage with words of this size.
 pub(super) const fn header(word: usize) -> usize {
-    2 * word + FIELDS.next_multiple_of(word)
+    2 * word + whole_words(FIELDS, word)
+}
+
+/// The bytes of so many whole words as `len` bytes need; the length of a word is a power of two.
+pub(super) const fn whole_words(len: usize, word: usize) -> usize {
+    let rest = word.wrapping_sub(1);
+    len.wrapping_add(rest) & !rest
 }
 
 /// Returns whether nothing was ever written there: all bytes are FFh, or all are 0.
@@ -191,12 +197,13 @@ pub(super) fn is_blank(
     len: usize,
 ) -> Result<bool, StorageError> {
     let (mut all, mut any) = (u32::MAX, 0);
+    let mut chunk = [0; 64];
     for at in (0..len).step_by(64) {
-        let mut chunk = [0; 64];
         let size = (len - at).min(64);
-        storage.read(start + at, &mut chunk[..size])?;
-        let first = chunk[0];
-        chunk[size..].fill(first);
+        let (part, rest) = chunk.split_at_mut(size);
+        storage.read(start + at, part)?;
+        let first = part.first().copied().unwrap_or_default();
+        rest.iter_mut().for_each(|byte| *byte = first);
         // Most of a bank is erased, so this is most of a start.
         for word in chunk.as_chunks().0 {
             all &= u32::from_ne_bytes(*word);

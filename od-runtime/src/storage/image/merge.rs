@@ -8,6 +8,7 @@ use super::cob_id;
 use super::covered::{is_life_record, is_saved};
 use super::layout::{
     Code, ERASED, FIELDS, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, in_chunks, is_blank,
+    whole_words,
 };
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
@@ -42,6 +43,24 @@ pub(crate) struct Pending {
     layout: Layout,
     target: usize,
     code: Code,
+}
+
+impl Pending {
+    /// No set.
+    pub(crate) const NONE: Self = Self {
+        layout: Layout {
+            page: 0,
+            word: 0,
+            size: 0,
+        },
+        target: 0,
+        code: Code::ERASED,
+    };
+
+    /// Whether there is a set.
+    pub(crate) const fn is_some(self) -> bool {
+        self.layout.size > 0
+    }
 }
 
 /// Writes the next set into the older bank, all but the commit word.
@@ -147,12 +166,12 @@ impl Set<'_> {
         while layout.page == 0 && writer.at < end {
             let part = (end - writer.at).min(writer.buffer.len());
             if !is_blank(storage, writer.at, part)? {
-                storage.write(writer.at, &[ERASED; 64][..part])?;
+                storage.write(writer.at, [ERASED; 64].get(..part).unwrap_or_default())?;
             }
             writer.at += part;
         }
         fields[8..FIELDS].copy_from_slice(&writer.crc.finish().to_le_bytes());
-        let fields = &fields[..header - 2 * layout.word];
+        let fields = fields.get(..header - 2 * layout.word).unwrap_or_default();
         storage.write(target + 2 * layout.word, fields)?;
         storage.flush()?;
         let whole = content(storage, &layout, target)?;
@@ -201,7 +220,8 @@ impl Set<'_> {
                     writer.head(storage, address, bytes.len())?;
                     match cob_id::difference(self.store, row, self.next.cob_ids) {
                         Some(difference) => {
-                            writer.put(storage, &difference[..bytes.len().min(8)])?;
+                            let bytes = difference.get(..bytes.len()).unwrap_or(&difference);
+                            writer.put(storage, bytes)?;
                         }
                         None => writer.put(storage, bytes)?,
                     }
@@ -267,10 +287,13 @@ impl Writer {
         }
         self.crc.update(bytes);
         while !bytes.is_empty() {
-            let part = bytes.len().min(self.buffer.len() - self.filled);
-            self.buffer[self.filled..self.filled + part].copy_from_slice(&bytes[..part]);
+            let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
+            let part = bytes.len().min(room.len());
+            for (to, from) in room.iter_mut().zip(bytes) {
+                *to = *from;
+            }
             self.filled += part;
-            bytes = &bytes[part..];
+            bytes = bytes.get(part..).unwrap_or_default();
             if self.filled == self.buffer.len() {
                 self.write_out(storage, 1)?;
             }
@@ -280,9 +303,10 @@ impl Writer {
 
     /// Writes the buffer, with the rest of its last word.
     fn write_out(&mut self, storage: &mut dyn Storage, word: usize) -> Result<(), StorageError> {
-        let end = self.filled.next_multiple_of(word);
-        self.buffer[self.filled..end].fill(ERASED);
-        storage.write(self.at, &self.buffer[..end])?;
+        let end = whole_words(self.filled, word);
+        let rest = self.buffer.get_mut(self.filled..end).unwrap_or_default();
+        rest.iter_mut().for_each(|byte| *byte = ERASED);
+        storage.write(self.at, self.buffer.get(..end).unwrap_or_default())?;
         self.at += end;
         self.filled = 0;
         Ok(())
