@@ -6,6 +6,7 @@ use super::angle::Angle;
 use super::motion::{Gain, Motion};
 use super::object::Role;
 use super::position::Scale;
+use super::position::ratio::at_least_1;
 use super::profile::{Counter, Gear, GearKind, RangeRule, Total};
 use super::state::Encoder;
 use crate::store::Store;
@@ -112,14 +113,14 @@ impl<M: Motion> Encoder<M> {
         }
         self.output = output;
         if let Some((numerator, denominator)) = output {
-            let steps = range.saturating_mul(denominator) / numerator.max(1);
+            let steps = range.saturating_mul(denominator) / at_least_1(numerator);
             // The object takes nothing less than 1.
             let steps = steps.clamp(1, u32::MAX.into());
             store.set_unsigned(STEPS, steps);
         }
         let steps = self.resolution(store);
         if self.profile.total == Total::Shown {
-            let turns = range / u64::from(steps.max(1));
+            let turns = range / at_least_1(steps.into());
             store.set_unsigned(Address::new(0x6502, 0), turns);
         }
         let scale = if operating & SCALING == 0 {

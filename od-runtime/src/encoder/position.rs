@@ -5,7 +5,7 @@
 //!           6501h   6001h          2001h    6002h     6000h bit 0           6509h
 //! ```
 
-mod ratio;
+pub(super) mod ratio;
 
 use super::angle::Angle;
 use ratio::{Ratio, at_least_1};

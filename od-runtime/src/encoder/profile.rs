@@ -213,7 +213,7 @@ impl EncoderProfile {
         let steps = some(0x6501).or_else(|| some(0x6001)).unwrap_or(0x2000);
         let total = some(0x6502).unwrap_or(1);
         let turns = match self.total {
-            Total::Steps => total / steps,
+            Total::Steps => total.checked_div(steps).unwrap_or(total),
             Total::Revolutions | Total::Shown => total,
         };
         Sensor {

@@ -151,7 +151,7 @@ pub fn load(
                 }
             }
             Some(row) if record.len <= number.len() => {
-                let value = &mut number[..record.len];
+                let value = number.get_mut(..record.len).unwrap_or_default();
                 storage.read(record.at, value)?;
                 if !cob_id::restore(store, row, profile.cob_ids, value)
                     || limits::check(store, row, value).is_err()

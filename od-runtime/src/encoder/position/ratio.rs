@@ -71,7 +71,7 @@ const fn subtracted(one: u64, other: u64, whole: u64) -> (u64, u64) {
 }
 
 /// A number to divide by.
-#[inline]
-pub(super) const fn at_least_1(number: u64) -> u64 {
+#[inline(always)] // so that the compiler sees that nothing is divided by 0
+pub(in crate::encoder) const fn at_least_1(number: u64) -> u64 {
     if number == 0 { 1 } else { number }
 }

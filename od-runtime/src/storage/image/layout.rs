@@ -222,7 +222,7 @@ pub(super) fn in_chunks(
 ) -> Result<(), StorageError> {
     let mut chunk = [0; 64];
     for at in (0..len).step_by(chunk.len()) {
-        let part = &mut chunk[..(len - at).min(64)];
+        let part = chunk.get_mut(..(len - at).min(64)).unwrap_or_default();
         storage.read(start + at, part)?;
         each(storage, part)?;
     }

@@ -7,8 +7,7 @@ use super::bank::{Banks, content};
 use super::cob_id;
 use super::covered::{is_life_record, is_saved};
 use super::layout::{
-    Code, ERASED, FIELDS, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, in_chunks, is_blank,
-    whole_words,
+    Code, ERASED, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, in_chunks, is_blank, whole_words,
 };
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
@@ -153,12 +152,12 @@ impl Set<'_> {
         let (layout, target) = (self.banks.layout, self.banks.target);
         let header = layout.header();
         layout.clear(storage, target, header + len)?;
-        let mut fields = [ERASED; MAX_HEADER];
-        fields[..4].copy_from_slice(&self.banks.device.to_le_bytes());
+        let device = self.banks.device.to_le_bytes();
         // The length is less than a bank, which a header can describe.
-        fields[4..8].copy_from_slice(&(len as u32).to_le_bytes());
+        let bytes = (len as u32).to_le_bytes();
         let mut writer = Writer::new(target + header, false);
-        writer.crc.update(&fields[..8]);
+        writer.crc.update(&device);
+        writer.crc.update(&bytes);
         self.records(storage, &mut writer)?;
         writer.write_out(storage, layout.word)?;
         // Behind the records nothing stays of older sets; flash is erased there.
@@ -170,7 +169,12 @@ impl Set<'_> {
             }
             writer.at += part;
         }
-        fields[8..FIELDS].copy_from_slice(&writer.crc.finish().to_le_bytes());
+        let mut fields = [ERASED; MAX_HEADER];
+        let crc = writer.crc.finish().to_le_bytes();
+        let known = [device, bytes, crc];
+        for (to, from) in fields.iter_mut().zip(known.as_flattened()) {
+            *to = *from;
+        }
         let fields = fields.get(..header - 2 * layout.word).unwrap_or_default();
         storage.write(target + 2 * layout.word, fields)?;
         storage.flush()?;
