@@ -2,10 +2,10 @@
 
 use od_model::Dictionary;
 use od_model::typed::{DeviceWritable, Scalar, Var};
-use od_runtime::storage::{NoStorage, Storage};
+use od_runtime::storage::Storage;
 use od_runtime::{
-    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, NoApplication, Node,
-    NodeId, Profile, Store, Unfit,
+    Application, BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, Profile,
+    Store, Unfit,
 };
 use od_wire::CanId;
 
@@ -28,10 +28,6 @@ pub struct Board<D, A, S, const PDO: usize, const SDO: usize, const LEN: usize, 
     /// Memory for the values saved with 1010h.
     pub storage: S,
 }
-
-/// Board of a device without behaviour of its own, which saves nothing.
-pub type Plain<D, const PDO: usize, const SDO: usize, const LEN: usize> =
-    Board<D, NoApplication, NoStorage, PDO, SDO, LEN>;
 
 impl<
     D: Device,

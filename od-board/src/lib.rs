@@ -83,7 +83,7 @@
 //! # RTIC
 //!
 //! The interrupt of the CAN controller handles frames, a task of low priority writes flash, and they share
-//! the board. [firmware/rtic] is a complete program; these are its two tasks:
+//! the board. `firmware/rtic` is a complete program; these are its two tasks:
 //!
 //! ```text
 //! #[task(binds = GPIOA, priority = 2, shared = [board, can], local = [port, clock])]
@@ -100,9 +100,7 @@
 //!
 //! A block transfer is a frame at a time in the interrupt, and never more. While flash is erased or written
 //! nobody holds the board, so a SYNC is answered at once. What the node does in one call is the longest that
-//! a frame can wait: a save that is taken over, which [firmware/rtic] measures.
-//!
-//! [firmware/rtic]: https://github.com/odkit/odkit/tree/main/firmware/rtic
+//! a frame can wait: a save that is taken over, which `firmware/rtic` measures.
 #![cfg_attr(
     all(feature = "embassy", feature = "flash"),
     doc = r#"
@@ -182,7 +180,7 @@ mod port;
 mod shared;
 pub mod storage;
 
-pub use board::{Board, Plain};
+pub use board::Board;
 pub use clock::Clock;
 pub use filters::{Filter, Filters};
 pub use owner::Owner;
