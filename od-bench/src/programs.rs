@@ -6,10 +6,10 @@ use od_model::{Address, Dictionary};
 use od_runtime::Instant;
 use od_runtime::program::{self, MemoryFailed, Program, ProgramMemory};
 
-use crate::long::DOMAIN_SIZE;
-
 /// Bytes of a page.
 const PAGE: usize = 256;
+/// Most bytes of a program.
+const SIZE: u32 = 1 << 20;
 
 /// Memory that outlasts power, and takes room as a program comes.
 #[derive(Default)]
@@ -20,7 +20,7 @@ pub(crate) struct Memory {
 
 impl ProgramMemory for Memory {
     fn size(&self) -> u32 {
-        DOMAIN_SIZE as u32
+        SIZE
     }
 
     fn erase(&mut self, _: Instant) -> Result<(), MemoryFailed> {
