@@ -5,5 +5,5 @@
 #![no_std]
 
 pub mod board;
-mod memory;
 pub mod master;
+mod memory;
