@@ -26,6 +26,7 @@ macro_rules! files {
 
 files! {
     small: "../eds/small.eds",
+    services: "../eds/services.eds",
     gxmm: "../../devices/eds/GXMM.eds",
     eam_mt: "../../devices/eds/EAM_MT.eds",
     en580c: "../../devices/eds/EN580C.eds",
