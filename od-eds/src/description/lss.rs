@@ -1,4 +1,4 @@
-//! What [DeviceInfo] says of LSS.
+//! What `[DeviceInfo]` says of LSS.
 
 use alloc::format;
 
@@ -8,7 +8,7 @@ use super::Description;
 const KBIT: [u16; 9] = [1000, 800, 500, 250, 125, 0, 50, 20, 10];
 
 impl Description {
-    /// Returns whether a key of [DeviceInfo] is there and not 0.
+    /// Returns whether a key of `[DeviceInfo]` is there and not 0.
     pub fn info_is_set(&self, key: &str) -> bool {
         let info = self.section("DeviceInfo");
         let value = info.and_then(|info| info.get(key));

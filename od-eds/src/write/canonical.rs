@@ -3,7 +3,7 @@
 //! python-canopen asks for all seven dummies, for as many comment lines as are
 //! announced, and for numbers where numbers belong; Lely's checker for the spelling
 //! `DeviceComissioning`; CANopenEditor for the standard's capitals and dates, and for
-//! [FileInfo] and [DeviceInfo].
+//! `[FileInfo]` and `[DeviceInfo]`.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;

@@ -17,7 +17,7 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// Sentence for a section that [DeviceInfo] denies.
+/// Sentence for a section that `[DeviceInfo]` denies.
 const DENIED: Form = Form {
     says: "section [DynamicChannels] exists, but [DeviceInfo] does not declare dynamic channels",
     help: "write the number of segments to `DynamicChannelsSupported`",
