@@ -22,7 +22,7 @@ const EMULATOR: &str = "qemu-system-arm";
 const BOARDS: [(&str, &[&str], bool); 4] = [
     ("generic", &[target::BARE, target::SMALLEST], true),
     ("rp2040+mcp2515", &[target::SMALLEST], false),
-    ("stm32g0", &[target::SMALLEST], true),
+    ("stm32g0", &[target::SMALLEST], false),
     ("stm32f4", &[target::FLOAT], false),
 ];
 /// Frames to the firmware of gxmm in the emulator, and the one that answers each, as slcan text.
