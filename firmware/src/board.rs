@@ -131,7 +131,7 @@ fn semihosting(operation: u32, parameter: usize) -> usize {
 pub struct File(usize);
 
 impl File {
-    /// Opens a file to be read, or makes one anew to be written.
+    /// Opens a file to read, or creates one to write.
     pub fn open(name: &CStr, writes: bool) -> Self {
         let mode = if writes { 5 } else { 1 };
         let block = [name.as_ptr() as usize, mode, name.to_bytes().len()];

@@ -279,7 +279,7 @@ impl Line {
             || no_one && waiting.attempts >= ATTEMPTS
     }
 
-    /// Keeps a disturbance for whoever asks.
+    /// Keeps a disturbance until it is asked for.
     pub(super) fn keep(&mut self, disturbance: Disturbance) {
         if self.disturbed.len() == KEPT {
             self.disturbed.pop_front();

@@ -4,8 +4,8 @@
 
 #include "odkit.h"
 
-/* Starts the board. It calls device_power_on. */
-void board_start(void);
+/* Starts the board, which calls power_on with the node ID each time power comes. */
+void board_start(void (*power_on)(uint8_t node_id));
 /* Counts microseconds, modulo 2^32. */
 uint32_t board_now_us(void);
 /* Sleeps until a frame arrives, or this many microseconds at most. */
@@ -28,8 +28,5 @@ bool board_eeprom_read(uint32_t offset, uint8_t *to, uint32_t len);
 bool board_eeprom_write(uint32_t offset, const uint8_t *from, uint32_t len);
 /* Something is wrong that nothing can be done about. */
 void board_fail(void);
-
-/* Of the device: power comes, with this node ID. */
-void device_power_on(uint8_t node_id);
 
 #endif

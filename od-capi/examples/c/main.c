@@ -55,7 +55,7 @@ static void look_at_events(void)
     }
 }
 
-void device_power_on(uint8_t node_id)
+static void power_on(uint8_t node_id)
 {
     odkit_device device = {0};
     device.reset = on_reset;
@@ -69,7 +69,7 @@ void device_power_on(uint8_t node_id)
 
 int main(void)
 {
-    board_start();
+    board_start(power_on);
     for (;;) {
         odkit_frame frame;
         uint32_t now = board_now_us();

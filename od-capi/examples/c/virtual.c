@@ -37,6 +37,9 @@ static uint64_t next_at;
 static odkit_frame received;
 static bool has_received;
 
+/* What the device does when power comes. */
+static void (*device_power_on)(uint8_t node_id);
+
 static uint8_t get_byte(void)
 {
     uint8_t byte = 0;
@@ -183,8 +186,9 @@ static void act(void)
     }
 }
 
-void board_start(void)
+void board_start(void (*power_on)(uint8_t node_id))
 {
+    device_power_on = power_on;
     virtual_open();
 }
 
