@@ -5,9 +5,11 @@ use std::prelude::v1::*;
 use std::vec;
 
 use od_model::Dictionary;
+#[cfg(feature = "eds")]
+use od_runtime::Application;
 use od_runtime::encoder::Fault;
 use od_runtime::storage::{Storage, image};
-use od_runtime::{Application, BusEvent, Event, Frame, Instant, Lent, NodeId, Profile, Reset};
+use od_runtime::{BusEvent, Event, Frame, Instant, Lent, NodeId, Profile, Reset};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 

@@ -3,12 +3,13 @@
 mod device;
 mod show;
 
+use od_bus::links;
+use od_bus::master::Master;
 use od_eds::Tables;
 use od_eds::diff::{Difference, Impact, compare};
 use od_runtime::NodeId;
 
 use crate::failure::Failure;
-use crate::live;
 use crate::source::{self, Source};
 
 /// Compare two object dictionaries, or one with a node on a bus
@@ -60,8 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             (found, after.clone())
         }
         (None, Some(link)) => {
-            let mut open = live::open(link)?;
-            let mut client = live::Client::new(&mut *open, args.node_id);
+            let mut client = Master::new(links::open(link)?, args.node_id);
             let found = device::compare(before.dictionary(), &mut client, args.values)?;
             (found, format!("node {} on {link}", args.node_id.raw()))
         }

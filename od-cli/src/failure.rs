@@ -34,6 +34,15 @@ impl From<od_bench::serve::Failure> for Failure {
     }
 }
 
+impl From<od_bus::fault::Fault> for Failure {
+    fn from(fault: od_bus::fault::Fault) -> Self {
+        match fault {
+            od_bus::fault::Fault::Usage(message) => Self::Usage(message),
+            other => Self::Failed(other.to_string()),
+        }
+    }
+}
+
 /// Error of the operating system as a clause.
 pub(crate) fn read_error(error: &std::io::Error) -> String {
     match error.kind() {

@@ -15,7 +15,6 @@ mod explain;
 mod export;
 mod failure;
 mod lesson;
-mod live;
 mod new;
 mod output;
 mod report;

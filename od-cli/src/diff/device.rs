@@ -1,18 +1,19 @@
 //! A dictionary against a device on a bus: what it has, what it answers.
 
+use od_bus::link::Link;
+use od_bus::master::Master;
 use od_eds::diff::{Difference, Field, Impact};
 use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
 use od_runtime::{AbortCode, NodeId};
 
 use crate::failure::Failure;
-use crate::live::Client;
 
 /// Reads every object that can be read. What a device has besides them cannot be told from
 /// what it has not without asking for all 65,536, so nothing is ever "added" here.
 pub(super) fn compare(
     dictionary: Dictionary<'_>,
-    client: &mut Client<'_>,
+    client: &mut Master<impl Link>,
     values: bool,
 ) -> Result<Vec<Difference>, Failure> {
     let node = client.node();

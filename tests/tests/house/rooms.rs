@@ -21,7 +21,7 @@ const fn room(name: &'static str, storey: u8, lines: usize) -> Room {
 }
 
 /// All rooms, from the ground up.
-pub(crate) const ROOMS: [Room; 16] = [
+pub(crate) const ROOMS: [Room; 17] = [
     room("od-model", 1, 3_000),
     room("od-wire", 2, 1_600),
     room("od-eds", 2, 13_400),
@@ -31,6 +31,7 @@ pub(crate) const ROOMS: [Room; 16] = [
     room("od-board", 4, 1_200),
     room("od-bench", 4, 8_700),
     room("odkit", 5, 200),
+    room("od-bus", 5, 2_500),
     room("devices", 6, 1_900),
     room("od-capi", 6, 1_700),
     room("od-cli", 7, 2_900),

@@ -2,30 +2,33 @@
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
-use std::time::Instant;
+use std::time;
 
-use od_runtime::Frame;
-
-use super::link::Link;
-use crate::failure::Failure;
 use od_bench::links::slcan;
+use od_wire::{Duration, Frame, Instant};
 
-pub(crate) struct Client {
+use crate::fault::Fault;
+use crate::link::{Heard, Link};
+
+/// A connection to an adapter's server.
+pub(super) struct Tcp {
     stream: TcpStream,
     address: String,
     /// Bytes of an incomplete line.
     rest: Vec<u8>,
+    /// Origin of the link's time.
+    start: time::Instant,
 }
 
-impl Client {
-    pub(crate) fn open(address: &str) -> Result<Self, Failure> {
+impl Tcp {
+    pub(super) fn open(address: &str) -> Result<Self, Fault> {
         // A port without a host is a port of this computer.
         let address = match address.parse::<u16>() {
             Ok(port) => format!("127.0.0.1:{port}"),
             Err(_) => address.to_owned(),
         };
         let fail = |error: std::io::Error| {
-            Failure::Failed(format!(
+            Fault::Link(format!(
                 "slcan:{address}: {error}; start a CAN adapter server or `odkit sim` at this address"
             ))
         };
@@ -35,19 +38,20 @@ impl Client {
             stream,
             address,
             rest: Vec::new(),
+            start: time::Instant::now(),
         };
         client.write(b"C\rO\r")?;
         Ok(client)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
         let blocking = self.stream.set_nonblocking(false);
         let written = blocking.and_then(|()| self.stream.write_all(bytes));
         written.map_err(|error| self.lost(&error.to_string()))
     }
 
-    fn lost(&self, why: &str) -> Failure {
-        Failure::Failed(format!("slcan:{}: {why}", self.address))
+    fn lost(&self, why: &str) -> Fault {
+        Fault::Link(format!("slcan:{}: {why}", self.address))
     }
 
     /// The next frame among the whole lines that are here.
@@ -62,20 +66,25 @@ impl Client {
     }
 }
 
-impl Link for Client {
-    fn send(&mut self, frame: &Frame) -> Result<(), Failure> {
+impl Link for Tcp {
+    fn now(&self) -> Instant {
+        Instant::ZERO + self.start.elapsed()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
         let mut line = Vec::new();
         slcan::write_frame(frame, &mut line);
         line.push(b'\r');
         self.write(&line)
     }
 
-    fn receive(&mut self, until: Instant) -> Result<Option<Frame>, Failure> {
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
         loop {
             if let Some(frame) = self.take() {
-                return Ok(Some(frame));
+                let at = self.now();
+                return Ok(Some(Heard { at, frame }));
             }
-            let left = until.saturating_duration_since(Instant::now());
+            let left = Duration::from_micros(until.micros_since(self.now()));
             // A time-out of zero would mean none at all.
             let set = self.stream.set_nonblocking(left.is_zero()).and_then(|()| {
                 let wait = Some(left).filter(|left| !left.is_zero());

@@ -1,0 +1,24 @@
+//! What goes wrong between a program and a bus.
+
+use std::fmt;
+
+/// Why a link or a node did not do what it was asked for. Its text says where, what, and what to do.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum Fault {
+    /// What was asked for cannot be: a link of unknown kind, a place that is none.
+    Usage(String),
+    /// The link cannot be opened, or is lost.
+    Link(String),
+    /// A node is silent, or says what no node should.
+    Node(String),
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Usage(text) | Self::Link(text) | Self::Node(text)) = self;
+        f.write_str(text)
+    }
+}
+
+impl std::error::Error for Fault {}

@@ -1,0 +1,10 @@
+//! The other end of a CANopen bus, for programs that look at devices.
+//!
+//! [`link::Link`] is a bus with a clock of its own, in real or in virtual time;
+//! [`master::Master`] waits for answers on it.
+
+pub mod bench;
+pub mod fault;
+pub mod link;
+pub mod links;
+pub mod master;

@@ -1,0 +1,62 @@
+//! A link to a bus.
+
+use od_wire::{Frame, Instant};
+
+use crate::fault::Fault;
+
+/// A frame that came over a link.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Heard {
+    /// When, by the link's clock.
+    pub at: Instant,
+    /// The frame.
+    pub frame: Frame,
+}
+
+/// A link to a bus, with a clock of its own: real time on a real bus, virtual time on a bench.
+/// Whoever waits on a bench moves its time, so that nothing has to be slept through.
+pub trait Link {
+    /// The present moment; [`Instant::ZERO`] is when the link was opened.
+    fn now(&self) -> Instant;
+
+    /// Sends a frame.
+    ///
+    /// # Errors
+    /// [`Fault::Link`] if the link is lost.
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault>;
+
+    /// Waits for the next frame of the others until `until`; with a moment that is past it takes
+    /// what is there and does not wait. Frames sent over this link do not come back.
+    ///
+    /// # Errors
+    /// [`Fault::Link`] if the link is lost.
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault>;
+}
+
+impl<L: Link + ?Sized> Link for &mut L {
+    fn now(&self) -> Instant {
+        (**self).now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        (**self).receive(until)
+    }
+}
+
+impl<L: Link + ?Sized> Link for Box<L> {
+    fn now(&self) -> Instant {
+        (**self).now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        (**self).send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        (**self).receive(until)
+    }
+}

@@ -1,0 +1,117 @@
+//! A master on a link: it sends what its client has to send, and waits for answers.
+
+use od_client::sdo::{Options, SdoError};
+use od_client::{Client, Event, lss};
+use od_model::Address;
+use od_wire::{Instant, NodeId};
+
+use crate::fault::Fault;
+use crate::link::Link;
+
+/// An answer within 1 s, as devices that save or calibrate take their time; a value of at most
+/// 1 MiB, as a longer one is a device gone wild.
+const OPTIONS: Options = Options::DEFAULT;
+
+/// A master of one node on a link.
+#[derive(Debug)]
+pub struct Master<L> {
+    link: L,
+    node: NodeId,
+    client: Client,
+}
+
+impl<L: Link> Master<L> {
+    /// A master of `node` on `link`.
+    pub fn new(link: L, node: NodeId) -> Self {
+        Self {
+            link,
+            node,
+            client: Client::with(OPTIONS, lss::Options::DEFAULT),
+        }
+    }
+
+    /// Returns the node ID.
+    pub const fn node(&self) -> NodeId {
+        self.node
+    }
+
+    /// Returns the link, for frames that are no jobs of the client.
+    pub const fn link(&mut self) -> &mut L {
+        &mut self.link
+    }
+
+    /// Reads an object: its bytes, or the code of the SDO abort.
+    ///
+    /// # Errors
+    /// The link is lost, or the node says nothing, or what no server should.
+    pub fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Fault> {
+        self.client.read(self.node, address);
+        loop {
+            if let Event::Read(_, result) = self.event()? {
+                return self.outcome(address, result);
+            }
+        }
+    }
+
+    /// Writes an object; answers with the code of the SDO abort if there was one.
+    ///
+    /// # Errors
+    /// As [`upload`](Self::upload).
+    pub fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Result<(), u32>, Fault> {
+        self.client.write(self.node, address, bytes);
+        loop {
+            if let Event::Written(_, result) = self.event()? {
+                return self.outcome(address, result);
+            }
+        }
+    }
+
+    /// Waits for the client's next event; only for a client with a job, which ends with one.
+    fn event(&mut self) -> Result<Event, Fault> {
+        loop {
+            self.send()?;
+            if let Some(event) = self.client.poll_event() {
+                return Ok(event);
+            }
+            let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
+            match self.link.receive(until)? {
+                Some(heard) => self.client.handle_frame(heard.at, &heard.frame),
+                None => self.client.handle_timeout(self.link.now()),
+            }
+        }
+    }
+
+    fn send(&mut self) -> Result<(), Fault> {
+        while let Some(frame) = self.client.poll_transmit(self.link.now()) {
+            // What an earlier, slower answer left behind is not the answer to this.
+            while self.link.receive(Instant::ZERO)?.is_some() {}
+            self.link.send(&frame)?;
+        }
+        Ok(())
+    }
+
+    fn outcome<T>(
+        &self,
+        address: Address,
+        result: Result<T, SdoError>,
+    ) -> Result<Result<T, u32>, Fault> {
+        let node = self.node;
+        Err(Fault::Node(match result {
+            Ok(done) => return Ok(Ok(done)),
+            Err(SdoError::Abort(code)) => return Ok(Err(code)),
+            Err(SdoError::Silent) => format!(
+                "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
+                 state (not Stopped) and its node ID",
+                OPTIONS.timeout.as_secs()
+            ),
+            Err(SdoError::OutOfTurn { got, .. }) => {
+                format!("node {node}: unexpected SDO response for {address}: {got:?}")
+            }
+            Err(SdoError::TooLong) => {
+                let limit = OPTIONS.limit;
+                format!("node {node}: {address} is longer than {limit} bytes")
+            }
+            Err(other) => format!("node {node}: {address}: {other}"),
+        }))
+    }
+}
