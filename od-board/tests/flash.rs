@@ -2,7 +2,7 @@
 //! step.
 #![cfg(feature = "flash")]
 
-#[path = "../../od-runtime/tests/support/nor.rs"]
+#[path = "../../od-runtime/tests/all/nor.rs"]
 mod nor;
 mod support;
 

@@ -13,7 +13,7 @@ use od_runtime::DeviceKind;
 use od_runtime::storage::{Geometry, Memory, Storage, StorageError, image};
 use od_runtime::{CutSave, Frame, NodeId};
 
-#[path = "../../od-runtime/tests/support/nor.rs"]
+#[path = "../../od-runtime/tests/all/nor.rs"]
 mod nor;
 
 use nor::Nor;

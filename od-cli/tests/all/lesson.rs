@@ -1,0 +1,168 @@
+//! `odkit lesson`: lists, shows, takes and checks lessons; exit codes.
+
+use crate::support::{file, odkit, repository};
+
+fn lesson(name: &str) -> String {
+    repository(&format!("playground/lessons/{name}.md"))
+}
+
+#[test]
+fn the_lessons_of_the_repository_are_listed_and_proved() {
+    let folder = repository("playground/lessons");
+    let list = odkit(&["lesson", "list", &folder], "");
+    assert_eq!(list.code, 0, "{}", list.err);
+    assert!(list.out.lines().count() >= 12, "{}", list.out);
+    assert!(
+        list.out
+            .contains("level 1, 10 min, 5 steps  Boot-up and heartbeat")
+    );
+    let builtin = odkit(&["lesson", "list"], "");
+    assert_eq!(builtin.out.lines().count(), list.out.lines().count());
+    assert!(
+        builtin.out.starts_with("boot-up-and-heartbeat  level 1"),
+        "{}",
+        builtin.out
+    );
+    let by_name = odkit(&["lesson", "run", "nmt", "--solution"], "");
+    assert_eq!(by_name.code, 0, "{}", by_name.err);
+    let check = odkit(&["lesson", "check", &folder], "");
+    assert_eq!(check.code, 0, "{}", check.err);
+    assert!(
+        check.err.ends_with("lessons, no mistakes\n"),
+        "{}",
+        check.err
+    );
+}
+
+#[test]
+fn a_lesson_is_shown_without_giving_it_away() {
+    let path = lesson("01-boot-up-and-heartbeat");
+    let plain = odkit(&["lesson", "show", &path], "");
+    assert_eq!(plain.code, 0, "{}", plain.err);
+    assert!(
+        plain
+            .out
+            .starts_with("# Boot-up and heartbeat\n\nLevel 1, 10 minutes, 5 steps.")
+    );
+    assert!(plain.out.contains("Which frame is it?"));
+    assert!(!plain.out.contains("Hint") && !plain.out.contains("sdo write"));
+    let all = odkit(
+        &[
+            "lesson",
+            "show",
+            &path,
+            "--step",
+            "2",
+            "--hints",
+            "1",
+            "--solution",
+        ],
+        "",
+    );
+    assert!(
+        all.out.contains("Hint 1: ") && !all.out.contains("Hint 2: "),
+        "{}",
+        all.out
+    );
+    assert!(all.out.contains("    sdo write 1017h = 500\n"));
+    let beyond = odkit(&["lesson", "show", &path, "--step", "6"], "");
+    assert_eq!((beyond.code, beyond.out.as_str()), (2, ""));
+}
+
+#[test]
+fn a_lesson_that_is_taken_says_what_is_missing() {
+    let path = lesson("01-boot-up-and-heartbeat");
+    let lines = "power on\nsdo write 1017h = 500\nhello\nwait 600ms\n";
+    let taken = odkit(&["lesson", "run", &path, "--hints", "2"], lines);
+    assert_eq!(taken.code, 1);
+    let expected = "(0.000000) can0 705#00\n\
+                    # step 1 is done at 0.000000 s: Power the encoder and find its first frame\n\
+                    (0.000000) can0 585#6017100000000000\n\
+                    (0.500000) can0 705#7F\n\
+                    # step 2 of 5 is open: Configure a heartbeat of 500 ms\n\
+                    #   holds    1017h is written over the bus\n\
+                    #   holds    1017h Producer heartbeat time is 500\n\
+                    #   missing  three heartbeats come, half a second apart (1 of 3 so far)\n\
+                    # hint 1 of 3: ";
+    assert!(taken.out.starts_with(expected), "{}", taken.out);
+    assert!(taken.out.contains("# hint 2 of 3: ") && !taken.out.contains("# hint 3"));
+    assert!(
+        taken
+            .err
+            .starts_with("-:3:1: `hello` is not a verb or a frame"),
+        "{}",
+        taken.err
+    );
+    let echoed = odkit(&["lesson", "run", &path, "--echo"], "power on\n605#40\n");
+    assert!(echoed.out.contains("can0 605#40\n"), "{}", echoed.out);
+}
+
+#[test]
+fn a_solution_does_it_all_and_a_line_that_fails_is_told() {
+    for name in ["02-nmt", "10-lss", "14-find-terminator"] {
+        let solved = odkit(&["lesson", "run", &lesson(name), "--solution"], "");
+        assert_eq!(solved.code, 0, "{}{}", solved.out, solved.err);
+        assert!(
+            solved.out.contains("# the lesson is done: "),
+            "{}",
+            solved.out
+        );
+    }
+    let lines = "sdo read 5555h\nsdo write 1000h = 1 aborts 06010002h\n";
+    let taken = odkit(&["lesson", "run", &lesson("04-aborts")], lines);
+    assert_eq!(taken.code, 1);
+    assert!(
+        taken.err.starts_with("odkit: -: line 1 at "),
+        "{}",
+        taken.err
+    );
+    assert!(taken.out.contains("# step 1 is done"), "{}", taken.out);
+}
+
+#[test]
+fn mistakes_have_a_line_and_a_remedy() {
+    let bad = file(
+        "bad-lesson.md",
+        "+++\ntitle = \"Bad\"\nlevel = 1\nminutes = 5\n+++\n```set-up\ndevice gxmm\n```\n\
+         ## Step\nDo 1019h, see [more](gone.md).\n```checkpoint\nsent nmt start\n```\n### Hint\nNo.\n\
+         ### What just happened\nThis.\n```solution\nnmt start\nsync\n```\n",
+    );
+    let bad = bad.display().to_string();
+    let check = odkit(&["lesson", "check", &bad], "");
+    assert_eq!(check.code, 1);
+    assert!(
+        check
+            .err
+            .contains(":10:1: no device of the set-up has object 1019h:00; "),
+        "{}",
+        check.err
+    );
+    assert!(
+        check
+            .err
+            .contains(":10:1: the linked file gone.md does not exist; "),
+        "{}",
+        check.err
+    );
+    let form = file("no-lesson.md", "## Step\n```checkpoint\ncame 7\n```\n");
+    let form = form.display().to_string();
+    let check = odkit(&["lesson", "check", &form], "");
+    assert_eq!(check.code, 1);
+    assert!(
+        check.err.contains(":3:6: `7` is not a frame; "),
+        "{}",
+        check.err
+    );
+    for command in ["run", "show"] {
+        let refused = odkit(&["lesson", command, &form], "");
+        assert_eq!(refused.code, 2);
+        assert!(refused.err.contains("see LESSONS.md"), "{}", refused.err);
+    }
+    let gone = odkit(&["lesson", "check", "gone.md"], "");
+    assert_eq!((gone.code, gone.out.as_str()), (2, ""));
+    assert!(
+        gone.err.contains("gone.md: it does not exist"),
+        "{}",
+        gone.err
+    );
+}

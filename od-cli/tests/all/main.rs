@@ -1,0 +1,24 @@
+//! The command line from outside, one module a subcommand or a promise. One program, since each costs a link.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+#[cfg(unix)]
+mod background;
+mod check;
+#[cfg(unix)]
+mod control;
+mod convert;
+mod diff;
+mod eeprom;
+mod export;
+mod files;
+mod guests;
+mod lesson;
+mod links;
+mod new;
+mod new_firmware;
+mod overlay;
+mod project;
+mod run;
+mod sim;

@@ -1,0 +1,130 @@
+//! `odkit new --firmware`: what it writes. `cargo xtask test --only boards` builds it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::{file, odkit, repository};
+
+/// Boards, and what is in the files of each.
+const BOARDS: [(&str, &str, &str); 4] = [
+    ("stm32g0", "embassy-stm32", "thumbv6m-none-eabi"),
+    ("stm32f4", "embassy-stm32", "thumbv7em-none-eabi"),
+    ("rp2040+mcp2515", "mcp25xx", "thumbv6m-none-eabi"),
+    ("generic", "embedded-can", "thumbv7m-none-eabi"),
+];
+
+fn fresh(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    // It may be left from an earlier run, or not.
+    let _ = fs::remove_dir_all(&path);
+    path
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// Makes a workspace with the name of its folder.
+fn make(eds: &str, board: &str, name: &str) -> PathBuf {
+    let folder = fresh(name);
+    let path = folder.display().to_string();
+    let arguments = ["new", eds, "--firmware", board, "--path", &path];
+    let made = odkit(&[&arguments[..], &["--name", name]].concat(), "");
+    assert_eq!(made.code, 0, "{}", made.err);
+    assert!(made.out.contains("cd firmware"), "{}", made.out);
+    folder
+}
+
+#[test]
+fn a_workspace_has_device_firmware_simulation_and_tests() {
+    let eds = repository("devices/eds/GXMM.eds");
+    for (number, (board, crate_name, target)) in BOARDS.into_iter().enumerate() {
+        let folder = make(&eds, board, &format!("board-{number}"));
+        let manifest = read(&folder, "Cargo.toml");
+        for line in [
+            "members = [\"device\", \"firmware\", \"sim\", \"tests\"]",
+            "default-members = [\"device\", \"sim\", \"tests\"]",
+            "odkit = { path = 'vendor/odkit' }",
+            "exclude = [\"vendor\"]",
+        ] {
+            assert!(manifest.contains(line), "{line}\n{manifest}");
+        }
+        let firmware = read(&folder, "firmware/Cargo.toml");
+        assert!(firmware.contains(crate_name), "{firmware}");
+        let config = read(&folder, "firmware/.cargo/config.toml");
+        assert!(config.contains(target), "{config}");
+        assert!(read(&folder, "README.md").contains(target));
+        let device = read(&folder, "device/src/lib.rs");
+        assert!(device.contains("#![no_std]") && device.contains("behaves = PROFILE;"));
+        assert_eq!(
+            read(&folder, &format!("device/board-{number}.eds")),
+            fs::read_to_string(&eds).expect("the file")
+        );
+        // The same node in both, with the sizes of its dictionary.
+        assert!(read(&folder, "firmware/src/main.rs").contains("dictionary::Board::new(NODE_ID"));
+        assert!(read(&folder, "sim/src/lib.rs").contains("dictionary::Node::new(node_id"));
+        let script = read(&folder, "tests/scripts/boot-up.script");
+        assert!(script.contains("expect 701#00"), "{script}");
+        for name in ["device", "firmware", "sim", "tests"] {
+            let text = read(&folder, &format!("{name}/Cargo.toml"));
+            assert!(!text.contains("{{"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_device_has_what_its_file_asks_for() {
+    let text = "[DeviceInfo]\nProductName=Gate\nLSS_Supported=1\nBaudRate_125=1\nBaudRate_250=1\n\
+                [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=0\n\
+                [1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n\
+                [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+                [1018sub0]\nParameterName=Highest\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+                [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nDefaultValue=0x5F\n";
+    let eds = file("new-lss.eds", text).display().to_string();
+    let folder = make(&eds, "generic", "board-lss");
+    let device = read(&folder, "device/src/lib.rs");
+    for line in [
+        "        without rpdos, guarding, consumer;\n",
+        "BIT_RATE: u32 = 250;",
+        "None, None, None, Some(3), None,",
+    ] {
+        assert!(device.contains(line), "{line}\n{device}");
+    }
+    // The same file without LSS saves nothing.
+    let without = text.replace("LSS_Supported=1", "LSS_Supported=0");
+    let eds = file("new-no-lss.eds", &without).display().to_string();
+    let folder = make(&eds, "generic", "board-no-lss");
+    let device = read(&folder, "device/src/lib.rs");
+    let line = "        without lss, rpdos, guarding, consumer, storage;\n";
+    assert!(device.contains(line), "{device}");
+}
+
+#[test]
+fn what_cannot_be_made_leaves_nothing() {
+    let eds = repository("devices/eds/GXMM.eds");
+    let folder = fresh("board-not");
+    let path = folder.display().to_string();
+    let unknown = odkit(&["new", &eds, "--firmware", "avr", "--path", &path], "");
+    assert_eq!(unknown.code, 2);
+    for (board, ..) in BOARDS {
+        assert!(unknown.err.contains(board), "{}", unknown.err);
+    }
+    let name = ["--name", "core", "--path", &path];
+    let reserved = odkit(
+        &[&["new", &eds, "--firmware", "generic"], &name[..]].concat(),
+        "",
+    );
+    assert_eq!(reserved.code, 2, "{}", reserved.err);
+    // One lacks an object, the other one all.
+    let register = "[1001]\nParameterName=Error register\nDataType=5\nAccessType=ro\n";
+    for (name, objects, said) in [("lacks", register, "--lossy"), ("empty", "", "E0210")] {
+        let text = format!("{objects}[2001]\nParameterName=Nothing\nAccessType=rw\n");
+        let eds = file(&format!("board-{name}.eds"), &text)
+            .display()
+            .to_string();
+        let run = odkit(&["new", &eds, "--firmware", "generic", "--path", &path], "");
+        assert_eq!(run.code, 1, "{}", run.err);
+        assert!(run.err.contains(said), "{}", run.err);
+    }
+    assert!(!folder.exists());
+}

@@ -1,0 +1,222 @@
+//! What the CAN controller has to say: warning, passive, bus-off, overrun (CiA 301, table 26;
+//! manual 001, table 9.5; 2110h bit 3 of all three manuals).
+
+use crate::support::{Bench, rows, unsigned};
+use od_model::{Access, DataType};
+use od_runtime::{
+    BusEvent, BusOffProfile, ErrorProfile, ErrorReset, Event, NoApplication, Notice, Profile,
+};
+use od_wire::nmt::State;
+
+const fn notice(code: u16, register: u8) -> Option<Notice> {
+    Some(Notice { code, register })
+}
+
+/// The errors of manual 001: one bit for all of the bus, three sub-indices of 1029h.
+const MANUAL_001: ErrorProfile = ErrorProfile {
+    lost: Notice {
+        code: 0x8130,
+        register: 0,
+    },
+    bus_warning: notice(0x8100, 0x10),
+    bus_passive: notice(0x8120, 0x10),
+    bus_off: 0x10,
+    bus_recovered: None,
+    overrun: notice(0x8110, 0x10),
+    reset: ErrorReset::LastError,
+    behaviour: &[(0x10, 1), (0x01, 2), (0x08, 3)],
+    operational_only: true,
+    off: BusOffProfile {
+        restart: Some((0x2110, 8)),
+        boots: true,
+        behaviour_if_off: true,
+    },
+};
+
+/// The errors of manual 000.
+const MANUAL_000: ErrorProfile = ErrorProfile {
+    bus_passive: None,
+    bus_recovered: None,
+    behaviour: &[(0x10, 1)],
+    off: BusOffProfile {
+        restart: Some((0x2110, 8)),
+        boots: false,
+        behaviour_if_off: false,
+    },
+    ..Profile::CIA301.errors
+};
+
+/// Node 1 with 1029h:01 = `behaviour`, 2110h = `options` and TPDO 1 every 100 ms.
+fn bench(errors: ErrorProfile, behaviour: u64, options: u64) -> Bench {
+    use Access::*;
+    use DataType::*;
+    let mut all = rows();
+    all.extend([
+        (0x1029, 0, Unsigned8, Const, false, unsigned(3)),
+        (0x1029, 1, Unsigned8, Rw, false, unsigned(behaviour)),
+        (0x1029, 2, Unsigned8, Rw, false, unsigned(1)),
+        (0x1029, 3, Unsigned8, Rw, false, unsigned(1)),
+        (0x2110, 0, Unsigned16, Rw, false, unsigned(options)),
+    ]);
+    let mut bench = Bench::with(all, NoApplication);
+    bench.profile.pdo.event_on_change = false;
+    bench.profile.errors = errors;
+    bench.profile.nmt.reset_communication_us = 5_000;
+    bench.power_on();
+    bench.ask("601#2B00180564000000");
+    bench.send("000#0101");
+    bench
+}
+
+fn events(bench: &mut Bench) -> Vec<Event> {
+    std::iter::from_fn(|| bench.node.poll_event()).collect()
+}
+
+#[test]
+fn warning_and_passive_come_and_go_as_manual_001_has_them() {
+    let mut bench = bench(MANUAL_001, 1, 8);
+    assert_eq!(bench.bus(BusEvent::Warning), ["081#0081100000000000"]);
+    assert!(bench.bus(BusEvent::Warning).is_empty(), "no news");
+    assert_eq!(bench.bus(BusEvent::Passive), ["081#2081100000000000"]);
+    assert_eq!(bench.value(0x1001, 0), 0x10);
+    assert!(
+        bench.bus(BusEvent::Warning).is_empty(),
+        "an error reset when no more errors are present"
+    );
+    assert_eq!(bench.bus(BusEvent::Active), ["081#0000000000000000"]);
+    assert_eq!(bench.value(0x1001, 0), 0);
+    assert_eq!(bench.value(0x1003, 1), 0x8120);
+    assert_eq!(bench.value(0x1003, 2), 0x8100);
+}
+
+#[test]
+fn an_overrun_lasts_until_the_controller_is_well() {
+    let mut bench = bench(MANUAL_001, 1, 8);
+    assert_eq!(bench.bus(BusEvent::Overrun), ["081#1081100000000000"]);
+    assert!(bench.bus(BusEvent::Overrun).is_empty());
+    assert_eq!(bench.bus(BusEvent::Active), ["081#0000000000000000"]);
+}
+
+#[test]
+fn a_family_without_codes_for_the_states_says_nothing_of_them() {
+    let mut bench = bench(MANUAL_000, 0, 8);
+    assert!(bench.bus(BusEvent::Warning).is_empty());
+    assert!(bench.bus(BusEvent::Passive).is_empty());
+    assert_eq!(bench.value(0x1001, 0), 0);
+    assert_eq!(bench.bus(BusEvent::Overrun), ["081#1081110000000000"]);
+    assert_eq!(
+        bench.node.state(),
+        State::PreOperational,
+        "1029h:01 = 0, and bit 4 became set"
+    );
+}
+
+#[test]
+fn bus_off_is_silence_until_the_bus_is_back() {
+    let mut bench = bench(MANUAL_000, 1, 8);
+    events(&mut bench);
+    assert!(bench.bus(BusEvent::Off).is_empty());
+    assert!(bench.node.is_bus_off());
+    assert_eq!(bench.value(0x1001, 0), 0x11);
+    assert!(bench.send("601#4000100000000000").is_empty());
+    assert!(bench.send("000#8201").is_empty());
+    assert!(bench.wait(1_000).is_empty());
+    assert_eq!(
+        bench.node.poll_timeout(),
+        None,
+        "there is nothing to wake for"
+    );
+    assert!(bench.bus(BusEvent::Warning).is_empty());
+    assert!(bench.node.is_bus_off(), "that is not the way back");
+    assert!(bench.bus(BusEvent::Active).is_empty(), "no boot-up");
+    assert_eq!(bench.value(0x1001, 0), 0);
+    assert_eq!(bench.node.state(), State::Operational);
+    assert_eq!(
+        bench.wait(100),
+        [(1_100, "181#05000000".to_owned())],
+        "a period after it came back"
+    );
+    assert_eq!(
+        events(&mut bench),
+        [Event::BusOff { restarts: true }, Event::BusOn]
+    );
+}
+
+#[test]
+fn without_the_option_the_device_stays_off_until_power_comes_back() {
+    let mut bench = bench(MANUAL_000, 1, 0);
+    bench.bus(BusEvent::Off);
+    bench.bus(BusEvent::Active);
+    assert!(bench.node.is_bus_off());
+    assert!(bench.send("601#4000100000000000").is_empty());
+    assert_eq!(bench.power_cycle(), ["701#00"]);
+    assert!(!bench.node.is_bus_off());
+    assert_eq!(bench.ask("601#4001100000000000"), "581#4F01100000000000");
+}
+
+#[test]
+fn bus_off_is_a_communication_error_to_1029h() {
+    for (value, state) in [
+        (0, State::PreOperational),
+        (1, State::Operational),
+        (2, State::Stopped),
+    ] {
+        let mut bench = bench(MANUAL_000, value, 8);
+        bench.bus(BusEvent::Off);
+        assert_eq!(bench.node.state(), state, "{value}");
+        bench.bus(BusEvent::Active);
+        assert_eq!(bench.node.state(), state, "{value}");
+    }
+    let mut bench = bench(MANUAL_000, 3, 0);
+    assert_eq!(
+        bench.bus(BusEvent::Off),
+        ["701#00"],
+        "reset node begins the CAN controller anew"
+    );
+}
+
+#[test]
+fn manual_001_restarts_or_does_as_1029h_says() {
+    let mut restarting = bench(MANUAL_001, 2, 8);
+    restarting.ask("601#2B17100020030000");
+    restarting.bus(BusEvent::Off);
+    assert_eq!(
+        restarting.node.state(),
+        State::Operational,
+        "1029h is for a device that does not restart"
+    );
+    assert!(restarting.bus(BusEvent::Active).is_empty());
+    assert_eq!(restarting.wait(5), [(5, "701#00".to_owned())]);
+    assert_eq!(restarting.node.state(), State::PreOperational);
+    assert_eq!(restarting.value(0x1017, 0), 0, "it was not saved");
+
+    let mut staying = bench(MANUAL_001, 2, 0);
+    staying.bus(BusEvent::Off);
+    assert_eq!(staying.node.state(), State::Stopped);
+    staying.bus(BusEvent::Active);
+    assert!(staying.node.is_bus_off());
+}
+
+#[test]
+fn cia_301_says_that_it_is_back() {
+    let mut bench = bench(Profile::CIA301.errors, 1, 0);
+    bench.bus(BusEvent::Off);
+    assert_eq!(
+        bench.bus(BusEvent::Active),
+        ["081#4081110000000000", "081#0000000000000000"]
+    );
+}
+
+#[test]
+fn reset_communication_begins_the_controller_anew() {
+    let mut bench = bench(MANUAL_001, 1, 8);
+    bench.bus(BusEvent::Passive);
+    bench.send("000#8201");
+    assert_eq!(bench.wait(5), [(5, "701#00".to_owned())]);
+    assert_eq!(bench.value(0x1001, 0), 0);
+    assert_eq!(
+        bench.bus(BusEvent::Passive),
+        ["081#2081100000000000"],
+        "it is news again"
+    );
+}

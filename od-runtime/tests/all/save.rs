@@ -1,0 +1,265 @@
+//! Saves that take their time, and what is left of one that was cut (1010h; manual 001, chapter
+//! 6.3; manual 003, chapter 5.1.3.1).
+
+use crate::support::{Bench, rows, unsigned};
+use od_model::{Access, Address, DataType};
+use od_runtime::{CutSave, Event, NoApplication, Restore, SaveAnswer, SavedCobIds};
+
+const SAVE: &str = "601#2310100173617665";
+const SAVED: &str = "581#6010100100000000";
+
+/// A node that stores for 50 ms.
+fn bench(answer: SaveAnswer, cut: CutSave) -> Bench {
+    let mut all = rows();
+    all.push((
+        0x2300,
+        0,
+        DataType::Unsigned32,
+        Access::Rw,
+        false,
+        unsigned(0),
+    ));
+    let mut bench = Bench::with(all, NoApplication);
+    bench.profile.pdo.event_on_change = false;
+    bench.profile.store.answer = answer;
+    bench.profile.store.cut = cut;
+    bench.profile.store.duration_us = 50_000;
+    bench.power_on();
+    bench
+}
+
+fn write(bench: &mut Bench, value: u8) {
+    bench.ask(&format!("601#23002300{value:02X}000000"));
+}
+
+/// The value that the next start finds.
+fn after_power_cycle(bench: &mut Bench) -> u64 {
+    assert_eq!(bench.power_cycle(), ["701#00"]);
+    bench.value(0x2300, 0)
+}
+
+#[test]
+fn the_answer_comes_when_all_is_stored() {
+    let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
+    write(&mut bench, 7);
+    assert!(bench.send(SAVE).is_empty());
+    assert!(bench.wait(49).is_empty());
+    assert_eq!(bench.wait(1), [(50, SAVED.to_owned())]);
+    let events: Vec<_> = std::iter::from_fn(|| bench.node.poll_event()).collect();
+    assert_eq!(events.last(), Some(&Event::Saved(1)));
+    assert_eq!(after_power_cycle(&mut bench), 7);
+}
+
+#[test]
+fn a_client_that_does_not_wait_is_answered_afterwards() {
+    let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
+    bench.send(SAVE);
+    assert!(bench.send("601#4001100000000000").is_empty());
+    assert!(bench.send("601#4000100000000000").is_empty(), "the newest");
+    assert_eq!(
+        bench.wait(100),
+        [
+            (50, SAVED.to_owned()),
+            (50, "581#4300100096010200".to_owned())
+        ]
+    );
+    // One that gives up gets no answer, and the device stores all the same.
+    write(&mut bench, 9);
+    bench.send(SAVE);
+    assert!(bench.send("601#8010100100000405").is_empty());
+    assert!(bench.wait(100).is_empty());
+    assert_eq!(bench.ask("601#4000100000000000"), "581#4300100096010200");
+    assert_eq!(after_power_cycle(&mut bench), 9);
+}
+
+#[test]
+fn two_saves_in_a_row_are_both_done() {
+    let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
+    write(&mut bench, 7);
+    bench.send(SAVE);
+    bench.send(SAVE);
+    assert_eq!(
+        bench.wait(200),
+        [(50, SAVED.to_owned()), (100, SAVED.to_owned())]
+    );
+    assert_eq!(after_power_cycle(&mut bench), 7);
+}
+
+#[test]
+fn other_traffic_goes_on_and_stopped_forgets_the_answer() {
+    let mut bench = bench(SaveAnswer::AfterStoring, CutSave::Factory);
+    write(&mut bench, 7);
+    bench.send(SAVE);
+    assert_eq!(bench.send("701#R"), [""; 0], "no guarding here");
+    bench.send("000#0201");
+    assert!(bench.wait(100).is_empty(), "no SDO in Stopped");
+    bench.send("000#8001");
+    assert_eq!(bench.ask("601#4000100000000000"), "581#4300100096010200");
+    assert_eq!(after_power_cycle(&mut bench), 7);
+}
+
+#[test]
+fn an_answer_at_once_saves_what_was_there_at_the_command() {
+    let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
+    write(&mut bench, 7);
+    assert_eq!(bench.ask(SAVE), SAVED);
+    write(&mut bench, 8);
+    bench.wait(50);
+    assert_eq!(after_power_cycle(&mut bench), 7);
+}
+
+#[test]
+fn a_save_behind_a_save_keeps_what_the_first_one_had() {
+    let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
+    write(&mut bench, 7);
+    bench.ask(SAVE);
+    write(&mut bench, 8);
+    bench.ask(SAVE);
+    bench.wait(50);
+    assert_eq!(after_power_cycle(&mut bench), 8);
+    // 1011h behind a save takes back what it saved.
+    bench.ask(SAVE);
+    bench.ask("601#231110016C6F6164");
+    assert_eq!(after_power_cycle(&mut bench), 0);
+}
+
+#[test]
+fn power_that_goes_meanwhile_leaves_what_the_family_has() {
+    for (cut, left) in [(CutSave::LastSet, 7), (CutSave::Factory, 0)] {
+        for answer in [SaveAnswer::AtOnce, SaveAnswer::AfterStoring] {
+            let mut bench = bench(answer, cut);
+            write(&mut bench, 7);
+            bench.send(SAVE);
+            bench.wait(50);
+            write(&mut bench, 8);
+            bench.send(SAVE);
+            bench.wait(49);
+            assert_eq!(after_power_cycle(&mut bench), left, "{cut:?}");
+            assert_eq!(after_power_cycle(&mut bench), left, "{cut:?}, for good");
+            // The next save is one like any other.
+            write(&mut bench, 9);
+            bench.send(SAVE);
+            bench.wait(50);
+            assert_eq!(after_power_cycle(&mut bench), 9);
+        }
+    }
+}
+
+#[test]
+fn a_reset_meanwhile_is_an_interruption() {
+    for command in ["000#8101", "000#8201"] {
+        let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
+        write(&mut bench, 7);
+        bench.ask(SAVE);
+        bench.wait(50);
+        bench.ask(SAVE);
+        assert_eq!(bench.send(command), ["701#00"]);
+        assert!(bench.wait(100).is_empty());
+        assert_eq!(after_power_cycle(&mut bench), 0, "{command}");
+    }
+}
+
+#[test]
+fn a_storage_that_fails_at_the_end_is_told() {
+    let mut bench = bench(SaveAnswer::AfterStoring, CutSave::LastSet);
+    bench.send(SAVE);
+    bench.storage.cut_after(0);
+    assert_eq!(
+        bench.wait(50),
+        [(50, "581#8010100100000606".to_owned())],
+        "06060000h"
+    );
+}
+
+#[test]
+fn a_cob_id_moves_or_stays() {
+    for (rule, cob_id) in [
+        (SavedCobIds::Absolute, 0x187),
+        (SavedCobIds::Difference, 0x18F),
+    ] {
+        let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
+        bench.profile.store.cob_ids = rule;
+        bench.ask("601#2301180181010080");
+        bench.ask("601#2300180181010080");
+        bench.ask("601#2300180187010000");
+        bench.ask(SAVE);
+        bench.wait(50);
+        bench.power_cycle();
+        assert_eq!(bench.value(0x1800, 1), 0x187);
+        bench.node.power_off();
+        bench.node = od_runtime::Node::new(od_runtime::NodeId::new(9).expect("1 to 127"));
+        assert_eq!(bench.power_on(), ["709#00"]);
+        assert_eq!(bench.value(0x1800, 1), cob_id, "{rule:?}");
+        assert_eq!(bench.value(0x1014, 0), 0x89, "never changed");
+    }
+}
+
+#[test]
+fn a_difference_that_leaves_the_eleven_bits_is_none() {
+    let mut bench = bench(SaveAnswer::AtOnce, CutSave::Factory);
+    bench.profile.store.cob_ids = SavedCobIds::Difference;
+    bench.ask("601#231410008E060000");
+    bench.ask("601#23141000DF060080");
+    bench.ask("601#23141000F8070080");
+    bench.ask(SAVE);
+    bench.wait(50);
+    bench.node.power_off();
+    bench.node = od_runtime::Node::new(od_runtime::NodeId::new(127).expect("1 to 127"));
+    bench.power_on();
+    assert_eq!(bench.value(0x1014, 0), 0xFF, "the default");
+}
+
+/// A node with groups: 2300h has a twin among the application's objects, and so has 2004h, which
+/// nobody saves.
+fn twins(restore: Restore) -> Bench {
+    let mut all = rows();
+    let rw = |index, sub| {
+        (
+            index,
+            sub,
+            DataType::Unsigned32,
+            Access::Rw,
+            false,
+            unsigned(0),
+        )
+    };
+    all.extend([0x2300, 0x2301, 0x6200, 0x6201].map(|index| rw(index, 0)));
+    all.extend([0x1010, 0x1011].map(|index| rw(index, 3)));
+    let mut bench = Bench::with(all, NoApplication);
+    bench.profile.store.twins = const {
+        &[
+            [Address::new(0x2300, 0), Address::new(0x6200, 0)],
+            [Address::new(0x2004, 0), Address::new(0x6201, 0)],
+        ]
+    };
+    bench.profile.store.restore = restore;
+    bench.profile.pdo.event_on_change = false;
+    bench.power_on();
+    for (index, value) in [("0023", 7), ("0123", 8), ("0062", 9), ("0162", 10)] {
+        bench.ask(&format!("601#23{index}00{value:02X}000000"));
+    }
+    bench.ask("601#2F04200003000000");
+    bench
+}
+
+#[test]
+fn a_group_is_saved_with_the_twins_of_its_objects() {
+    let mut bench = twins(Restore::AfterReset);
+    assert_eq!(bench.ask("601#2310100373617665"), "581#6010100300000000");
+    bench.power_cycle();
+    let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
+    assert_eq!(values, [7, 0, 9, 10, 0], "2301h is in another group");
+    // Taken back together as well.
+    bench.ask("601#2300230005000000");
+    assert_eq!(bench.ask("601#231110036C6F6164"), "581#6011100300000000");
+    bench.power_cycle();
+    assert_eq!((bench.value(0x2300, 0), bench.value(0x6200, 0)), (0, 0));
+}
+
+#[test]
+fn a_twin_that_is_not_saved_is_not_restored() {
+    let mut bench = twins(Restore::AtOnce);
+    bench.ask("601#231110036C6F6164");
+    let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
+    assert_eq!(values, [0, 8, 0, 0, 3]);
+}
