@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use od_devices::text::datasheet;
-use od_eds::convert::{c_header, dcf, json, markdown};
+use od_eds::convert::{c_header, canopennode, dcf, json, markdown};
 use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
 use crate::failure::Failure;
 use crate::output;
-use crate::source::{self, Source};
+use crate::source::{self, Lost, Source};
 
-/// Convert a device description: EDS, DCF, XDD, Markdown, C header, JSON
+/// Convert a device description: EDS, DCF, XDD, Markdown, C header, CANopenNode, JSON
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     /// Output file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Node ID of the configured device (DCF only)
+    /// Node ID of the device (DCF; OD.c, if it is for one device)
     #[arg(long, value_name = "ID", value_parser = source::node_id)]
     node_id: Option<NodeId>,
     /// Bit rate of the configured device in kbit/s (DCF only)
@@ -51,6 +51,9 @@ enum Form {
     /// C header with a macro for each index, sub-index, default and limit
     #[value(alias = "h")]
     C,
+    /// OD.c and OD.h of CANopenNode 4; needs `-o OD.c`
+    #[value(name = "canopennode")]
+    CanopenNode,
     /// Everything as JSON (docs/odkit-dictionary-2.schema.json)
     Json,
 }
@@ -77,21 +80,28 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .or_else(|| Form::of(args.output.as_deref()?))
         .ok_or_else(|| {
             Failure::Usage(
-                "the target format is missing; add `--to eds`, dcf, xdd, md, c or json".into(),
+                "the target format is missing; add `--to eds`, dcf, xdd, md, c, canopennode or json".into(),
             )
         })?;
-    if form != Form::Dcf
-        && (args.node_id.is_some() || args.bit_rate.is_some() || !args.values.is_empty())
-    {
+    if form != Form::Dcf && (args.bit_rate.is_some() || !args.values.is_empty()) {
         return Err(Failure::Usage(
-            "`--node-id`, `--bit-rate` and `--set` need `--to dcf`".into(),
+            "`--bit-rate` and `--set` need `--to dcf`".into(),
+        ));
+    }
+    if !matches!(form, Form::Dcf | Form::CanopenNode) && args.node_id.is_some() {
+        return Err(Failure::Usage(
+            "`--node-id` needs `--to dcf` or `--to canopennode`".into(),
         ));
     }
     let source = Source::find(&args.input)?;
-    // Only a datasheet needs the type of each value.
-    let (mut description, lost) = source.complete(form == Form::Md)?;
+    // A datasheet and C variables need the type of each value.
+    let typed = matches!(form, Form::Md | Form::CanopenNode);
+    let (mut description, lost) = source.complete(typed)?;
     if form == Form::Dcf {
         configure(&mut description, args)?;
+    }
+    if form == Form::CanopenNode {
+        return canopen_node(args, &source, &description, lost);
     }
     let text = match form {
         Form::Eds | Form::Dcf => od_eds::canonical(&description),
@@ -105,9 +115,34 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let stem = stem.and_then(|stem| stem.to_str()).unwrap_or("device");
             c_header::write(&description, stem, &args.input)
         }
+        // Written above: two files.
+        Form::CanopenNode => return Ok(()),
         Form::Json => json::write(&description, &args.input),
     };
     output::save(args.output.as_deref(), &text)?;
+    lost.judge(args.lossy)
+}
+
+/// Writes the two files of CANopenNode: that of `-o`, and the one beside it.
+fn canopen_node(
+    args: &Args,
+    source: &Source,
+    description: &Description,
+    lost: Lost,
+) -> Result<(), Failure> {
+    let output = args.output.as_deref();
+    let stem = output.and_then(|path| path.file_stem()?.to_str());
+    let (Some(output), Some(stem)) = (output, stem) else {
+        return Err(Failure::Usage(
+            "CANopenNode needs two files, OD.c and OD.h; add `-o OD.c`".into(),
+        ));
+    };
+    let commissioned = description.commissioned_node_id();
+    let node_id = args.node_id.map(NodeId::raw).or(commissioned);
+    let files = canopennode::write(description, stem, &args.input, node_id);
+    output::write(&output.with_extension("c"), files.source.as_bytes())?;
+    output::write(&output.with_extension("h"), files.header.as_bytes())?;
+    let lost = source.unexpressed(description, files.findings, lost)?;
     lost.judge(args.lossy)
 }
 

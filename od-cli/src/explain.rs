@@ -77,7 +77,7 @@ fn text(rule: &Rule) -> String {
         Fixability::Either => "`odkit check --fix`, or `--unsafe-fixes` if content is lost",
     };
     text.push_str(&format!("\nFix:    {fix}\nSource: {}\n", rule.source));
-    if !matches!(&rule.code[1..3], "07" | "08") {
+    if !matches!(&rule.code[1..3], "07" | "08" | "11" | "12") {
         text.push_str(&format!(
             "Allow:  `;odkit-allow={} reason` in the file, or `--allow {}`\n",
             rule.code, rule.code

@@ -7,7 +7,7 @@ use std::path::Path;
 use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
 use od_eds::convert::lost;
-use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed};
+use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed, Severity};
 use od_runtime::DeviceKind;
 use od_runtime::NodeId;
 
@@ -45,7 +45,7 @@ pub(crate) struct Part<'a> {
     pub(crate) findings: Vec<Finding>,
 }
 
-/// Findings of the objects that a target lacks.
+/// Findings of the objects that a target lacks, or does not express as they are.
 pub(crate) struct Lost(Vec<Finding>);
 
 impl Lost {
@@ -62,8 +62,13 @@ impl Lost {
             true => String::new(),
             false => format!(" ({})", objects.join(", ")),
         };
+        let is_there = self
+            .0
+            .iter()
+            .any(|finding| finding.code().starts_with("W1"));
+        let verb = if is_there { "cannot express" } else { "lacks" };
         Err(Failure::Failed(format!(
-            "the target lacks {count} of the source{named}; correct them, or add `--lossy` to accept that"
+            "the target {verb} {count} of the source{named}; correct them, or add `--lossy` to accept that"
         )))
     }
 }
@@ -227,6 +232,20 @@ impl Source {
         Config::of(&self.path)?.apply(&self.path, &mut shown);
         self.note(&shown, &names(&description, &shown));
         Ok((description, Lost(lost)))
+    }
+
+    /// Prints what a target cannot express on standard error; all but remarks are lost.
+    pub(crate) fn unexpressed(
+        &self,
+        description: &Description,
+        mut findings: Vec<Finding>,
+        mut lost: Lost,
+    ) -> Result<Lost, Failure> {
+        Config::of(&self.path)?.apply(&self.path, &mut findings);
+        self.note(&findings, &names(description, &findings));
+        findings.retain(|finding| finding.severity > Severity::Info);
+        lost.0.extend(findings);
+        Ok(lost)
     }
 
     /// Shows findings on standard error.

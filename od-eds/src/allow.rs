@@ -155,7 +155,7 @@ impl Allows {
 
 /// The rule of a code that can be allowed: all but those about edits and about allowing.
 fn known(code: &str) -> Option<&'static Rule> {
-    rule(code).filter(|rule| !matches!(&rule.code[1..3], "07" | "08"))
+    rule(code).filter(|rule| !matches!(&rule.code[1..3], "07" | "08" | "11" | "12"))
 }
 
 /// `E0310`, or `E0310:2000` for one object: what a command line allows.

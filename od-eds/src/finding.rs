@@ -86,6 +86,8 @@ pub(crate) enum Check {
     ByReader,
     /// While edits are applied, and by the macro.
     ByEdit,
+    /// While a target is written that cannot express all.
+    ByTarget,
 }
 
 /// One rule: what a code means, what its findings say, and how they are found.

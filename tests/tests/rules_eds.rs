@@ -8,7 +8,7 @@ use od_eds::Severity;
 use od_eds::check::RULES;
 use od_tests::scripts::{cell, compare_page};
 
-const FOLDERS: [(&str, &str); 9] = [
+const FOLDERS: [(&str, &str); 10] = [
     ("01", "Text and INI structure"),
     ("02", "Lists, sections and keys"),
     ("03", "Objects and their members"),
@@ -18,6 +18,7 @@ const FOLDERS: [(&str, &str); 9] = [
     ("07", "Edits of a macro call"),
     ("08", "Findings that a file allows"),
     ("09", "Device profiles"),
+    ("11", "What a target of `odkit convert` cannot express"),
 ];
 
 fn page() -> String {

@@ -86,6 +86,7 @@ fn what_cannot_be_set_is_said() {
             "5FFFh",
         ),
         (&["--to", "eds", "--node-id", "5"], "--to dcf"),
+        (&["--to", "canopennode", "--bit-rate", "5"], "--to dcf"),
         (&["-o", "x.txt"], "--to eds"),
     ] {
         let run = odkit(&[&["convert", "gxmm"], arguments].concat(), "");
@@ -225,7 +226,7 @@ fn what_a_target_can_hold_is_kept() {
 
 #[test]
 fn what_a_target_lacks_is_said() {
-    let path = file("types.eds", TYPES).display().to_string();
+    let path = file("lacking.eds", TYPES).display().to_string();
     let page = odkit(&["convert", &path, "--to", "md"], "");
     assert_eq!(page.code, 1);
     for said in [

@@ -5,6 +5,7 @@ mod support;
 
 #[cfg(unix)]
 mod background;
+mod canopennode;
 mod check;
 #[cfg(unix)]
 mod control;

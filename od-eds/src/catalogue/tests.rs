@@ -72,7 +72,11 @@ fn every_sentence_is_said_and_filled() {
         .iter()
         .map(|path| Document::new(fs::read(path).unwrap()));
     let findings = documents.flat_map(|document| document.load().findings);
-    for finding in findings.chain(faults_of_edits()).chain(faults_of_size()) {
+    for finding in findings
+        .chain(faults_of_edits())
+        .chain(faults_of_size())
+        .chain(faults_of_targets())
+    {
         faults.extend(gaps(&finding));
         let forms = said.entry(finding.code()).or_default();
         forms.insert((finding.form.says, finding.form.help));
@@ -139,6 +143,21 @@ fn faults_of_size() -> Vec<Finding> {
         text += &format!("[{index:04X}]\nObjectType=8\nCompactSubObj=254\n");
     }
     crate::load::parse(&text).findings
+}
+
+/// The findings of a description that no target can express.
+fn faults_of_targets() -> Vec<Finding> {
+    let text = "[1402]\nObjectType=9\n[1402sub1]\nDataType=7\nAccessType=rw\nDefaultValue=0x400\n\
+        [1602]\nObjectType=9\n[1602sub0]\nDataType=5\nDefaultValue=9\n\
+        [1602sub1]\nDataType=7\nDefaultValue=0x20000001\n\
+        [2000]\nDataType=5\nDefaultValue=$NODEID\nLowLimit=1\n[2001]\nDataType=15\n\
+        [2002]\nObjectType=8\n[2002sub0]\nDataType=5\n[2002sub255]\nDataType=5\n\
+        [2003]\nObjectType=8\nDataType=5\nCompactSubObj=254\n[2003sub255]\nDataType=5\n";
+    let mut description = crate::load::parse(text).description;
+    let one = description.objects[&0x2001].entries[&0].clone();
+    let all = description.objects.get_mut(&0x2003);
+    all.unwrap().entries.entry(255).or_insert(one);
+    crate::convert::canopennode::write(&description, "OD", "", None).findings
 }
 
 #[test]

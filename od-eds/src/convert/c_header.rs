@@ -169,7 +169,7 @@ fn c_string(text: &str) -> String {
 }
 
 /// The text as one line of a C comment.
-fn comment(text: &str) -> String {
+pub(super) fn comment(text: &str) -> String {
     let one_line = text.replace(['\n', '\r'], " ");
     one_line.replace("*/", "* /").replace("/*", "/ *")
 }

@@ -1,6 +1,7 @@
 //! A device description in the forms of other programs.
 
 pub mod c_header;
+pub mod canopennode;
 pub mod dcf;
 #[cfg(feature = "json")]
 pub mod json;

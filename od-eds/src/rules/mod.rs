@@ -66,7 +66,7 @@ macro_rules! folders {
     };
 }
 
-folders! { text lists structure values pdo standard edits allow profile }
+folders! { text lists structure values pdo standard edits allow profile convert }
 
 const COUNT: usize = {
     let (mut count, mut at) = (0, 0);

@@ -1,0 +1,13 @@
+//! 11: targets of `odkit convert` that cannot express all of a description. A warning is what a
+//! master sees of the target; of a remark it sees nothing. One rule per file.
+
+catalogue! {
+    w1101 W1101 (example)
+    w1102 W1102 (example)
+    w1103 W1103 (example)
+    w1104 W1104 (example)
+    w1105 W1105 (example)
+    i1106 I1106 (example)
+    i1107 I1107 (example)
+    i1108 I1108 (example)
+}
