@@ -5,6 +5,7 @@
 //! One file for each subcommand. What they share: `source` finds a device, `output`
 //! writes to a pipe that may close, `report` shows findings.
 
+mod bridge;
 mod check;
 mod config;
 mod convert;
@@ -15,6 +16,7 @@ mod explain;
 mod export;
 mod failure;
 mod lesson;
+mod live;
 mod new;
 mod output;
 mod report;
@@ -45,6 +47,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Sim(sim::Args),
+    Bridge(bridge::Args),
     Ctl(ctl::Args),
     Run(run::Args),
     Lesson(lesson::Args),
@@ -80,6 +83,7 @@ pub fn main() -> ExitCode {
     }
     let result = match cli.command {
         Command::Sim(args) => sim::run(&args),
+        Command::Bridge(args) => bridge::run(&args),
         Command::Ctl(args) => ctl::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Lesson(args) => lesson::run(&args),

@@ -15,6 +15,8 @@ pub enum Step {
     Line(String),
     /// The client needs time to read the reply before frames follow.
     Pause,
+    /// The client has no more to say, and the connection ends.
+    Leave,
 }
 
 /// A codec: takes bytes as they come, in any pieces, and answers with [`Step`]s in the order in

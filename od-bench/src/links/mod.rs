@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`slcan`] | serial adapters, `slcand`, python-can's `slcan` |
 //! | [`socketcand`] | the daemon of that name, python-can's `socketcand`, Kayak |
+//! | `web_socket` | slcan in a WebSocket, for pages; feature `serve` |
 //! | [`can_frame`] | a raw socket of Linux |
 //! | [`lines`] | standard input and output of `odkit sim --link -` |
 
@@ -12,5 +13,7 @@ pub mod codec;
 pub mod lines;
 pub mod slcan;
 pub mod socketcand;
+#[cfg(feature = "serve")]
+pub mod web_socket;
 
 pub use codec::{Codec, Step};

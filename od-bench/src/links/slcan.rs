@@ -202,7 +202,7 @@ mod tests {
             match step {
                 Step::Reply(bytes) => answered.extend(bytes),
                 Step::Frame(frame) => seen.push(frame),
-                Step::Line(_) | Step::Pause => unreachable!("slcan has neither"),
+                Step::Line(_) | Step::Pause | Step::Leave => unreachable!("slcan has none"),
             }
         }
         (answered, seen)

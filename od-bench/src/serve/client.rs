@@ -73,10 +73,12 @@ impl Client {
             protocol,
             codec: protocol.codec(),
             port,
-            opening: is_guest.then(|| match protocol {
-                Protocol::Control => Opening::of_lines(),
-                _ => Opening::default(),
-            }),
+            opening: match protocol {
+                // A page is welcome there, and its codec looks at who it is.
+                Protocol::WebSocket(_) => None,
+                Protocol::Control => is_guest.then(Opening::of_lines),
+                _ => is_guest.then(Opening::default),
+            },
             outbox: Outbox::default(),
             readable: true,
             writable: true,

@@ -88,6 +88,10 @@ fn text(args: &Options, bus: &Bus, links: &[Opened]) -> String {
     let mut text = String::new();
     // Writing to a String cannot fail.
     let devices = bus.devices();
+    if devices.is_empty() {
+        let _ = writeln!(text, "{places}\n\nPress Ctrl-C to stop.");
+        return text;
+    }
     if let [device] = devices {
         let (title, node) = (device.title(), node(device));
         let _ = writeln!(text, "{title}, {node}; {places}");
@@ -149,6 +153,9 @@ fn services(text: &mut String, device: &VirtualDevice, several: bool) {
 fn place(link: &Opened) -> String {
     match link {
         Opened::Listener(Protocol::Socketcand, _, address) => format!("socketcand on {address}"),
+        Opened::Listener(Protocol::WebSocket(gate), _, address) => {
+            format!("pages on {}", gate.address(*address))
+        }
         Opened::Listener(_, _, address) => format!("slcan on {address}"),
         Opened::Ends(ends) => match ends.protocol {
             Protocol::Slcan => format!("slcan on {}", ends.name),
@@ -179,6 +186,14 @@ fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDev
             ),
             "canopen",
         ),
+        Opened::Listener(Protocol::WebSocket(gate), _, address) => {
+            let _ = writeln!(
+                text,
+                "\nthe page of odkit: open Connect and paste\n  {}",
+                gate.address(*address)
+            );
+            return;
+        }
         Opened::Listener(_, _, address) => (
             format!(
                 "interface='slcan', channel='socket://{address}',\n                  \

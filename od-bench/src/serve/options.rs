@@ -6,7 +6,7 @@ use od_model::values;
 use od_runtime::NodeId;
 
 use super::control::place::Place;
-use super::links::Link;
+use super::links::{Link, web_socket};
 use super::log;
 use crate::size;
 
@@ -19,6 +19,8 @@ pub struct Options {
     pub serials: Vec<u32>,
     /// Links for masters; none: slcan on port 29536 of this computer.
     pub links: Vec<Link>,
+    /// Origins of pages that may use a WebSocket, beside those of this computer.
+    pub origins: Vec<String>,
     /// Bytes for each string and DOMAIN that masters write, of devices of files.
     pub domain_size: u32,
     /// File with the EEPROM of each device, in their order; in memory if there is none.
@@ -51,6 +53,7 @@ impl Default for Options {
             node_ids: Vec::new(),
             serials: Vec::new(),
             links: Vec::new(),
+            origins: Vec::new(),
             domain_size: 1 << 20,
             eeproms: Vec::new(),
             eeprom_reset: false,
@@ -106,7 +109,7 @@ const PLAIN: Choice = Choice {
 };
 
 /// Every option, in the order of help texts.
-pub const CHOICES: [Choice; 16] = [
+pub const CHOICES: [Choice; 17] = [
     Choice {
         name: "node-id",
         value: "N",
@@ -155,6 +158,15 @@ pub const CHOICES: [Choice; 16] = [
             options.links.insert(0, link);
             Ok(())
         },
+        ..PLAIN
+    },
+    Choice {
+        name: "origin",
+        value: "URL",
+        help: "Origin of a page that may use a ws link, such as https://example.org; pages of this \
+               computer may; may be repeated",
+        repeats: true,
+        set: |options, text| web_socket::origin(text).map(|value| options.origins.push(value)),
         ..PLAIN
     },
     Choice {

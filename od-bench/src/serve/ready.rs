@@ -80,6 +80,7 @@ struct Link {
 #[serde(rename_all = "lowercase")]
 enum Reached {
     Address(String),
+    Url(String),
     Interface(String),
     Path(String),
 }
@@ -112,6 +113,9 @@ pub(super) fn report(links: &[Opened], bus: &Bus, control: Option<&Place>) -> St
 
 fn link(link: &Opened) -> Link {
     let (link, place) = match link {
+        Opened::Listener(Protocol::WebSocket(gate), _, address) => {
+            ("ws", Reached::Url(gate.address(*address)))
+        }
         Opened::Listener(protocol, _, address) => {
             (protocol.name(), Reached::Address(address.to_string()))
         }

@@ -91,5 +91,6 @@ fn open(options: &Options) -> Result<Vec<Opened>, Failure> {
         let why = "there is one standard input, and room for 64 links";
         return Err(Failure::Usage(why.into()));
     }
-    links.iter().map(Link::open).collect()
+    let opened = links.iter().map(|link| link.open(&options.origins));
+    opened.collect()
 }

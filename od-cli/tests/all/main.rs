@@ -5,6 +5,7 @@ mod support;
 
 #[cfg(unix)]
 mod background;
+mod bridge;
 mod canopennode;
 mod check;
 #[cfg(unix)]

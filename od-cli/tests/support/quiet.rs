@@ -20,16 +20,14 @@ pub(crate) struct Sim {
 
 impl Sim {
     pub(crate) fn start(args: &[&str]) -> Self {
+        Self::run(&[&["sim", "--slcan", "127.0.0.1:0"], args].concat())
+    }
+
+    /// Any subcommand that runs a live bench.
+    pub(crate) fn run(args: &[&str]) -> Self {
         let mut child = command()
-            .args([
-                "sim",
-                "--quiet",
-                "--slcan",
-                "127.0.0.1:0",
-                "--ready-file",
-                "-",
-            ])
             .args(args)
+            .args(["--quiet", "--ready-file", "-"])
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()

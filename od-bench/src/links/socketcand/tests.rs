@@ -53,6 +53,7 @@ fn shown(steps: Vec<Step>) -> String {
             Step::Frame(frame) => text.push_str(&format!("({frame})")),
             Step::Line(_) => unreachable!("socketcand has no lines"),
             Step::Pause => text.push('|'),
+            Step::Leave => text.push('!'),
         }
     }
     text

@@ -12,6 +12,7 @@ pub(super) mod tcp;
 #[cfg(unix)]
 mod terminal;
 mod threads;
+pub(super) mod web_socket;
 
 use super::failure::Failure;
 use opened::{Ends, Opened, Protocol};
@@ -19,7 +20,7 @@ use threads::Threads;
 
 /// Forms of `--link`, for error messages.
 const FORMS: &str = "slcan:HOST:PORT, slcan:pty, slcan:DEVICE[@BAUD], socketcand:HOST:PORT, \
-                     socketcan:INTERFACE, or - for standard input and output";
+                     socketcan:INTERFACE, ws:HOST:PORT, or - for standard input and output";
 
 /// Most links of one bench; as clients they have the numbers below this one.
 pub(super) const LINKS: usize = 64;
@@ -38,6 +39,8 @@ pub enum Link {
     Serial(String, u32),
     /// A CAN interface of Linux.
     SocketCan(String),
+    /// A WebSocket server for pages, and its token if it shall have a known one.
+    WebSocket(String, Option<String>),
     /// Standard input and output.
     Console,
 }
@@ -74,18 +77,20 @@ impl Link {
             "slcan" => tcp::check(place).map(Self::Slcan),
             "socketcand" => tcp::check(place).map(Self::Socketcand),
             "socketcan" => Ok(Self::SocketCan(place.to_owned())),
+            "ws" => web_socket::parse(place),
             _ => Err(unknown()),
         }
     }
 
     /// Opens it.
-    pub(super) fn open(&self) -> Result<Opened, Failure> {
+    pub(super) fn open(&self, origins: &[String]) -> Result<Opened, Failure> {
         match self {
             Self::Slcan(place) => tcp::listen(Protocol::Slcan, place),
             Self::Socketcand(place) => tcp::listen(Protocol::Socketcand, place),
             Self::Pty => pty::open(),
             Self::Serial(path, baud) => serial::open(path, *baud),
             Self::SocketCan(name) => can::open(name),
+            Self::WebSocket(place, token) => web_socket::listen(place, token.as_deref(), origins),
             Self::Console => Ok(Opened::Ends(Ends {
                 name: "standard input and output".into(),
                 protocol: Protocol::Lines,
@@ -124,6 +129,17 @@ mod tests {
                 "slcan:/dev/ttyUSB0",
                 Ok(Link::Serial("/dev/ttyUSB0".into(), 115_200)),
             ),
+            (
+                "ws:29538",
+                Ok(Link::WebSocket("127.0.0.1:29538".into(), None)),
+            ),
+            (
+                "ws:localhost:0?token=a-long-one-12345",
+                Ok(Link::WebSocket(
+                    "localhost:0".into(),
+                    Some("a-long-one-12345".into()),
+                )),
+            ),
             ("slcan:COM3@9600", Ok(Link::Serial("COM3".into(), 9600))),
         ] {
             assert_eq!(Link::parse(text), link, "{text}");
@@ -141,6 +157,9 @@ mod tests {
             "slcan:nowhere",
             "slcan::1",
             "socketcand:127.0.0.1:-1",
+            "ws:1?token=short",
+            "ws:1?token=what&ever-it-may-be",
+            "ws:1?origin=x",
         ] {
             assert!(Link::parse(wrong).is_err(), "{wrong}");
         }

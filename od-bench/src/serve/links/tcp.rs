@@ -38,6 +38,7 @@ pub(super) fn check(place: &str) -> Result<String, String> {
 pub(super) fn listen(protocol: Protocol, full: &str) -> Result<Opened, Failure> {
     let option = match protocol {
         Protocol::Socketcand => "--link socketcand:",
+        Protocol::WebSocket(_) => "--link ws:",
         _ => "--slcan ",
     };
     let addresses: Vec<SocketAddr> = match full.to_socket_addrs() {

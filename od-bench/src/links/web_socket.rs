@@ -1,0 +1,273 @@
+//! slcan inside a WebSocket, for pages: a web page can reach a bus only this way, and only one that has
+//! the token.
+
+use std::io::{self, Cursor, ErrorKind, Read, Write};
+use std::net::SocketAddr;
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant};
+use tungstenite::error::ProtocolError;
+use tungstenite::handshake::machine::TryParse;
+use tungstenite::handshake::server::{Request, create_response, write_response};
+use tungstenite::http::{StatusCode, header};
+use tungstenite::protocol::{Role, WebSocketConfig, WebSocketContext};
+use tungstenite::{Error, Message};
+
+use super::codec::{Codec, Step};
+use super::slcan::Channel;
+
+/// Longest head of a request, in bytes.
+const HEAD: usize = 8 * 1024;
+/// Longest message of a page, in bytes; one holds many frames.
+const MESSAGE: usize = 64 * 1024;
+
+/// Who is let in: a page that shows the token, from this computer or from an origin that was named.
+#[derive(Debug)]
+pub struct Gate {
+    token: String,
+    origins: Vec<String>,
+}
+
+impl Gate {
+    /// A gate with a token, and origins beside those of this computer, such as `https://example.org`.
+    pub fn new(token: String, origins: Vec<String>) -> Self {
+        Self { token, origins }
+    }
+
+    /// Returns the token.
+    pub fn token(&self) -> &str {
+        &self.token
+    }
+
+    /// Returns the address that a page connects to, where the server is at `place`.
+    pub fn address(&self, place: SocketAddr) -> String {
+        format!("ws://{place}/?token={}", self.token)
+    }
+
+    /// Looks at a request, and says why it is refused.
+    fn admit(&self, request: &Request) -> Result<(), &'static str> {
+        let origin = request.headers().get(header::ORIGIN);
+        // A program that is no browser sends none.
+        if let Some(origin) = origin
+            && !origin
+                .to_str()
+                .is_ok_and(|origin| is_local(origin) || self.origins.iter().any(|it| it == origin))
+        {
+            return Err("pages of this origin may not use the bus; name it with --origin");
+        }
+        let query = request.uri().query().unwrap_or_default();
+        let mut tokens = query.split('&').filter_map(|it| it.strip_prefix("token="));
+        match tokens.next() {
+            Some(token) if token == self.token => Ok(()),
+            _ => Err("the token is wrong; use the address that odkit printed"),
+        }
+    }
+}
+
+/// Whether an origin is a page that this computer itself serves.
+fn is_local(origin: &str) -> bool {
+    let Some((_, place)) = origin.split_once("://") else {
+        return false;
+    };
+    let host = match place.rsplit_once(':') {
+        Some((host, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => host,
+        _ => place,
+    };
+    ["127.0.0.1", "localhost", "[::1]"].contains(&host)
+}
+
+/// State of one client.
+#[derive(Debug)]
+pub struct WebSocket<'g> {
+    gate: &'g Gate,
+    /// The head of the request, until it is whole.
+    head: Vec<u8>,
+    open: Option<WebSocketContext>,
+    channel: Channel,
+    is_over: bool,
+}
+
+/// What came in and has not been read, what has to go out.
+struct Pipe<'b> {
+    input: Cursor<&'b [u8]>,
+    output: Vec<u8>,
+}
+
+impl Read for Pipe<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self.input.read(buffer)? {
+            0 => Err(ErrorKind::WouldBlock.into()),
+            count => Ok(count),
+        }
+    }
+}
+
+impl Write for Pipe<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.output.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl<'g> WebSocket<'g> {
+    /// The codec of a new client.
+    pub fn new(gate: &'g Gate) -> Self {
+        Self {
+            gate,
+            head: Vec::new(),
+            open: None,
+            channel: Channel::default(),
+            is_over: false,
+        }
+    }
+
+    /// Takes bytes of the request, and returns the answer when it is whole, with what came behind it.
+    fn shake_hands(&mut self, bytes: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
+        self.head.extend_from_slice(bytes);
+        let request = match Request::try_parse(&self.head) {
+            Ok(None) if self.head.len() <= HEAD => return None,
+            Ok(Some((length, request))) => Ok((length, request)),
+            Ok(None) => Err((StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE, "too long")),
+            Err(_) => Err((StatusCode::BAD_REQUEST, "not an HTTP request")),
+        };
+        let head = std::mem::take(&mut self.head);
+        let made = request.and_then(|(length, request)| {
+            let why = self.gate.admit(&request);
+            why.map_err(|why| (StatusCode::FORBIDDEN, why))?;
+            let needs = "this port speaks WebSocket; paste its address where the page says Connect";
+            let response = create_response(&request);
+            let response = response.map_err(|_| (StatusCode::UPGRADE_REQUIRED, needs))?;
+            Ok((length, response))
+        });
+        Some(match made {
+            Ok((length, response)) => {
+                let config = WebSocketConfig::default()
+                    .max_message_size(Some(MESSAGE))
+                    .max_frame_size(Some(MESSAGE))
+                    .write_buffer_size(0);
+                self.open = Some(WebSocketContext::new(Role::Server, Some(config)));
+                (written(&response), head[length..].to_vec())
+            }
+            Err((status, why)) => {
+                self.is_over = true;
+                (refusal(status, why).into_bytes(), Vec::new())
+            }
+        })
+    }
+
+    /// The bytes of a message.
+    fn pack(&mut self, text: Vec<u8>) -> Vec<u8> {
+        let mut pipe = Pipe {
+            input: Cursor::new(b""),
+            output: Vec::new(),
+        };
+        if let Some(open) = &mut self.open
+            && let Ok(text) = String::from_utf8(text)
+        {
+            // One that is closing takes no more.
+            let _ = open.write(&mut pipe, Message::text(text));
+            let _ = open.flush(&mut pipe);
+        }
+        pipe.output
+    }
+
+    /// Takes bytes of messages.
+    fn messages(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>) {
+        let mut pipe = Pipe {
+            input: Cursor::new(bytes),
+            output: Vec::new(),
+        };
+        while let Some(open) = &mut self.open {
+            let message = open.read(&mut pipe);
+            let flushed = open.flush(&mut pipe);
+            let output = std::mem::take(&mut pipe.output);
+            if !output.is_empty() {
+                steps.push(Step::Reply(output));
+            }
+            match message {
+                Ok(Message::Text(text)) => self.slcan(text.as_bytes(), now, steps),
+                Ok(Message::Binary(bytes)) => self.slcan(&bytes, now, steps),
+                Ok(_) => {}
+                Err(Error::Io(error)) if error.kind() == ErrorKind::WouldBlock => break,
+                Err(Error::Protocol(ProtocolError::ResetWithoutClosingHandshake)) => break,
+                Err(_) => self.leave(steps),
+            }
+            if flushed.is_err() {
+                self.leave(steps);
+            }
+        }
+    }
+
+    fn slcan(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>) {
+        let mut inner = Vec::new();
+        self.channel.receive(bytes, now, &mut inner);
+        for step in inner {
+            steps.push(match step {
+                // The bell is text, too.
+                Step::Reply(bytes) => Step::Reply(self.pack(bytes)),
+                other => other,
+            });
+        }
+    }
+
+    fn leave(&mut self, steps: &mut Vec<Step>) {
+        (self.open, self.is_over) = (None, true);
+        steps.push(Step::Leave);
+    }
+}
+
+impl Codec for WebSocket<'_> {
+    fn receive(&mut self, bytes: &[u8], now: Instant, steps: &mut Vec<Step>) {
+        if self.is_over {
+            return;
+        }
+        if self.open.is_some() {
+            return self.messages(bytes, now, steps);
+        }
+        if let Some((answer, rest)) = self.shake_hands(bytes) {
+            steps.push(Step::Reply(answer));
+            if self.is_over {
+                return steps.push(Step::Leave);
+            }
+            self.messages(&rest, now, steps);
+        }
+    }
+
+    fn form(&self) -> Option<&'static str> {
+        match (&self.open, self.channel.form()) {
+            (Some(_), Some("slcan")) => Some("slcan in a WebSocket"),
+            _ => None,
+        }
+    }
+
+    fn encode(&mut self, frame: &Frame, now: Instant, stamp: u64, out: &mut Vec<u8>) {
+        let mut line = Vec::new();
+        self.channel.encode(frame, now, stamp, &mut line);
+        if !line.is_empty() {
+            out.extend_from_slice(&self.pack(line));
+        }
+    }
+}
+
+/// The bytes of a response.
+fn written(response: &tungstenite::handshake::server::Response) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    // Writing to a vector cannot fail.
+    let _ = write_response(&mut bytes, response);
+    bytes
+}
+
+/// A response that says why there is no WebSocket.
+pub(crate) fn refusal(status: StatusCode, why: &str) -> String {
+    format!(
+        "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\
+         Connection: close\r\n\r\n{why}\n",
+        why.len() + 1
+    )
+}
+
+#[cfg(test)]
+mod tests;
