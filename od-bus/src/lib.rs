@@ -1,9 +1,10 @@
 //! The other end of a CANopen bus, for programs that look at devices.
 //!
 //! [`link::Link`] is a bus with a clock of its own, in real or in virtual time;
-//! [`master::Master`] waits for answers on it.
+//! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test.
 
 pub mod bench;
+pub mod conform;
 pub mod fault;
 pub mod link;
 pub mod links;

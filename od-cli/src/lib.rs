@@ -8,6 +8,7 @@
 mod bridge;
 mod check;
 mod config;
+mod conform;
 mod convert;
 mod ctl;
 mod diff;
@@ -57,6 +58,7 @@ enum Command {
     Export(export::Args),
     Convert(convert::Args),
     Diff(diff::Args),
+    Conform(conform::Args),
     New(new::Args),
 }
 
@@ -93,6 +95,7 @@ pub fn main() -> ExitCode {
         Command::Export(args) => export::run(&args),
         Command::Convert(args) => convert::run(&args),
         Command::Diff(args) => diff::run(&args),
+        Command::Conform(args) => conform::run(&args),
         Command::New(args) => new::run(&args),
     };
     exit(result)

@@ -8,6 +8,7 @@ mod background;
 mod bridge;
 mod canopennode;
 mod check;
+mod conform;
 #[cfg(unix)]
 mod control;
 mod convert;

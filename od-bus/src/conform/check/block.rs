@@ -1,0 +1,368 @@
+//! Block transfers, which a server need not have.
+
+use od_model::{Address, values};
+use od_wire::AbortCode::{self, Crc, InvalidBlockSize, InvalidCommand, InvalidSequence};
+use od_wire::Frame;
+
+use super::segments::{long_value, short_value};
+use crate::conform::dut::{ANSWER, Dut};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::{abort_of, abort_text, crc, is_abort, request};
+
+/// How a client carries out a block transfer.
+#[derive(Clone, Copy)]
+struct How {
+    crc: bool,
+    /// Segments in a block.
+    size: u8,
+    /// The client takes this segment of the first block as lost.
+    lost: Option<u8>,
+}
+
+const PLAIN: How = How {
+    crc: false,
+    size: 127,
+    lost: None,
+};
+
+/// Is this the abort of a server without block transfers?
+fn refused(answer: &[u8; 8]) -> bool {
+    let codes = [InvalidCommand.code(), AbortCode::UnsupportedAccess.code()];
+    abort_of(answer).is_some_and(|code| codes.contains(&code))
+}
+
+fn without<T>() -> Checked<T> {
+    lacks("the node refuses block transfers")
+}
+
+/// Begins a block upload; returns the size and whether the server computes a checksum.
+fn begin(dut: &mut Dut<'_>, address: Address, how: How) -> Checked<(Option<usize>, bool)> {
+    let first = request(0xA0 | u8::from(how.crc) << 2, address, [how.size, 0, 0, 0]);
+    let answer = dut.answer(first)?;
+    if refused(&answer) {
+        return without();
+    }
+    let got = format!("{} came", values::hex(&answer));
+    let is_right = answer[0] & 0xF9 == 0xC0 && answer[1..4] == first[1..4];
+    ensure(
+        is_right,
+        "the response to a block upload, C0h to C6h, with the object",
+        got,
+    )?;
+    let size = u32::from_le_bytes([answer[4], answer[5], answer[6], answer[7]]) as usize;
+    Ok(((answer[0] & 2 != 0).then_some(size), answer[0] & 4 != 0))
+}
+
+/// Reads an object by block transfer.
+fn read(dut: &mut Dut<'_>, address: Address, mut how: How) -> Checked<Vec<u8>> {
+    let (size, server_crc) = begin(dut, address, how)?;
+    dut.drain()?;
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        [0xA3, 0, 0, 0, 0, 0, 0, 0],
+    ))?;
+    let mut bytes = Vec::new();
+    loop {
+        let (mut good, mut is_last) = (0, false);
+        let mut broken = false;
+        for number in 1..=how.size {
+            let Some(segment) = dut.response(ANSWER)? else {
+                return fail(format!("segment {number} of the block"), "none came");
+            };
+            let got = format!("{} came", values::hex(&segment));
+            if segment[0] == 0x80 {
+                return fail(format!("segment {number} of the block"), got);
+            }
+            ensure(
+                segment[0] & 0x7F == number,
+                format!("sequence number {number}"),
+                got,
+            )?;
+            broken |= how.lost == Some(number);
+            if !broken {
+                good = number;
+                bytes.extend_from_slice(&segment[1..]);
+                is_last = segment[0] & 0x80 != 0;
+            }
+            if segment[0] & 0x80 != 0 {
+                break;
+            }
+        }
+        how.lost = None;
+        dut.send(Frame::full(
+            dut.node.plus(0x600),
+            [0xA2, good, how.size, 0, 0, 0, 0, 0],
+        ))?;
+        if is_last {
+            break;
+        }
+        ensure(
+            bytes.len() < 1 << 20,
+            "the last segment to be marked",
+            "more than 1 MiB came",
+        )?;
+    }
+    let Some(end) = dut.response(ANSWER)? else {
+        return fail("the end of the block upload, C1h", "none came");
+    };
+    let got = format!("{} came", values::hex(&end));
+    ensure(
+        end[0] & 0xE3 == 0xC1,
+        "the end of the block upload, C1h to DDh",
+        got.clone(),
+    )?;
+    let unused = usize::from(end[0] >> 2 & 7);
+    bytes.truncate(bytes.len().saturating_sub(unused));
+    if how.crc && server_crc {
+        let right = crc(&bytes);
+        let is = u16::from_le_bytes([end[1], end[2]]);
+        ensure(is == right, format!("checksum {right:04X}h"), got)?;
+    }
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        [0xA1, 0, 0, 0, 0, 0, 0, 0],
+    ))?;
+    match size {
+        Some(size) if size != bytes.len() => fail(
+            format!("{size} bytes, as announced"),
+            format!("{} bytes came", bytes.len()),
+        ),
+        _ => Ok(bytes),
+    }
+}
+
+fn same(dut: &mut Dut<'_>, how: How) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    let again = read(dut, address, how)?;
+    ensure(
+        again == bytes,
+        values::hex(&bytes),
+        format!("{} came", values::hex(&again)),
+    )?;
+    dut.still_serves()
+}
+
+pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
+    same(dut, PLAIN)
+}
+
+pub(super) fn upload_crc(dut: &mut Dut<'_>) -> Checked {
+    same(dut, How { crc: true, ..PLAIN })
+}
+
+/// A block for each segment.
+pub(super) fn upload_blocks(dut: &mut Dut<'_>) -> Checked {
+    same(
+        dut,
+        How {
+            size: 1,
+            crc: true,
+            ..PLAIN
+        },
+    )
+}
+
+pub(super) fn upload_lost(dut: &mut Dut<'_>) -> Checked {
+    let (_, bytes) = long_value(dut)?;
+    let lost = if bytes.len() > 7 { 2 } else { 1 };
+    same(
+        dut,
+        How {
+            lost: Some(lost),
+            crc: true,
+            ..PLAIN
+        },
+    )
+}
+
+/// A short value by block, without a change to another protocol.
+pub(super) fn upload_short(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1000, 0);
+    let bytes = dut.read(address)?;
+    let again = read(dut, address, PLAIN)?;
+    ensure(
+        again == bytes,
+        values::hex(&bytes),
+        format!("{} came", values::hex(&again)),
+    )
+}
+
+pub(super) fn upload_size_128(dut: &mut Dut<'_>) -> Checked {
+    let (address, _) = long_value(dut)?;
+    for size in [128, 0] {
+        let answer = dut.answer(request(0xA0, address, [size, 0, 0, 0]))?;
+        if refused(&answer) {
+            return without();
+        }
+        is_abort(&answer, &[InvalidBlockSize])?;
+    }
+    dut.still_serves()
+}
+
+pub(super) fn upload_ack_128(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    begin(dut, address, PLAIN)?;
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        [0xA3, 0, 0, 0, 0, 0, 0, 0],
+    ))?;
+    for _ in 0..bytes.len().div_ceil(7).min(127) {
+        dut.response(ANSWER)?;
+    }
+    let answer = dut.answer([0xA2, 128, 127, 0, 0, 0, 0, 0])?;
+    is_abort(&answer, &[InvalidSequence, InvalidCommand])?;
+    dut.still_serves()
+}
+
+/// Bytes that can be written, if possible of more than one segment.
+fn writable(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
+    for entry in dut.eds.writable() {
+        if entry.data_type.size().is_none()
+            && let Ok(bytes) = dut.upload(entry.address)?
+            && bytes.len() > 7
+        {
+            return Ok((entry.address, bytes));
+        }
+    }
+    short_value(dut)
+}
+
+/// Begins a block download; returns the size of a block and whether the server checks.
+fn begin_download(
+    dut: &mut Dut<'_>,
+    address: Address,
+    how: How,
+    len: usize,
+) -> Checked<(u8, bool)> {
+    let size = (len as u32).to_le_bytes();
+    let first = request(0xC2 | u8::from(how.crc) << 2, address, size);
+    let answer = dut.answer(first)?;
+    if refused(&answer) {
+        return without();
+    }
+    let got = format!("{} came", values::hex(&answer));
+    let is_right = answer[0] & 0xFB == 0xA0 && answer[1..4] == first[1..4];
+    ensure(
+        is_right,
+        "the response to a block download, A0h or A4h, with the object",
+        got.clone(),
+    )?;
+    ensure(
+        (1..=127).contains(&answer[4]),
+        "a block of 1 to 127 segments",
+        got,
+    )?;
+    Ok((answer[4], answer[0] & 4 != 0))
+}
+
+/// Writes bytes by block transfer; the checksum is made wrong by `spoil`.
+fn write(
+    dut: &mut Dut<'_>,
+    (address, bytes): (Address, &[u8]),
+    mut how: How,
+    spoil: u16,
+) -> Checked<Result<(), u32>> {
+    let (mut block, _) = begin_download(dut, address, how, bytes.len())?;
+    let segments: Vec<&[u8]> = bytes.chunks(7).collect();
+    let mut done = 0;
+    while done < segments.len() {
+        let end = segments.len().min(done + usize::from(block));
+        let mut wanted = (end - done) as u8;
+        for (number, part) in (1u8..).zip(&segments[done..end]) {
+            let is_last = done + usize::from(number) == segments.len();
+            let mut data = [0; 8];
+            data[0] = number | u8::from(is_last) << 7;
+            data[1..=part.len()].copy_from_slice(part);
+            if how.lost == Some(number) {
+                wanted = number - 1;
+                continue;
+            }
+            dut.send(Frame::full(dut.node.plus(0x600), data))?;
+        }
+        how.lost = None;
+        let Some(answer) = dut.response(ANSWER)? else {
+            return fail("the confirmation of a block, A2h", "none came");
+        };
+        if let Some(code) = abort_of(&answer) {
+            return Ok(Err(code));
+        }
+        let got = format!("{} came", values::hex(&answer));
+        let is_right = answer[0] == 0xA2 && answer[1] == wanted;
+        ensure(
+            is_right,
+            format!("the confirmation of {wanted} segments, A2h {wanted:02X}h"),
+            got,
+        )?;
+        done += usize::from(wanted);
+        block = answer[2];
+    }
+    let unused = (segments.len() * 7 - bytes.len()) as u8;
+    let sum = if how.crc {
+        (crc(bytes) ^ spoil).to_le_bytes()
+    } else {
+        [0; 2]
+    };
+    let answer = dut.answer([0xC1 | unused << 2, sum[0], sum[1], 0, 0, 0, 0, 0])?;
+    if let Some(code) = abort_of(&answer) {
+        return Ok(Err(code));
+    }
+    let got = format!("{} came", values::hex(&answer));
+    ensure(answer[0] == 0xA1, "the end of the block download, A1h", got)?;
+    Ok(Ok(()))
+}
+
+fn written(dut: &mut Dut<'_>, how: How) -> Checked {
+    let (address, bytes) = writable(dut)?;
+    if let Err(code) = write(dut, (address, &bytes), how, 0)? {
+        return fail(
+            format!("a block download to {address}"),
+            format!("{} came", abort_text(code)),
+        );
+    }
+    let after = dut.read(address)?;
+    ensure(
+        after == bytes,
+        values::hex(&bytes),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+pub(super) fn download(dut: &mut Dut<'_>) -> Checked {
+    written(dut, PLAIN)
+}
+
+pub(super) fn download_crc(dut: &mut Dut<'_>) -> Checked {
+    written(dut, How { crc: true, ..PLAIN })
+}
+
+pub(super) fn download_lost(dut: &mut Dut<'_>) -> Checked {
+    let (_, bytes) = writable(dut)?;
+    if bytes.len() <= 14 {
+        return lacks("no value that can be written needs three segments");
+    }
+    written(
+        dut,
+        How {
+            lost: Some(2),
+            crc: true,
+            ..PLAIN
+        },
+    )
+}
+
+pub(super) fn download_wrong_crc(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = writable(dut)?;
+    let how = How { crc: true, ..PLAIN };
+    let (_, checks) = begin_download(dut, address, how, bytes.len())?;
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        request(0x80, address, [0, 0, 0, 8]),
+    ))?;
+    if !checks {
+        return lacks("the server does not check a checksum");
+    }
+    match write(dut, (address, &bytes), how, 0x5555)? {
+        Ok(()) => fail("abort 05040004h", "a wrong checksum was accepted"),
+        Err(code) => is_abort(&request(0x80, address, code.to_le_bytes()), &[Crc]),
+    }
+}

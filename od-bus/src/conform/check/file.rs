@@ -1,0 +1,109 @@
+//! The EDS itself, and whether the node is the one that it describes.
+
+use od_model::{Address, values};
+
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::number;
+
+pub(super) fn no_errors(dut: &mut Dut<'_>) -> Checked {
+    let errors: Vec<_> = dut
+        .eds
+        .findings
+        .iter()
+        .filter(|finding| finding.is_error())
+        .collect();
+    match errors.first() {
+        None => Ok(()),
+        Some(first) => {
+            let place = first
+                .span()
+                .map_or(String::new(), |span| format!(" in line {}", span.line));
+            fail(
+                "an EDS without errors",
+                format!(
+                    "{} errors, the first {}{place}; `odkit check` shows them",
+                    errors.len(),
+                    first.code()
+                ),
+            )
+        }
+    }
+}
+
+/// 1000h, 1001h and 1018h:01 are there, in the EDS and in the node.
+pub(super) fn mandatory(dut: &mut Dut<'_>) -> Checked {
+    for (index, sub) in [(0x1000, 0), (0x1001, 0), (0x1018, 0), (0x1018, 1)] {
+        let address = Address::new(index, sub);
+        let has = dut.eds.entry(index, sub).is_some();
+        ensure(has, format!("{address} in the EDS"), "it does not have it")?;
+        dut.read(address)?;
+    }
+    Ok(())
+}
+
+pub(super) fn device_type(dut: &mut Dut<'_>) -> Checked {
+    same(dut, 0x1000, 0)
+}
+
+/// Vendor, product and revision; the serial number is each device's own.
+pub(super) fn identity(dut: &mut Dut<'_>) -> Checked {
+    for sub in 1..=3 {
+        same(dut, 0x1018, sub)?;
+    }
+    Ok(())
+}
+
+fn same(dut: &mut Dut<'_>, index: u16, sub: u8) -> Checked {
+    let Some(entry) = dut.eds.entry(index, sub) else {
+        return Ok(());
+    };
+    let Some(wanted) = dut.eds.default(&entry, dut.node) else {
+        return Ok(());
+    };
+    let is = dut.read(entry.address)?;
+    ensure(
+        is == wanted,
+        format!("{} = {}", entry.address, values::hex(&wanted)),
+        format!("{} was read", values::hex(&is)),
+    )
+}
+
+/// `[DeviceInfo]` and 1018h name the same vendor and product.
+pub(super) fn device_info(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    for (key, sub) in [("VendorNumber", 1), ("ProductNumber", 2)] {
+        let Some(wanted) = dut.eds.info(key).filter(|wanted| *wanted != 0) else {
+            continue;
+        };
+        if dut.eds.entry(0x1018, sub).is_none() {
+            continue;
+        }
+        any = true;
+        let is = number(&dut.read(Address::new(0x1018, sub))?);
+        ensure(
+            i128::from(is) == wanted,
+            format!("1018h:{sub:02} = {wanted:X}h, the {key} of the EDS"),
+            format!("{is:X}h was read"),
+        )?;
+    }
+    match any {
+        true => Ok(()),
+        false => lacks("[DeviceInfo] has no VendorNumber and ProductNumber"),
+    }
+}
+
+/// `[DeviceInfo]` counts the PDOs that the EDS has.
+pub(super) fn pdo_count(dut: &mut Dut<'_>) -> Checked {
+    for (key, base) in [("NrOfRXPDO", 0x1400), ("NrOfTXPDO", 0x1800)] {
+        let is = dut.eds.pdos(base).len();
+        if let Some(wanted) = dut.eds.info(key) {
+            ensure(
+                wanted == is as i128,
+                format!("{key}={is}, the PDOs of the EDS"),
+                format!("it is {wanted}"),
+            )?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,316 @@
+//! Error control: heartbeat producer and consumer, node and life guarding.
+
+use od_model::{Address, values};
+use od_wire::nmt::Command;
+use od_wire::{AbortCode, Frame};
+
+use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+
+const PRODUCER: Address = Address::new(0x1017, 0);
+const CONSUMER: Address = Address::new(0x1016, 1);
+
+pub(super) fn write(dut: &mut Dut<'_>) -> Checked {
+    for millis in [1000u16, 0] {
+        dut.set(PRODUCER, &millis.to_le_bytes())?;
+        let is = dut.number(0x1017, 0)?;
+        ensure(
+            is == u64::from(millis),
+            format!("1017h = {millis}"),
+            format!("{is} was read"),
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn period(dut: &mut Dut<'_>) -> Checked {
+    every(dut, 100, 10)
+}
+
+pub(super) fn other_period(dut: &mut Dut<'_>) -> Checked {
+    every(dut, 100, 2)?;
+    every(dut, 250, 4)
+}
+
+/// Heartbeats of this period, each 10 % off at most.
+fn every(dut: &mut Dut<'_>, millis: u16, count: usize) -> Checked {
+    dut.set(PRODUCER, &millis.to_le_bytes())?;
+    dut.drain()?;
+    let id = dut.id(0x700);
+    let period = u64::from(millis) * 1000;
+    let off = period / 10 + dut.rig.slack();
+    let mut last = None;
+    let mut spans = Vec::new();
+    for _ in 0..=count {
+        let Some(heard) = dut.next_of(id, 2 * period)? else {
+            return fail(
+                format!("a heartbeat every {millis} ms"),
+                "none came for twice as long",
+            );
+        };
+        let got = format!("{} came", heard.frame);
+        ensure(
+            heard.frame.data() == [0x7F],
+            "the heartbeat of Pre-operational, 7Fh",
+            got,
+        )?;
+        if let Some(before) = last.replace(heard.at) {
+            spans.push(heard.at.micros_since(before));
+        }
+    }
+    let wrong = spans.iter().find(|span| span.abs_diff(period) > off);
+    match wrong {
+        Some(span) => fail(
+            format!("a heartbeat every {millis} ms, 10 % off at most"),
+            format!("one came after {}.{:03} ms", span / 1000, span % 1000),
+        ),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
+    dut.set(PRODUCER, &[50, 0])?;
+    let id = dut.id(0x700);
+    if dut.next_of(id, 200_000)?.is_none() {
+        return fail("a heartbeat every 50 ms", "none came");
+    }
+    dut.write(PRODUCER, &[0, 0])?;
+    dut.drain()?;
+    dut.silent(id, 300_000, "no heartbeat with 1017h = 0")
+}
+
+pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
+    dut.set(PRODUCER, &[50, 0])?;
+    for (command, state) in [
+        (Command::Start, 5),
+        (Command::Stop, 4),
+        (Command::EnterPreOperational, 0x7F),
+    ] {
+        dut.nmt(command)?;
+        dut.is_in(state)?;
+    }
+    Ok(())
+}
+
+/// The boot-up message has no heartbeat before it, and heartbeats have one byte.
+pub(super) fn length(dut: &mut Dut<'_>) -> Checked {
+    dut.set(PRODUCER, &[50, 0])?;
+    let id = dut.id(0x700);
+    match dut.next_of(id, 200_000)? {
+        Some(heard) => ensure(
+            heard.frame.dlc() == 1,
+            "a heartbeat of one byte",
+            format!("{} came", heard.frame),
+        ),
+        None => fail("a heartbeat every 50 ms", "none came"),
+    }
+}
+
+/// A node that no other has, to be watched by the node under test.
+fn watched(dut: &Dut<'_>) -> u8 {
+    if dut.node.raw() == 100 { 101 } else { 100 }
+}
+
+/// 1016h:01 for the watched node.
+fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
+    if !dut.eds.writes(0x1016, 1) {
+        return lacks("1016h:01 cannot be written");
+    }
+    let node = watched(dut);
+    let [low, high] = millis.to_le_bytes();
+    dut.set(CONSUMER, &[low, high, node, 0])?;
+    Ok(node)
+}
+
+fn beat(dut: &mut Dut<'_>, node: u8) -> Checked {
+    dut.send_to(0x700 + u16::from(node), &[5])
+}
+
+/// The next EMCY of the node with this code.
+pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<Frame>> {
+    let id = dut.id(0x80);
+    let [low, high] = code.to_le_bytes();
+    let is_it = |frame: &Frame| is_data(frame, id) && frame.data().starts_with(&[low, high]);
+    Ok(dut.next(micros, is_it)?.map(|heard| heard.frame))
+}
+
+pub(super) fn consumer_in_time(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 200)?;
+    dut.nmt(Command::Start)?;
+    for _ in 0..6 {
+        beat(dut, node)?;
+        if let Some(frame) = emcy(dut, 0x8130, 100_000)? {
+            return fail(
+                "no EMCY 8130h while the heartbeat is in time",
+                format!("{frame} came"),
+            );
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn consumer_too_late(dut: &mut Dut<'_>) -> Checked {
+    let node = watch(dut, 200)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    let from = dut.now();
+    match emcy(dut, 0x8130, 1_000_000)? {
+        Some(_) => {
+            let took = dut.now().micros_since(from);
+            ensure(
+                took + 1000 >= 200_000,
+                "EMCY 8130h after 200 ms",
+                format!("it came after {} ms", took / 1000),
+            )
+        }
+        None => fail("EMCY 8130h within 1 s of the last heartbeat", "none came"),
+    }
+}
+
+/// Nobody is missed who was never heard.
+pub(super) fn consumer_waits(dut: &mut Dut<'_>) -> Checked {
+    watch(dut, 100)?;
+    dut.nmt(Command::Start)?;
+    match emcy(dut, 0x8130, 500_000)? {
+        Some(frame) => fail(
+            "no EMCY 8130h before the first heartbeat",
+            format!("{frame} came"),
+        ),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn consumer_twice(dut: &mut Dut<'_>) -> Checked {
+    if !dut.eds.writes(0x1016, 2) {
+        return lacks("1016h has one entry");
+    }
+    let node = watch(dut, 200)?;
+    let second = Address::new(0x1016, 2);
+    dut.keep(second)?;
+    dut.refuses_value(second, &[200, 0, node, 0], &[AbortCode::Incompatible])
+}
+
+/// Guards the node once; silence is a failure.
+fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
+    match dut.guarded()? {
+        Some(state) => Ok(state),
+        None => fail("a response to node guarding within 100 ms", "none came"),
+    }
+}
+
+pub(super) fn guarding(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    let state = guarded(dut)?;
+    ensure(
+        state & 0x7F == 0x7F,
+        "the state Pre-operational, 7Fh",
+        format!("{:02X}h came", state & 0x7F),
+    )
+}
+
+/// Heartbeat and guarding exclude each other, and the heartbeat wins.
+fn without_heartbeat(dut: &mut Dut<'_>) -> Checked {
+    match dut.eds.writes(0x1017, 0) {
+        true => dut.set(PRODUCER, &[0, 0]),
+        false => Ok(()),
+    }
+}
+
+pub(super) fn guarding_toggle(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    let mut last = guarded(dut)?;
+    for _ in 0..4 {
+        let state = guarded(dut)?;
+        ensure(
+            (state ^ last) & 0x80 != 0,
+            "another toggle bit (bit 7) in each response",
+            format!("{last:02X}h and {state:02X}h came"),
+        )?;
+        last = state;
+    }
+    Ok(())
+}
+
+pub(super) fn guarding_after_reset(dut: &mut Dut<'_>) -> Checked {
+    dut.reset(Command::ResetCommunication)?;
+    without_heartbeat(dut)?;
+    for wanted in [0, 0x80] {
+        let state = guarded(dut)?;
+        ensure(
+            state & 0x80 == wanted,
+            format!("toggle bit {}", wanted >> 7),
+            format!("{state:02X}h came"),
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn guarding_states(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    for (command, wanted) in [
+        (Command::Start, 5),
+        (Command::Stop, 4),
+        (Command::EnterPreOperational, 0x7F),
+    ] {
+        dut.nmt(command)?;
+        let state = guarded(dut)? & 0x7F;
+        ensure(
+            state == wanted,
+            format!("state {wanted:02X}h"),
+            format!("{state:02X}h came"),
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn guarding_objects(dut: &mut Dut<'_>) -> Checked {
+    for index in [0x100C, 0x100D] {
+        let address = Address::new(index, 0);
+        let before = dut.keep(address)?;
+        if dut.eds.writes(index, 0) {
+            let mut other = before.clone();
+            other[0] ^= 5;
+            dut.write(address, &other)?;
+            let after = dut.read(address)?;
+            let got = format!("{} was read", values::hex(&after));
+            ensure(
+                after == other,
+                format!("{} in {address}", values::hex(&other)),
+                got,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
+    without_heartbeat(dut)?;
+    dut.set(Address::new(0x100C, 0), &[100, 0])?;
+    dut.set(Address::new(0x100D, 0), &[2])?;
+    dut.nmt(Command::Start)?;
+    for _ in 0..3 {
+        guarded(dut)?;
+        if emcy(dut, 0x8130, 80_000)?.is_some() {
+            return fail("no EMCY 8130h while the node is guarded", "it came");
+        }
+    }
+    match emcy(dut, 0x8130, 500_000)? {
+        Some(_) => Ok(()),
+        None => fail("EMCY 8130h within 500 ms of the last request", "none came"),
+    }
+}
+
+/// With a heartbeat there is no response to guarding.
+pub(super) fn heartbeat_excludes(dut: &mut Dut<'_>) -> Checked {
+    dut.set(PRODUCER, &[0xE8, 3])?;
+    dut.drain()?;
+    let id = dut.id(0x700);
+    dut.ask_for(od_wire::CanId::standard(id), 1)?;
+    match dut.next_of(id, QUIET)? {
+        Some(heard) => fail(
+            "no response to guarding while 1017h is not 0",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}

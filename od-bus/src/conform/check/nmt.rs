@@ -1,0 +1,279 @@
+//! NMT: boot-up, states and commands.
+
+use od_model::{Address, values};
+use od_wire::Frame;
+use od_wire::nmt::Command;
+
+use super::transfer::another_value;
+use crate::conform::dut::{Dut, QUIET};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::request;
+
+const OPERATIONAL: u8 = 5;
+const STOPPED: u8 = 4;
+const PRE_OPERATIONAL: u8 = 0x7F;
+
+const TYPE: Address = Address::new(0x1000, 0);
+
+pub(super) fn boot_up(dut: &mut Dut<'_>) -> Checked {
+    dut.drain()?;
+    let id = dut.id(0x700);
+    let node = dut.node.raw();
+    let from = dut.now();
+    dut.send(Frame::standard(0, &[0x81, node]))?;
+    let Some(heard) = dut.next_of(id, 10_000_000)? else {
+        return fail(
+            format!("the boot-up message {id:03X}#00 within 10 s"),
+            "none came",
+        );
+    };
+    let got = format!("{} came", heard.frame);
+    ensure(
+        heard.frame.data() == [0],
+        format!("the boot-up message {id:03X}#00"),
+        got,
+    )?;
+    dut.times.boots.push(heard.at.micros_since(from));
+    let more = dut.all_of(id, QUIET)?;
+    let again = more.iter().find(|heard| heard.frame.data() == [0]);
+    match again {
+        Some(heard) => fail("one boot-up message", format!("{} came again", heard.frame)),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn boot_up_after_communication(dut: &mut Dut<'_>) -> Checked {
+    dut.reset(Command::ResetCommunication)
+}
+
+/// No service before the boot-up message.
+pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {
+    dut.drain()?;
+    let node = dut.node.raw();
+    dut.send(Frame::standard(0, &[0x81, node]))?;
+    let ids = [0x80, 0x180, 0x280, 0x380, 0x480, 0x580, 0x700].map(|base| dut.id(base));
+    let ours = |frame: &Frame| frame.id().as_standard().is_some_and(|id| ids.contains(&id));
+    let boot = dut.id(0x700);
+    match dut.next(10_000_000, ours)? {
+        Some(heard) if heard.frame.id().as_standard() == Some(boot) => ensure(
+            heard.frame.data() == [0],
+            "the boot-up message as the first frame",
+            format!("{} came", heard.frame),
+        ),
+        // CiA 301 lets a device report an error of its start first.
+        Some(heard) if heard.frame.id().as_standard() == Some(dut.id(0x80)) => Ok(()),
+        Some(heard) => fail(
+            "the boot-up message as the first frame",
+            format!("{} came", heard.frame),
+        ),
+        None => fail("the boot-up message within 10 s", "none came"),
+    }
+}
+
+pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {
+    dut.drain()?;
+    dut.rig.power(false)?;
+    dut.wait(500_000)?;
+    let from = dut.now();
+    dut.rig.power(true)?;
+    dut.booted(from)
+}
+
+pub(super) fn pre_operational_after_reset(dut: &mut Dut<'_>) -> Checked {
+    dut.reset(Command::ResetNode)?;
+    dut.follow_state()?;
+    dut.is_in(PRE_OPERATIONAL)
+}
+
+pub(super) fn start(dut: &mut Dut<'_>) -> Checked {
+    change(dut, &[(Command::Start, OPERATIONAL)])
+}
+
+pub(super) fn stop(dut: &mut Dut<'_>) -> Checked {
+    change(dut, &[(Command::Stop, STOPPED)])
+}
+
+pub(super) fn enter_pre_operational(dut: &mut Dut<'_>) -> Checked {
+    change(
+        dut,
+        &[
+            (Command::Start, OPERATIONAL),
+            (Command::EnterPreOperational, PRE_OPERATIONAL),
+        ],
+    )
+}
+
+pub(super) fn transitions(dut: &mut Dut<'_>) -> Checked {
+    use Command::{EnterPreOperational, Start, Stop};
+    change(
+        dut,
+        &[
+            (Start, OPERATIONAL),
+            (Start, OPERATIONAL),
+            (Stop, STOPPED),
+            (Stop, STOPPED),
+            (Start, OPERATIONAL),
+            (Stop, STOPPED),
+            (EnterPreOperational, PRE_OPERATIONAL),
+            (EnterPreOperational, PRE_OPERATIONAL),
+            (Stop, STOPPED),
+            (EnterPreOperational, PRE_OPERATIONAL),
+        ],
+    )
+}
+
+fn change(dut: &mut Dut<'_>, steps: &[(Command, u8)]) -> Checked {
+    dut.follow_state()?;
+    dut.is_in(PRE_OPERATIONAL)?;
+    for (command, state) in steps {
+        dut.nmt(*command)?;
+        dut.is_in(*state)?;
+    }
+    Ok(())
+}
+
+pub(super) fn all_nodes(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    for (command, state) in [(1, OPERATIONAL), (2, STOPPED), (0x80, PRE_OPERATIONAL)] {
+        dut.send(Frame::standard(0, &[command, 0]))?;
+        dut.wait(20_000)?;
+        dut.is_in(state)?;
+    }
+    Ok(())
+}
+
+pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    let other = if dut.node.raw() == 127 {
+        126
+    } else {
+        dut.node.raw() + 1
+    };
+    dut.send(Frame::standard(0, &[1, other]))?;
+    dut.wait(20_000)?;
+    dut.is_in(PRE_OPERATIONAL)?;
+    dut.send(Frame::standard(0, &[0x81, other]))?;
+    let id = dut.id(0x700);
+    for heard in dut.all_of(id, QUIET)? {
+        let got = format!("{} came", heard.frame);
+        ensure(
+            heard.frame.data() != [0],
+            "no reset by a command to another node",
+            got,
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    let node = dut.node.raw();
+    for command in [0, 3, 0x7F, 0x83, 0xFF] {
+        dut.send(Frame::standard(0, &[command, node]))?;
+        dut.wait(20_000)?;
+        dut.is_in(PRE_OPERATIONAL)?;
+    }
+    Ok(())
+}
+
+pub(super) fn short_command(dut: &mut Dut<'_>) -> Checked {
+    dut.follow_state()?;
+    dut.send_to(0, &[1])?;
+    dut.send_to(0, &[])?;
+    dut.wait(20_000)?;
+    dut.is_in(PRE_OPERATIONAL)
+}
+
+pub(super) fn sdo_in_operational(dut: &mut Dut<'_>) -> Checked {
+    dut.nmt(Command::Start)?;
+    dut.still_serves()
+}
+
+pub(super) fn no_sdo_in_stopped(dut: &mut Dut<'_>) -> Checked {
+    dut.nmt(Command::Stop)?;
+    if let Some(answer) = dut.ask_within(request(0x40, TYPE, [0; 4]), QUIET)? {
+        return fail(
+            "no SDO response in Stopped",
+            format!("{} came", values::hex(&answer)),
+        );
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.still_serves()
+}
+
+/// What was not saved is gone after reset communication.
+pub(super) fn reset_communication_values(dut: &mut Dut<'_>) -> Checked {
+    forgets(dut, Command::ResetCommunication)
+}
+
+pub(super) fn reset_node_values(dut: &mut Dut<'_>) -> Checked {
+    forgets(dut, Command::ResetNode)
+}
+
+fn forgets(dut: &mut Dut<'_>, command: Command) -> Checked {
+    let Some((address, bytes)) = another_value(dut)? else {
+        return lacks("no parameter of communication can be written");
+    };
+    let before = dut.read(address)?;
+    dut.set(address, &bytes)?;
+    dut.reset(command)?;
+    let after = dut.read(address)?;
+    ensure(
+        after == before,
+        format!(
+            "{} in {address}, as before the change",
+            values::hex(&before)
+        ),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// A parameter of the application changes with reset node.
+pub(super) fn reset_application(dut: &mut Dut<'_>) -> Checked {
+    for entry in dut.eds.writable() {
+        let is_application = (0x2000..0xA000).contains(&entry.address.index);
+        let Some((bytes, default)) = is_application
+            .then(|| another_of(dut, &entry))
+            .transpose()?
+            .flatten()
+        else {
+            continue;
+        };
+        dut.undo.push((entry.address, default.clone()));
+        match dut.download(entry.address, &bytes)? {
+            Ok(()) => {}
+            Err(_) => continue,
+        }
+        dut.reset(Command::ResetNode)?;
+        let after = dut.read(entry.address)?;
+        return ensure(
+            after == default,
+            format!(
+                "{} in {}, as before the change",
+                values::hex(&default),
+                entry.address
+            ),
+            format!("{} was read", values::hex(&after)),
+        );
+    }
+    lacks("no parameter of the application can be changed")
+}
+
+/// The value of a number with two limits, and another one between them.
+fn another_of(dut: &mut Dut<'_>, entry: &od_model::Entry) -> Checked<Option<(Vec<u8>, Vec<u8>)>> {
+    let node = dut.node.raw();
+    let (Some(low), Some(high)) = (entry.low.integer(node), entry.high.integer(node)) else {
+        return Ok(None);
+    };
+    let before = dut.read(entry.address)?;
+    let Some(size) = entry.data_type.size().filter(|_| low < high) else {
+        return Ok(None);
+    };
+    let bytes = |value: i128| value.to_le_bytes()[..size].to_vec();
+    let other = if before == bytes(low) {
+        bytes(high)
+    } else {
+        bytes(low)
+    };
+    Ok(Some((other, before)))
+}

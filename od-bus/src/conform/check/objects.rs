@@ -1,0 +1,286 @@
+//! Every object of the EDS: access, type, limits, defaults.
+
+use od_model::{Access, Address, Entry, Group, Kind, values};
+use od_wire::AbortCode::{NoObject, NoSubIndex, ReadOnly, UnsupportedAccess, WriteOnly};
+use od_wire::nmt::Command;
+
+use super::transfer::{out_of_range, outside};
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, End, ensure, fail, lacks};
+use crate::conform::sdo::{abort_text, request};
+
+/// An abort that says that there is nothing now, not that there is no object.
+fn is_empty(code: u32) -> bool {
+    (code >> 24) == 8
+}
+
+/// Entries in a range of indices.
+fn entries(dut: &Dut<'_>, from: u16, to: u16) -> Vec<Entry> {
+    let all = dut.eds.dictionary().entries();
+    all.filter(|entry| (from..=to).contains(&entry.address.index))
+        .collect()
+}
+
+/// Every object that can be read is there, with the size of its type.
+fn read_all(dut: &mut Dut<'_>, from: u16, to: u16) -> Checked {
+    let all = entries(dut, from, to);
+    for entry in all.iter().filter(|entry| entry.access.readable()) {
+        let name = values::label(dut.eds.dictionary(), entry.address);
+        match dut.upload(entry.address)? {
+            Ok(bytes) => {
+                if let Some(size) = entry.data_type.size() {
+                    ensure(
+                        bytes.len() == size,
+                        format!("{size} bytes of {name}, {}", entry.data_type.name()),
+                        format!("{} came: {}", bytes.len(), values::hex(&bytes)),
+                    )?;
+                }
+                if entry.data_type.kind() == Kind::Boolean && bytes.first() > Some(&1) {
+                    return fail(format!("0 or 1 in {name}"), values::hex(&bytes));
+                }
+            }
+            Err(code) if is_empty(code) => {}
+            Err(code) => return fail(format!("a value of {name}"), abort_text(code)),
+        }
+    }
+    match all.is_empty() {
+        true => lacks("the EDS has no such object"),
+        false => Ok(()),
+    }
+}
+
+pub(super) fn communication_read(dut: &mut Dut<'_>) -> Checked {
+    read_all(dut, 0x1000, 0x1FFF)
+}
+
+pub(super) fn manufacturer_read(dut: &mut Dut<'_>) -> Checked {
+    read_all(dut, 0x2000, 0x5FFF)
+}
+
+pub(super) fn profile_read(dut: &mut Dut<'_>) -> Checked {
+    read_all(dut, 0x6000, 0x9FFF)
+}
+
+/// What is read only refuses its own value.
+pub(super) fn read_only(dut: &mut Dut<'_>) -> Checked {
+    for entry in entries(dut, 0x1000, 0x9FFF) {
+        let is_fixed = matches!(entry.access, Access::Ro | Access::Const);
+        let Some(size) = entry.data_type.size().filter(|size| is_fixed && *size <= 4) else {
+            continue;
+        };
+        let mut data = [0; 4];
+        if let Ok(bytes) = dut.upload(entry.address)? {
+            let len = bytes.len().min(4);
+            data[..len].copy_from_slice(&bytes[..len]);
+        }
+        let command = 0x23 | (4 - size as u8) << 2;
+        dut.refuses(
+            request(command, entry.address, data),
+            &[UnsupportedAccess, ReadOnly],
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn write_only(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    for entry in entries(dut, 0x1000, 0x9FFF) {
+        if entry.access == Access::Wo {
+            any = true;
+            let read = request(0x40, entry.address, [0; 4]);
+            dut.refuses(read, &[UnsupportedAccess, WriteOnly])?;
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => lacks("no object is write only"),
+    }
+}
+
+/// What can be written takes its own value.
+pub(super) fn own_value(dut: &mut Dut<'_>) -> Checked {
+    for entry in dut.eds.writable() {
+        let Ok(bytes) = dut.upload(entry.address)? else {
+            continue;
+        };
+        if bytes.is_empty() {
+            continue;
+        }
+        if let Err(code) = dut.download(entry.address, &bytes)?
+            && !is_empty(code)
+        {
+            let name = values::label(dut.eds.dictionary(), entry.address);
+            return fail(
+                format!("{name} to take its own value {}", values::hex(&bytes)),
+                abort_text(code),
+            );
+        }
+        let after = dut.upload(entry.address)?;
+        // What the device computes or counts moves on.
+        if entry.group != Group::None && after.as_ref().is_ok_and(|after| *after != bytes) {
+            let name = values::label(dut.eds.dictionary(), entry.address);
+            let got = after.unwrap_or_default();
+            return fail(
+                format!("{name} = {} again", values::hex(&bytes)),
+                format!("{} was read", values::hex(&got)),
+            );
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn limits(dut: &mut Dut<'_>) -> Checked {
+    let mut any = false;
+    for entry in dut.eds.writable() {
+        for high in [true, false] {
+            if let Some(bytes) = outside(&entry, high, dut.node.raw()) {
+                any = true;
+                out_of_range(dut, &entry, &bytes, high)?;
+            }
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => lacks("no object that can be written has limits"),
+    }
+}
+
+/// A value at its limit is accepted.
+pub(super) fn limits_reached(dut: &mut Dut<'_>) -> Checked {
+    let node = dut.node.raw();
+    let quiet = dut.eds.writable();
+    let quiet = quiet.iter().filter(|entry| entry.address.index == 0x1017);
+    for entry in quiet {
+        let (low, high) = (entry.low.integer(node), entry.high.integer(node));
+        for limit in [low, high].into_iter().flatten() {
+            let size = entry.data_type.size().unwrap_or(2);
+            dut.set(entry.address, &limit.to_le_bytes()[..size])?;
+        }
+    }
+    Ok(())
+}
+
+/// Sub-index 0 of an ARRAY or RECORD is the highest sub-index, which exists; the next does not.
+pub(super) fn sub_indices(dut: &mut Dut<'_>) -> Checked {
+    let dictionary = dut.eds.dictionary();
+    for object in dictionary.objects() {
+        if !object.code.has_members() || !(0x1000..0xA000).contains(&object.index) {
+            continue;
+        }
+        let members: Vec<Entry> = dictionary.members(&object).collect();
+        let Some(first) = members.first().filter(|first| first.address.sub == 0) else {
+            continue;
+        };
+        let Ok(count) = dut.upload(first.address)? else {
+            continue;
+        };
+        let last = members.iter().rev().find(|entry| entry.address.sub < 0xFF);
+        let highest = last.map_or(0, |entry| entry.address.sub);
+        // Of what varies, sub-index 0 counts what is used.
+        let is_fixed = first.access == Access::Const;
+        if is_fixed {
+            ensure(
+                count.first() == Some(&highest),
+                format!(
+                    "{highest} in {}, the highest sub-index of the EDS",
+                    first.address
+                ),
+                format!("{} was read", values::hex(&count)),
+            )?;
+        }
+        if highest < 0xFE {
+            let beyond = Address::new(object.index, highest + 1);
+            dut.refuses(request(0x40, beyond, [0; 4]), &[NoSubIndex])?;
+        }
+    }
+    Ok(())
+}
+
+/// Sub-index 255 is not there, or says what the object is.
+pub(super) fn sub_index_255(dut: &mut Dut<'_>) -> Checked {
+    for object in dut.eds.dictionary().objects() {
+        if !(0x1000..0xA000).contains(&object.index) {
+            continue;
+        }
+        let address = Address::new(object.index, 0xFF);
+        match dut.upload(address)? {
+            Err(code) => ensure(
+                code == NoSubIndex.code() || is_empty(code),
+                format!("abort 06090011h for {address}, or its structure"),
+                abort_text(code),
+            )?,
+            Ok(bytes) => ensure(
+                bytes.len() == 4 && bytes[0] == object.code.code(),
+                format!("the structure in {address}, or abort 06090011h"),
+                values::hex(&bytes),
+            )?,
+        }
+    }
+    Ok(())
+}
+
+/// Objects of CiA 301 that the EDS does not have are not there.
+pub(super) fn unlisted(dut: &mut Dut<'_>) -> Checked {
+    for index in 0x1000..=0x102B {
+        if !dut.eds.has(index)
+            && let Ok(bytes) = dut.upload(Address::new(index, 0))?
+        {
+            return fail(
+                format!("no {index:04X}h, as the EDS has none"),
+                format!("{} was read", values::hex(&bytes)),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// What never changes is as the EDS says.
+pub(super) fn constants(dut: &mut Dut<'_>) -> Checked {
+    defaults(dut, |entry| {
+        entry.access == Access::Const && entry.address != Address::new(0x1018, 4)
+    })
+}
+
+/// After a restore and a reset every value that a master can write is the default.
+pub(super) fn after_restore(dut: &mut Dut<'_>) -> Checked {
+    let before = super::store::backup(dut)?;
+    let done = restored(dut);
+    let back = super::store::bring_back(dut, &before);
+    done.and(back)
+}
+
+fn restored(dut: &mut Dut<'_>) -> Checked {
+    super::store::command(dut, 0x1011, 1, b"load")?;
+    dut.reset(Command::ResetNode)?;
+    defaults(dut, |entry| {
+        entry.access.writable() && entry.access.readable() && entry.group != Group::None
+    })
+}
+
+/// Compares values with the defaults of the EDS.
+fn defaults(dut: &mut Dut<'_>, which: impl Fn(&Entry) -> bool) -> Checked {
+    let node = dut.node;
+    let all = entries(dut, 0x1000, 0x9FFF);
+    for entry in all.into_iter().filter(which) {
+        let Some(wanted) = dut.eds.default(&entry, node) else {
+            continue;
+        };
+        match dut.upload(entry.address) {
+            Ok(Ok(bytes)) => {
+                let name = values::label(dut.eds.dictionary(), entry.address);
+                ensure(
+                    bytes == wanted,
+                    format!("{name} = {}, the default", values::hex(&wanted)),
+                    format!("{} was read", values::hex(&bytes)),
+                )?;
+            }
+            Ok(Err(code)) if is_empty(code) || code == NoObject.code() => {}
+            Ok(Err(code)) => {
+                return fail(format!("a value of {}", entry.address), abort_text(code));
+            }
+            Err(End::Lost(fault)) => return Err(End::Lost(fault)),
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(())
+}

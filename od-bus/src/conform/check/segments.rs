@@ -1,0 +1,265 @@
+//! Segmented transfers.
+
+use od_model::{Address, Entry, values};
+use od_wire::AbortCode::{
+    InvalidCommand, Length, OutOfMemory, ToggleBit, TooLong, TooShort, UnsupportedAccess,
+};
+use od_wire::Frame;
+
+use crate::conform::dut::{Dut, QUIET};
+use crate::conform::end::{Checked, ensure, lacks, skip};
+use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
+
+/// An object with a value of more than four bytes, if possible of more than seven.
+pub(super) fn long_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
+    let dictionary = dut.eds.dictionary();
+    let fits = |entry: &Entry| {
+        entry.access.readable() && entry.data_type.size().is_none_or(|size| size > 4)
+    };
+    let mut found = None;
+    for entry in dictionary.entries().filter(fits).take(12) {
+        if let Ok(bytes) = dut.upload(entry.address)?
+            && bytes.len() > 4
+        {
+            let enough = bytes.len() > 7;
+            found.get_or_insert((entry.address, bytes.clone()));
+            if enough {
+                return Ok((entry.address, bytes));
+            }
+        }
+    }
+    match found {
+        Some(found) => Ok(found),
+        None => lacks("no value has more than four bytes"),
+    }
+}
+
+/// A number of two or four bytes that can be written, and its value.
+pub(super) fn short_value(dut: &mut Dut<'_>) -> Checked<(Address, Vec<u8>)> {
+    let fits = |entry: &Entry| matches!(entry.data_type.size(), Some(2 | 4));
+    let Some(entry) = dut.eds.writable().into_iter().find(fits) else {
+        return lacks("no number of two or four bytes can be written");
+    };
+    let before = dut.keep(entry.address)?;
+    Ok((entry.address, before))
+}
+
+/// Begins a segmented upload; returns the size, if the server says one.
+fn begin(dut: &mut Dut<'_>, address: Address) -> Checked<Option<usize>> {
+    let answer = dut.answer(request(0x40, address, [0; 4]))?;
+    let got = format!("{} came", values::hex(&answer));
+    ensure(
+        matches!(answer[0], 0x40 | 0x41),
+        "41h or 40h, a segmented upload",
+        got,
+    )?;
+    let size = u32::from_le_bytes([answer[4], answer[5], answer[6], answer[7]]) as usize;
+    Ok((answer[0] == 0x41).then_some(size))
+}
+
+pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    let size = begin(dut, address)?;
+    let again = dut.segments(size)?;
+    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}
+
+pub(super) fn upload_unused(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    begin(dut, address)?;
+    let mut toggle = 0;
+    for _ in 0..bytes.len().div_ceil(7) {
+        let answer = dut.answer([0x60 | toggle, 0, 0, 0, 0, 0, 0, 0])?;
+        let unused = usize::from(answer[0] >> 1 & 7);
+        let got = format!("{} came", values::hex(&answer));
+        ensure(
+            answer[8 - unused..].iter().all(|byte| *byte == 0),
+            "0 in the bytes without data",
+            got,
+        )?;
+        toggle ^= 0x10;
+    }
+    Ok(())
+}
+
+pub(super) fn upload_toggle(dut: &mut Dut<'_>) -> Checked {
+    let (address, _) = long_value(dut)?;
+    begin(dut, address)?;
+    let answer = dut.answer([0x70, 0, 0, 0, 0, 0, 0, 0])?;
+    is_abort(&answer, &[ToggleBit])?;
+    dut.still_serves()
+}
+
+pub(super) fn download(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    written(dut, address, &before, before.len(), true)
+}
+
+pub(super) fn download_unsized(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    written(dut, address, &before, before.len(), false)
+}
+
+/// Two segments, so that the toggle bit changes.
+pub(super) fn download_two(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    written(dut, address, &before, before.len() / 2, true)
+}
+
+fn written(dut: &mut Dut<'_>, address: Address, bytes: &[u8], step: usize, sized: bool) -> Checked {
+    if let Err(code) = dut.download_segments(address, bytes, sized, step)? {
+        need_not(dut, code)?;
+        let got = format!("{} came", abort_text(code));
+        ensure(false, format!("a segmented download to {address}"), got)?;
+    }
+    let after = dut.read(address)?;
+    ensure(
+        after == bytes,
+        values::hex(bytes),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// A server whose values all fit into one frame need not have segmented downloads.
+fn need_not(dut: &Dut<'_>, code: u32) -> Checked {
+    let is_refused = [InvalidCommand, UnsupportedAccess]
+        .iter()
+        .any(|one| one.code() == code);
+    let mut entries = dut.eds.dictionary().entries();
+    let is_long = |entry: &Entry| {
+        entry.access.writable() && entry.data_type.size().is_none_or(|size| size > 4)
+    };
+    match is_refused && !entries.any(|entry| is_long(&entry)) {
+        true => lacks("the node refuses segmented downloads, and no value needs them"),
+        false => Ok(()),
+    }
+}
+
+/// Begins a segmented download.
+fn begin_download(dut: &mut Dut<'_>, address: Address, size: usize) -> Checked {
+    let answer = dut.answer(request(0x21, address, (size as u32).to_le_bytes()))?;
+    if let Some(code) = abort_of(&answer) {
+        need_not(dut, code)?;
+    }
+    let got = format!("{} came", values::hex(&answer));
+    ensure(
+        answer[0] == 0x60,
+        "the confirmation of a download, 60h",
+        got,
+    )
+}
+
+/// A long value is written back as it is.
+pub(super) fn download_long(dut: &mut Dut<'_>) -> Checked {
+    for entry in dut.eds.writable() {
+        if entry.data_type.size().is_some_and(|size| size <= 4) {
+            continue;
+        }
+        if let Ok(bytes) = dut.upload(entry.address)?
+            && bytes.len() > 7
+        {
+            return written(dut, entry.address, &bytes, 7, true);
+        }
+    }
+    lacks("no value of more than seven bytes can be written")
+}
+
+pub(super) fn download_toggle(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    begin_download(dut, address, before.len())?;
+    let mut segment = [0; 8];
+    segment[0] = 0x10 | (7 - before.len() as u8) << 1 | 1;
+    segment[1..=before.len()].copy_from_slice(&before);
+    segment[1] ^= 1;
+    let answer = dut.answer(segment)?;
+    is_abort(&answer, &[ToggleBit])?;
+    unchanged(dut, address, &before)
+}
+
+fn unchanged(dut: &mut Dut<'_>, address: Address, before: &[u8]) -> Checked {
+    let after = dut.read(address)?;
+    ensure(
+        after == before,
+        format!("{address} unchanged, {}", values::hex(before)),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// More bytes are announced than the object has.
+pub(super) fn download_too_long(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    let mut bytes = before.clone();
+    bytes.resize(8, 0);
+    let codes = [Length, TooLong, OutOfMemory];
+    match dut.download_segments(address, &bytes, true, 7)? {
+        Ok(()) => ensure(
+            false,
+            "abort 06070010h or 06070012h",
+            "8 bytes were accepted",
+        )?,
+        Err(code) => {
+            need_not(dut, code)?;
+            is_abort(&request(0x80, address, code.to_le_bytes()), &codes)?;
+        }
+    }
+    unchanged(dut, address, &before)
+}
+
+/// The last segment comes before all bytes that were announced.
+pub(super) fn download_too_short(dut: &mut Dut<'_>) -> Checked {
+    let (address, before) = short_value(dut)?;
+    begin_download(dut, address, before.len())?;
+    let mut segment = [0; 8];
+    segment[0] = (7 - 1) << 1 | 1;
+    segment[1] = before[0] ^ 1;
+    let answer = dut.answer(segment)?;
+    is_abort(&answer, &[Length, TooShort])?;
+    unchanged(dut, address, &before)
+}
+
+pub(super) fn no_transfer(dut: &mut Dut<'_>) -> Checked {
+    dut.still_serves()?;
+    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    is_abort(&answer, &[InvalidCommand, ToggleBit])?;
+    let answer = dut.answer([0x0D, 0, 0, 0, 0, 0, 0, 0])?;
+    is_abort(&answer, &[InvalidCommand, ToggleBit])
+}
+
+/// After the client's abort there is no transfer.
+pub(super) fn aborted(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    begin(dut, address)?;
+    dut.send(Frame::full(
+        dut.node.plus(0x600),
+        request(0x80, address, [0, 0, 0, 8]),
+    ))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "no response to an abort")?;
+    let answer = dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    ensure(
+        abort_of(&answer).is_some(),
+        "an abort: the transfer is over",
+        format!("{} came", values::hex(&answer)),
+    )?;
+    let again = dut.read(address)?;
+    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}
+
+/// A client that starts again in the middle gets its value.
+pub(super) fn begin_again(dut: &mut Dut<'_>) -> Checked {
+    let (address, bytes) = long_value(dut)?;
+    if bytes.len() <= 7 {
+        return skip("no value needs two segments");
+    }
+    begin(dut, address)?;
+    dut.answer([0x60, 0, 0, 0, 0, 0, 0, 0])?;
+    // A server may end the old transfer with an abort first.
+    if abort_of(&dut.answer(request(0x40, address, [0; 4]))?).is_none() {
+        dut.send(Frame::full(
+            dut.node.plus(0x600),
+            request(0x80, address, [0, 0, 0, 8]),
+        ))?;
+    }
+    let again = dut.read(address)?;
+    ensure(again == bytes, values::hex(&bytes), values::hex(&again))
+}

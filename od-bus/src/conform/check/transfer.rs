@@ -1,0 +1,358 @@
+//! Expedited transfers, and what a server refuses.
+
+use od_model::{Access, Address, Entry, values};
+use od_wire::AbortCode::{
+    InvalidCommand, Length, NoObject, NoSubIndex, ReadOnly, TooLong, TooShort, UnsupportedAccess,
+    ValueRange, ValueTooHigh, ValueTooLow, WriteOnly,
+};
+use od_wire::Frame;
+
+use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::eds::is_number;
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::{abort_of, abort_text, is_abort, request};
+
+const TYPE: Address = Address::new(0x1000, 0);
+
+/// Indices that few devices have.
+const RARE: [u16; 8] = [
+    0x1004, 0x1024, 0x1FFF, 0x1F7E, 0x5FFF, 0x9FFF, 0x103F, 0x1EFF,
+];
+
+pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
+    let answer = dut.answer(request(0x40, TYPE, [0; 4]))?;
+    let got = format!("{} came", values::hex(&answer));
+    let is_right = matches!(answer[0], 0x42 | 0x43) && answer[1..4] == [0, 0x10, 0];
+    ensure(is_right, "43 00 10 00 and the four bytes of 1000h", got)
+}
+
+/// Entries of one, two, three and four bytes: the command byte says how many there are.
+pub(super) fn upload_sizes(dut: &mut Dut<'_>) -> Checked {
+    for size in 1..=4 {
+        let mut entries = dut.eds.dictionary().entries();
+        let fits = |entry: &Entry| entry.access.readable() && entry.data_type.size() == Some(size);
+        let Some(entry) = entries.find(fits) else {
+            continue;
+        };
+        let answer = dut.answer(request(0x40, entry.address, [0; 4]))?;
+        let got = format!("{} came", values::hex(&answer));
+        let wanted = 0x43 | (4 - size as u8) << 2;
+        ensure(
+            answer[0] == wanted || (size == 4 && answer[0] == 0x42),
+            format!("{wanted:02X}h, {size} bytes, for {}", entry.address),
+            got.clone(),
+        )?;
+        let unused = &answer[4 + size..];
+        ensure(
+            unused.iter().all(|byte| *byte == 0),
+            "0 in the bytes without data",
+            got,
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
+    dut.answer(request(0x40, TYPE, [0; 4]))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "one response to a request")
+}
+
+pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
+    let entries = dut.eds.writable();
+    let mut of_communication = entries.iter().filter(|entry| entry.address.index < 0x2000);
+    let Some(entry) = of_communication.next().or_else(|| entries.first()) else {
+        return lacks("no object can be written");
+    };
+    let before = dut.read(entry.address)?;
+    dut.write(entry.address, &before)?;
+    let after = dut.read(entry.address)?;
+    ensure(
+        before == after,
+        format!("{} again", values::hex(&before)),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// A value that was written is there.
+pub(super) fn write_holds(dut: &mut Dut<'_>) -> Checked {
+    let Some((address, bytes)) = another_value(dut)? else {
+        return lacks("no object can be written");
+    };
+    dut.set(address, &bytes)?;
+    let after = dut.read(address)?;
+    ensure(
+        bytes == after,
+        format!("{} in {address}", values::hex(&bytes)),
+        format!("{} was read", values::hex(&after)),
+    )
+}
+
+/// A quiet object and another value for it.
+pub(super) fn another_value(dut: &mut Dut<'_>) -> Checked<Option<(Address, Vec<u8>)>> {
+    another_saved(dut, None)
+}
+
+/// As [`another_value`], of an object that a sub-index of 1010h saves.
+pub(super) fn another_saved(
+    dut: &mut Dut<'_>,
+    by: Option<u8>,
+) -> Checked<Option<(Address, Vec<u8>)>> {
+    for (index, sub) in [(0x1017, 0), (0x100C, 0), (0x1800, 5), (0x1801, 5)] {
+        let entry = dut
+            .eds
+            .entry(index, sub)
+            .filter(|entry| entry.access.writable());
+        if let Some(entry) = entry
+            && by.is_none_or(|by| entry.group.covered_by(by))
+        {
+            let address = entry.address;
+            let before = dut.read(address)?;
+            let value: u16 = if before.first() == Some(&0x2C) {
+                301
+            } else {
+                300
+            };
+            return Ok(Some((address, value.to_le_bytes().to_vec())));
+        }
+    }
+    Ok(None)
+}
+
+pub(super) fn write_read_only(dut: &mut Dut<'_>) -> Checked {
+    let before = dut.read(TYPE)?;
+    let mut bytes = [0; 4];
+    bytes[..before.len().min(4)].copy_from_slice(&before[..before.len().min(4)]);
+    dut.refuses(request(0x23, TYPE, bytes), &[UnsupportedAccess, ReadOnly])
+}
+
+pub(super) fn read_write_only(dut: &mut Dut<'_>) -> Checked {
+    let mut entries = dut.eds.dictionary().entries();
+    let Some(entry) = entries.find(|entry| entry.access == Access::Wo) else {
+        return lacks("no object is write only");
+    };
+    dut.refuses(
+        request(0x40, entry.address, [0; 4]),
+        &[UnsupportedAccess, WriteOnly],
+    )
+}
+
+pub(super) fn read_no_sub_index(dut: &mut Dut<'_>) -> Checked {
+    dut.refuses(
+        request(0x40, Address::new(0x1000, 1), [0; 4]),
+        &[NoSubIndex],
+    )
+}
+
+pub(super) fn write_no_sub_index(dut: &mut Dut<'_>) -> Checked {
+    let index = if dut.eds.has(0x1017) { 0x1017 } else { 0x1000 };
+    let codes = [NoSubIndex, UnsupportedAccess, ReadOnly];
+    let codes = if index == 0x1017 {
+        &codes[..1]
+    } else {
+        &codes[..]
+    };
+    dut.refuses(request(0x2B, Address::new(index, 0x7F), [0; 4]), codes)
+}
+
+pub(super) fn read_no_object(dut: &mut Dut<'_>) -> Checked {
+    absent(dut, 0x40)
+}
+
+pub(super) fn write_no_object(dut: &mut Dut<'_>) -> Checked {
+    absent(dut, 0x2B)
+}
+
+fn absent(dut: &mut Dut<'_>, command: u8) -> Checked {
+    let Some(index) = dut.eds.absent(&RARE) else {
+        return lacks("the EDS has every object that could be missing");
+    };
+    dut.refuses(
+        request(command, Address::new(index, 0), [0; 4]),
+        &[NoObject],
+    )
+}
+
+pub(super) fn unknown_command(dut: &mut Dut<'_>) -> Checked {
+    for command in [0xE0, 0xFF] {
+        let answer = dut.answer(request(command, TYPE, [0; 4]))?;
+        is_abort(&answer, &[InvalidCommand])?;
+    }
+    dut.still_serves()
+}
+
+pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
+    let Some(entry) = shorter_than_four(dut, 1) else {
+        return lacks("no object of one or two bytes can be written");
+    };
+    let before = dut.keep(entry.address)?;
+    let mut bytes = [0; 4];
+    bytes[..before.len().min(4)].copy_from_slice(&before[..before.len().min(4)]);
+    dut.refuses_value(entry.address, &bytes, &[Length, TooLong])
+}
+
+pub(super) fn too_short(dut: &mut Dut<'_>) -> Checked {
+    let Some(entry) = shorter_than_four(dut, 2) else {
+        return lacks("no object of two bytes can be written");
+    };
+    let before = dut.keep(entry.address)?;
+    let bytes = [before.first().copied().unwrap_or(0)];
+    dut.refuses_value(entry.address, &bytes, &[Length, TooShort])
+}
+
+fn shorter_than_four(dut: &Dut<'_>, least: usize) -> Option<Entry> {
+    let fits = |entry: &Entry| {
+        is_number(entry)
+            && entry
+                .data_type
+                .size()
+                .is_some_and(|size| (least..4).contains(&size))
+    };
+    dut.eds.writable().into_iter().find(fits)
+}
+
+pub(super) fn above_high(dut: &mut Dut<'_>) -> Checked {
+    beyond(dut, true)
+}
+
+pub(super) fn below_low(dut: &mut Dut<'_>) -> Checked {
+    beyond(dut, false)
+}
+
+/// The first object with a limit.
+fn beyond(dut: &mut Dut<'_>, high: bool) -> Checked {
+    for entry in dut.eds.writable() {
+        if let Some(bytes) = outside(&entry, high, dut.node.raw()) {
+            return out_of_range(dut, &entry, &bytes, high);
+        }
+    }
+    lacks("no object that can be written has such a limit")
+}
+
+/// A value just outside a limit, if the type has room for one.
+pub(super) fn outside(entry: &Entry, high: bool, node: u8) -> Option<Vec<u8>> {
+    let (least, most) = entry.data_type.integer_range()?;
+    let value = match high {
+        true => entry.high.integer(node)? + 1,
+        false => entry.low.integer(node)? - 1,
+    };
+    let size = entry.data_type.size()?;
+    let fits = (least..=most).contains(&value);
+    fits.then(|| value.to_le_bytes()[..size].to_vec())
+}
+
+/// A value outside a limit is refused.
+pub(super) fn out_of_range(dut: &mut Dut<'_>, entry: &Entry, bytes: &[u8], high: bool) -> Checked {
+    let code = if high { ValueTooHigh } else { ValueTooLow };
+    let before = dut.read(entry.address)?;
+    let done = dut.refuses_value(entry.address, bytes, &[ValueRange, code]);
+    if done.is_err() {
+        dut.undo.push((entry.address, before));
+    }
+    done
+}
+
+pub(super) fn parameters(dut: &mut Dut<'_>) -> Checked {
+    let node = u64::from(dut.node.raw());
+    for (sub, base) in [(1, 0x600), (2, 0x580)] {
+        let is = dut.number(0x1200, sub)?;
+        let right = base + node;
+        ensure(
+            is == right,
+            format!("1200h:{sub:02} = {right:X}h"),
+            format!("{is:X}h was read"),
+        )?;
+    }
+    Ok(())
+}
+
+/// Servers from 1201h on: those of the EDS are there, and no others.
+pub(super) fn servers(dut: &mut Dut<'_>) -> Checked {
+    listed(dut, 0x1201..=0x1208)
+}
+
+pub(super) fn clients(dut: &mut Dut<'_>) -> Checked {
+    listed(dut, 0x1280..=0x1288)
+}
+
+/// Of these objects, those of the EDS are there, and no others.
+pub(super) fn listed(dut: &mut Dut<'_>, range: impl Iterator<Item = u16>) -> Checked {
+    for index in range {
+        let has = dut.eds.has(index);
+        let answer = dut.upload(Address::new(index, 0))?;
+        match answer {
+            Err(code) if code == NoObject.code() => {
+                ensure(
+                    !has,
+                    format!("{index:04X}h, as the EDS has it"),
+                    abort_text(code),
+                )?;
+            }
+            _ => ensure(
+                has,
+                format!("no {index:04X}h, as the EDS has none"),
+                "the node has it",
+            )?,
+        }
+    }
+    Ok(())
+}
+
+/// A request to another node is not answered.
+pub(super) fn other_node(dut: &mut Dut<'_>) -> Checked {
+    let raw = dut.node.raw();
+    let other = u16::from(if raw == 127 { 126 } else { raw + 1 });
+    dut.send_to(0x600 + other, &request(0x40, TYPE, [0; 4]))?;
+    let id = dut.id(0x580);
+    dut.silent(id, QUIET, "no response to a request to another node")?;
+    dut.still_serves()
+}
+
+/// Frames that are no requests leave the server as it is.
+pub(super) fn no_request(dut: &mut Dut<'_>) -> Checked {
+    let id = dut.id(0x600);
+    dut.send_to(id, &[])?;
+    dut.send_to(id, &[0x40])?;
+    dut.ask_for(od_wire::CanId::standard(id), 8)?;
+    dut.wait(QUIET)?;
+    dut.still_serves()
+}
+
+/// Requests as fast as they are answered.
+pub(super) fn in_a_row(dut: &mut Dut<'_>) -> Checked {
+    let first = dut.read(TYPE)?;
+    for _ in 0..50 {
+        let again = dut.read(TYPE)?;
+        ensure(
+            again == first,
+            "the same value each time",
+            values::hex(&again),
+        )?;
+    }
+    Ok(())
+}
+
+/// An abort of the client is not answered.
+pub(super) fn abort_silence(dut: &mut Dut<'_>) -> Checked {
+    let abort = request(0x80, TYPE, [0, 0, 0, 8]);
+    dut.drain()?;
+    dut.send(Frame::full(dut.node.plus(0x600), abort))?;
+    let id = dut.id(0x580);
+    match dut.next(QUIET, |frame| is_data(frame, id))? {
+        Some(heard) => fail("no response to an abort", format!("{} came", heard.frame)),
+        None => dut.still_serves(),
+    }
+}
+
+/// A download of the client is refused with the multiplexer of the request, whatever came before.
+pub(super) fn abort_names_object(dut: &mut Dut<'_>) -> Checked {
+    for address in [Address::new(0x1000, 0x33), Address::new(0x1018, 0x77)] {
+        let answer = dut.answer(request(0x40, address, [0; 4]))?;
+        let got = format!("{} came", values::hex(&answer));
+        let is_right = abort_of(&answer).is_some()
+            && answer[1..3] == address.index.to_le_bytes()
+            && answer[3] == address.sub;
+        ensure(is_right, format!("an abort that names {address}"), got)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,252 @@
+//! The node under test: frames, waiting, and what was changed.
+
+use od_model::Address;
+use od_wire::nmt::{Command, Repr};
+use od_wire::{Frame, Instant, NodeId};
+
+use super::eds::Eds;
+use super::end::{Checked, End, fail, lacks};
+use super::record::{Times, Traced};
+use super::rig::Rig;
+use crate::link::Heard;
+
+/// So long the node may take for an answer, in microseconds.
+pub(crate) const ANSWER: u64 = 1_000_000;
+/// So long the test waits for what must not come.
+pub(crate) const QUIET: u64 = 100_000;
+/// So long a node may take from a reset to its boot-up message.
+const BOOT: u64 = 10_000_000;
+/// So long a node may take for an NMT command.
+const SETTLE: u64 = 20_000;
+
+/// The node under test, while a case is run.
+pub struct Dut<'d> {
+    pub(crate) rig: &'d mut dyn Rig,
+    pub(crate) eds: &'d Eds,
+    pub(crate) node: NodeId,
+    pub(crate) times: &'d mut Times,
+    pub(crate) frames: Vec<Traced>,
+    /// Values to be put back, the last one first.
+    pub(crate) undo: Vec<(Address, Vec<u8>)>,
+    pub(crate) notes: Vec<String>,
+    /// Whether the case may reset the node.
+    pub(crate) may_reset: bool,
+}
+
+impl Dut<'_> {
+    pub(crate) fn now(&self) -> Instant {
+        self.rig.now()
+    }
+
+    /// Sends a frame.
+    pub(crate) fn send(&mut self, frame: Frame) -> Checked {
+        let at = self.now();
+        self.rig.send(&frame)?;
+        self.frames.push(Traced {
+            at,
+            ours: true,
+            frame,
+        });
+        Ok(())
+    }
+
+    /// Sends a data frame with an 11-bit identifier.
+    pub(crate) fn send_to(&mut self, id: u16, data: &[u8]) -> Checked {
+        match Frame::new(od_wire::CanId::standard(id), data) {
+            Some(frame) => self.send(frame),
+            None => Ok(()),
+        }
+    }
+
+    /// Sends a remote frame.
+    pub(crate) fn ask_for(&mut self, id: od_wire::CanId, dlc: u8) -> Checked {
+        match Frame::remote(id, dlc) {
+            Some(frame) => self.send(frame),
+            None => Ok(()),
+        }
+    }
+
+    /// The next frame until a moment.
+    pub(crate) fn receive(&mut self, until: Instant) -> Checked<Option<Heard>> {
+        let heard = self.rig.receive(until)?;
+        if let Some(Heard { at, frame }) = heard {
+            self.frames.push(Traced {
+                at,
+                ours: false,
+                frame,
+            });
+        }
+        Ok(heard)
+    }
+
+    /// Takes all that came already.
+    pub(crate) fn drain(&mut self) -> Checked {
+        while self.receive(Instant::ZERO)?.is_some() {}
+        Ok(())
+    }
+
+    /// The next frame that is wanted, within so many microseconds.
+    pub(crate) fn next(
+        &mut self,
+        micros: u64,
+        wanted: impl Fn(&Frame) -> bool,
+    ) -> Checked<Option<Heard>> {
+        let until = self.now().plus_micros(micros + self.rig.slack());
+        while let Some(heard) = self.receive(until)? {
+            if wanted(&heard.frame) {
+                return Ok(Some(heard));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next data frame with this identifier.
+    pub(crate) fn next_of(&mut self, id: u16, micros: u64) -> Checked<Option<Heard>> {
+        self.next(micros, |frame| is_data(frame, id))
+    }
+
+    /// All data frames with this identifier within so many microseconds.
+    pub(crate) fn all_of(&mut self, id: u16, micros: u64) -> Checked<Vec<Heard>> {
+        let until = self.now().plus_micros(micros);
+        let mut all = Vec::new();
+        while let Some(heard) = self.receive(until)? {
+            if is_data(&heard.frame, id) {
+                all.push(heard);
+            }
+        }
+        Ok(all)
+    }
+
+    /// Fails if a frame with this identifier comes.
+    pub(crate) fn silent(&mut self, id: u16, micros: u64, expected: &str) -> Checked {
+        match self.next_of(id, micros)? {
+            Some(heard) => fail(expected, format!("{} came", heard.frame)),
+            None => Ok(()),
+        }
+    }
+
+    /// Lets time pass.
+    pub(crate) fn wait(&mut self, micros: u64) -> Checked {
+        let until = self.now().plus_micros(micros);
+        while self.receive(until)?.is_some() {}
+        Ok(())
+    }
+
+    /// An NMT command to the node, and time for it.
+    pub(crate) fn nmt(&mut self, command: Command) -> Checked {
+        let node = self.node.raw();
+        self.send(Frame::standard(0, &Repr { command, node }.emit()))?;
+        self.wait(SETTLE)
+    }
+
+    /// Resets the node and waits for its boot-up message.
+    pub(crate) fn reset(&mut self, command: Command) -> Checked {
+        self.drain()?;
+        let from = self.now();
+        let node = self.node.raw();
+        self.send(Frame::standard(0, &Repr { command, node }.emit()))?;
+        self.booted(from)
+    }
+
+    /// Waits for the boot-up message.
+    pub(crate) fn booted(&mut self, from: Instant) -> Checked {
+        let id = self.id(0x700);
+        let Some(heard) = self.next(BOOT, |frame| is_data(frame, id) && frame.data() == [0])?
+        else {
+            return fail(
+                format!("the boot-up message {id:03X}#00 within 10 s of the reset"),
+                "none came",
+            );
+        };
+        self.times.boots.push(heard.at.micros_since(from));
+        self.wait(SETTLE)
+    }
+
+    /// A base of the predefined connection set with the node ID.
+    pub(crate) fn id(&self, base: u16) -> u16 {
+        base + u16::from(self.node.raw())
+    }
+
+    /// A slow heartbeat is no way to learn the NMT state: has it every 50 ms from now on.
+    pub(crate) fn follow_state(&mut self) -> Checked {
+        if self.eds.writes(0x1017, 0) {
+            return self.set(Address::new(0x1017, 0), &[50, 0]);
+        }
+        match self.guarded()? {
+            Some(_) => Ok(()),
+            None => lacks("the NMT state cannot be seen: 1017h is read only, and no node guarding"),
+        }
+    }
+
+    /// The NMT state by heartbeat or node guarding.
+    pub(crate) fn state(&mut self) -> Checked<u8> {
+        let id = self.id(0x700);
+        if self.eds.writes(0x1017, 0) {
+            return match self.next_of(id, 200_000)? {
+                Some(heard) => Ok(heard.frame.bytes()[0]),
+                None => fail("a heartbeat within 200 ms", "none came"),
+            };
+        }
+        match self.guarded()? {
+            Some(state) => Ok(state & 0x7F),
+            None => fail("a response to node guarding", "none came"),
+        }
+    }
+
+    /// The response to a request of node guarding.
+    pub(crate) fn guarded(&mut self) -> Checked<Option<u8>> {
+        self.drain()?;
+        let id = self.id(0x700);
+        self.ask_for(od_wire::CanId::standard(id), 1)?;
+        let heard = self.next_of(id, QUIET)?;
+        Ok(heard.map(|heard| heard.frame.bytes()[0]))
+    }
+
+    /// Fails unless the node is in this NMT state.
+    pub(crate) fn is_in(&mut self, state: u8) -> Checked {
+        self.drain()?;
+        match self.state()? {
+            is if is == state => Ok(()),
+            is => fail(
+                format!("NMT state {}", state_name(state)),
+                format!("the node is in {}", state_name(is)),
+            ),
+        }
+    }
+
+    /// Pre-operational again, and all values as they were.
+    pub(crate) fn put_back(&mut self) -> Checked {
+        if self.undo.is_empty() && self.frames.is_empty() {
+            return Ok(());
+        }
+        self.nmt(Command::EnterPreOperational)?;
+        while let Some((address, bytes)) = self.undo.pop() {
+            let shown = od_model::values::label(self.eds.dictionary(), address);
+            let hex = od_model::values::hex(&bytes);
+            match self.download(address, &bytes) {
+                Ok(Ok(())) => self.notes.push(format!("put back {shown} = {hex}")),
+                Ok(Err(code)) => self.notes.push(format!(
+                    "could not put back {shown} = {hex}: abort {code:08X}h"
+                )),
+                Err(End::Lost(fault)) => return Err(End::Lost(fault)),
+                Err(_) => self
+                    .notes
+                    .push(format!("could not put back {shown} = {hex}")),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A data frame with this 11-bit identifier?
+pub(crate) fn is_data(frame: &Frame, id: u16) -> bool {
+    frame.id().as_standard() == Some(id) && !frame.is_remote()
+}
+
+/// The NMT state of a heartbeat, in words.
+pub(crate) fn state_name(state: u8) -> String {
+    match od_wire::nmt::State::from_code(state) {
+        Some(state) => state.name().into(),
+        None => format!("a state {state:02X}h that does not exist"),
+    }
+}

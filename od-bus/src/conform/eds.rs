@@ -1,0 +1,169 @@
+//! What the EDS says of the node: the objects, and which cases apply.
+
+use od_eds::{Description, Finding, Tables};
+use od_model::{Access, Address, Dictionary, Entry, Kind, Literal};
+use od_wire::NodeId;
+
+/// An EDS, read for a conformance test.
+#[derive(Debug)]
+pub struct Eds {
+    /// The description.
+    pub description: Description,
+    /// The findings of the rules.
+    pub findings: Vec<Finding>,
+    tables: Tables,
+}
+
+/// Objects that a case may change without disturbing the node, before any others.
+const QUIET: [(u16, u8); 8] = [
+    (0x1017, 0),
+    (0x100D, 0),
+    (0x100C, 0),
+    (0x1016, 1),
+    (0x1800, 5),
+    (0x1801, 5),
+    (0x1800, 2),
+    (0x1801, 2),
+];
+
+impl Eds {
+    /// Reads an EDS, DCF or XDD text.
+    pub fn read(text: &str) -> Self {
+        let loaded = od_eds::load(text);
+        Self {
+            tables: Tables::new(&loaded.description),
+            description: loaded.description,
+            findings: loaded.findings,
+        }
+    }
+
+    /// The dictionary.
+    pub fn dictionary(&self) -> Dictionary<'_> {
+        self.tables.dictionary()
+    }
+
+    /// The entry at an address.
+    pub fn entry(&self, index: u16, sub: u8) -> Option<Entry> {
+        self.dictionary().entry(index, sub)
+    }
+
+    /// Whether the EDS has an object with this index.
+    pub fn has(&self, index: u16) -> bool {
+        self.dictionary().object(index).is_some()
+    }
+
+    /// Whether a master can write an entry.
+    pub fn writes(&self, index: u16, sub: u8) -> bool {
+        self.entry(index, sub)
+            .is_some_and(|entry| entry.access.writable())
+    }
+
+    /// The key of `[DeviceInfo]` as a number.
+    pub fn info(&self, key: &str) -> Option<i128> {
+        let section = self.description.section("DeviceInfo")?;
+        od_model::values::integer(section.get(key)?.value.trim())
+    }
+
+    /// Product and vendor as `[DeviceInfo]` has them.
+    pub fn title(&self) -> String {
+        let key = |key| {
+            let section = self.description.section("DeviceInfo")?;
+            let text = section.get(key)?.value.trim().to_owned();
+            (!text.is_empty()).then_some(text)
+        };
+        key("ProductName").unwrap_or_else(|| "unnamed device".into())
+    }
+
+    /// Entries that can be read and written back without harm, quiet ones first. Commands
+    /// (1003h, 1010h, 1011h, 1F50h to 1F5Fh), identifiers, and the preset are not among them.
+    pub(crate) fn writable(&self) -> Vec<Entry> {
+        let quiet = QUIET
+            .iter()
+            .filter_map(|(index, sub)| self.entry(*index, *sub));
+        let rest = self.dictionary().entries().filter(|entry| {
+            !QUIET.contains(&(entry.address.index, entry.address.sub)) && !is_touchy(entry.address)
+        });
+        let both = quiet.chain(rest);
+        both.filter(|entry| matches!(entry.access, Access::Rw | Access::Rwr | Access::Rww))
+            .collect()
+    }
+
+    /// The value after a restore, as it goes over the bus; `None` where the EDS gives none.
+    pub(crate) fn default(&self, entry: &Entry, node: NodeId) -> Option<Vec<u8>> {
+        let size = entry.data_type.size();
+        if let Some(number) = entry.default.integer(node.raw()) {
+            return Some(number.to_le_bytes().get(..size?)?.to_vec());
+        }
+        match entry.default {
+            Literal::Real(value) if size == Some(4) => Some((value as f32).to_le_bytes().to_vec()),
+            Literal::Real(value) => Some(value.to_le_bytes().to_vec()),
+            Literal::None => None,
+            literal => Some(self.dictionary().literal_bytes(literal).to_vec()),
+        }
+    }
+
+    /// The TPDOs or RPDOs: numbers from 0 on whose communication and mapping objects exist.
+    pub(crate) fn pdos(&self, base: u16) -> Vec<u16> {
+        let both = |pdo: &u16| self.has(base + pdo) && self.has(base + 0x200 + pdo);
+        (0..0x200).filter(both).collect()
+    }
+
+    /// An index from `candidates` that the EDS does not have.
+    pub(crate) fn absent(&self, candidates: &[u16]) -> Option<u16> {
+        candidates.iter().copied().find(|index| !self.has(*index))
+    }
+
+    /// Does this condition of an `Applies:` line hold? `None`: it is not one.
+    ///
+    /// `1017h`, `1018h:02`, `1017h rw`, `lss`, `tpdo`, `rpdo`, `cia406`.
+    pub(crate) fn meets(&self, condition: &str) -> Option<bool> {
+        let mut words = condition.split_whitespace();
+        let first = words.next()?;
+        let holds = match first {
+            "lss" => self.info("LSS_Supported").is_some_and(|value| value != 0),
+            "tpdo" => !self.pdos(0x1800).is_empty(),
+            "rpdo" => !self.pdos(0x1400).is_empty(),
+            "cia406" => {
+                let entry = self.entry(0x1000, 0);
+                let number = entry.and_then(|entry| entry.default.integer(0));
+                number.is_some_and(|number| number & 0xFFFF == 406)
+            }
+            object => {
+                let address = od_model::values::address(object)?;
+                let (index, sub) = (address.index, address.sub);
+                let there = match first.contains(':') {
+                    true => self.entry(index, sub).is_some(),
+                    false => self.has(index),
+                };
+                match words.next() {
+                    None => there,
+                    Some("rw") => self.writes(index, sub),
+                    Some("ro") => there && !self.writes(index, sub),
+                    Some(_) => return None,
+                }
+            }
+        };
+        words.next().is_none().then_some(holds)
+    }
+}
+
+/// Objects that act when they are written, or that move what the test depends on.
+fn is_touchy(address: Address) -> bool {
+    let sub = address.sub;
+    match address.index {
+        0x1003 | 0x1005 | 0x1006 | 0x1010..=0x1015 | 0x1F50..=0x1F5F | 0x1200..=0x12FF => true,
+        0x1400..=0x15FF | 0x1800..=0x19FF => sub == 1,
+        0x1600..=0x17FF | 0x1A00..=0x1BFF => true,
+        0x2000..=0x2FFF => sub == 0 && matches!(address.index, 0x2100 | 0x2101),
+        0x6003 => true,
+        _ => false,
+    }
+}
+
+/// Is the value a number?
+pub(crate) fn is_number(entry: &Entry) -> bool {
+    matches!(
+        entry.data_type.kind(),
+        Kind::Unsigned | Kind::Signed | Kind::Boolean
+    )
+}

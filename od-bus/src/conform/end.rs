@@ -1,0 +1,56 @@
+//! How a step of a case ends early.
+
+use crate::fault::Fault;
+
+/// Why a step is the last one.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum End {
+    /// The node does something else.
+    Fail {
+        /// What would have been right.
+        expected: String,
+        /// What came.
+        got: String,
+    },
+    /// It cannot be tested here.
+    Skip(String),
+    /// The node does not have it.
+    NotApplicable(String),
+    /// The link is lost.
+    Lost(Fault),
+}
+
+/// Result of a step.
+pub(crate) type Checked<T = ()> = Result<T, End>;
+
+impl From<Fault> for End {
+    fn from(fault: Fault) -> Self {
+        Self::Lost(fault)
+    }
+}
+
+/// The node does something else.
+pub(crate) fn fail<T>(expected: impl Into<String>, got: impl Into<String>) -> Checked<T> {
+    Err(End::Fail {
+        expected: expected.into(),
+        got: got.into(),
+    })
+}
+
+/// The node does not have it.
+pub(crate) fn lacks<T>(why: impl Into<String>) -> Checked<T> {
+    Err(End::NotApplicable(why.into()))
+}
+
+/// It cannot be tested here.
+pub(crate) fn skip<T>(why: impl Into<String>) -> Checked<T> {
+    Err(End::Skip(why.into()))
+}
+
+/// Fails unless it holds.
+pub(crate) fn ensure(holds: bool, expected: impl Into<String>, got: impl Into<String>) -> Checked {
+    match holds {
+        true => Ok(()),
+        false => fail(expected, got),
+    }
+}

@@ -1,0 +1,101 @@
+//! What came of a case.
+
+use od_wire::{Frame, Instant};
+
+/// A frame of a case.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Traced {
+    /// When, by the link's clock.
+    pub at: Instant,
+    /// Whether the test sent it.
+    pub ours: bool,
+    /// The frame.
+    pub frame: Frame,
+}
+
+/// The verdict on a case.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// The node is right.
+    Pass,
+    /// The node is wrong.
+    Fail {
+        /// What would have been right.
+        expected: String,
+        /// What came.
+        got: String,
+    },
+    /// It could not be tested; why, and what to add.
+    Skipped(String),
+    /// The node does not have what the case is about.
+    NotApplicable(String),
+}
+
+impl Verdict {
+    /// Whether the node is right.
+    pub fn is_pass(&self) -> bool {
+        *self == Self::Pass
+    }
+
+    /// Whether the node is wrong.
+    pub fn is_fail(&self) -> bool {
+        matches!(self, Self::Fail { .. })
+    }
+
+    /// In one word: `pass`, `fail`, `skipped`, `n/a`.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail { .. } => "fail",
+            Self::Skipped(_) => "skipped",
+            Self::NotApplicable(_) => "n/a",
+        }
+    }
+
+    /// What is to be said besides the word, one clause.
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Pass => String::new(),
+            Self::Fail { expected, got } => format!("expected {expected}; {got}"),
+            Self::Skipped(why) | Self::NotApplicable(why) => why.clone(),
+        }
+    }
+}
+
+/// A case that was run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Record {
+    /// The case's id.
+    pub id: String,
+    /// Its group.
+    pub group: String,
+    /// Standard and clause.
+    pub clause: String,
+    /// What is right.
+    pub title: String,
+    /// What came of it.
+    pub verdict: Verdict,
+    /// What was changed and put back, and what could not be.
+    pub notes: Vec<String>,
+    /// Every frame, in order.
+    pub frames: Vec<Traced>,
+    /// How long it took, in microseconds of the link's clock.
+    pub micros: u64,
+}
+
+/// Times that the node took, in microseconds.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Times {
+    /// From an SDO request to its response.
+    pub answers: Vec<u64>,
+    /// From a reset to the boot-up message.
+    pub boots: Vec<u64>,
+}
+
+/// The value below which this many percent of the values are, the nearest of them.
+pub fn percentile(values: &[u64], percent: usize) -> Option<u64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable();
+    let last = sorted.len().checked_sub(1)?;
+    sorted.get((last * percent).div_ceil(100)).copied()
+}

@@ -1,0 +1,120 @@
+//! The records of a run as a report: text, JSON, JUnit, Markdown, HTML.
+
+mod json;
+mod text;
+
+use super::record::{Record, Times, Verdict, percentile};
+
+/// The formats, by the extension of a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// A line a case.
+    Text,
+    /// One JSON object.
+    Json,
+}
+
+impl Format {
+    /// The extensions and their formats.
+    pub const ALL: [(&str, Self); 2] = [("txt", Self::Text), ("json", Self::Json)];
+
+    /// The format of a file with this extension.
+    pub fn of_extension(extension: &str) -> Option<Self> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|(name, _)| extension.eq_ignore_ascii_case(name))
+            .map(|(_, format)| format)
+    }
+}
+
+/// A run of the conformance test.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Report {
+    /// The device, as the EDS names it.
+    pub device: String,
+    /// The EDS.
+    pub eds: String,
+    /// The link.
+    pub link: String,
+    /// The node ID.
+    pub node: u8,
+    /// The cases, in the order in which they were run.
+    pub records: Vec<Record>,
+    /// Times that the node took.
+    pub times: Times,
+    /// Why the run could not go on, if it could not.
+    pub lost: Option<String>,
+}
+
+/// How many cases have each verdict.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Counts {
+    /// The node is right.
+    pub pass: usize,
+    /// The node is wrong.
+    pub fail: usize,
+    /// Not tested.
+    pub skipped: usize,
+    /// The node does not have it.
+    pub not_applicable: usize,
+}
+
+impl Report {
+    /// Whether no case failed and the run came to its end.
+    pub fn is_pass(&self) -> bool {
+        self.lost.is_none() && self.counts().fail == 0
+    }
+
+    /// How many cases have each verdict.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for record in &self.records {
+            *match record.verdict {
+                Verdict::Pass => &mut counts.pass,
+                Verdict::Fail { .. } => &mut counts.fail,
+                Verdict::Skipped(_) => &mut counts.skipped,
+                Verdict::NotApplicable(_) => &mut counts.not_applicable,
+            } += 1;
+        }
+        counts
+    }
+
+    /// The report in a format.
+    pub fn render(&self, format: Format) -> String {
+        match format {
+            Format::Text => text::render(self),
+            Format::Json => json::render(self),
+        }
+    }
+
+    /// `12 passed, 1 failed, 2 skipped, 3 not applicable`.
+    pub fn summary(&self) -> String {
+        let Counts {
+            pass,
+            fail,
+            skipped,
+            not_applicable,
+        } = self.counts();
+        let all = self.records.len();
+        format!(
+            "{all} cases: {pass} passed, {fail} failed, {skipped} skipped, {not_applicable} not applicable"
+        )
+    }
+
+    /// The times that the node took, with percentiles; a line each.
+    fn timings(&self) -> Vec<(&'static str, usize, [u64; 3])> {
+        let both = [
+            ("SDO response", &self.times.answers),
+            ("boot-up after a reset", &self.times.boots),
+        ];
+        let line = |(name, values): (&'static str, &Vec<u64>)| {
+            let at = |percent| percentile(values, percent);
+            Some((name, values.len(), [at(50)?, at(95)?, at(100)?]))
+        };
+        both.into_iter().filter_map(line).collect()
+    }
+}
+
+/// Microseconds as milliseconds.
+fn millis(micros: u64) -> String {
+    format!("{}.{:03} ms", micros / 1000, micros % 1000)
+}

@@ -1,0 +1,335 @@
+//! Strict SDO transfers: every byte of an answer has to be right.
+
+use od_model::{Address, values};
+use od_wire::{AbortCode, Frame, sdo};
+
+use super::dut::{ANSWER, Dut, is_data};
+use super::end::{Checked, ensure, fail};
+
+/// Bytes of an upload or nothing of a download, or the abort code.
+pub(crate) type Transfer<T> = Result<T, u32>;
+
+/// A request about an object.
+pub(crate) fn request(command: u8, address: Address, rest: [u8; 4]) -> [u8; 8] {
+    let [low, high] = address.index.to_le_bytes();
+    let [a, b, c, d] = rest;
+    [command, low, high, address.sub, a, b, c, d]
+}
+
+/// An abort in words.
+pub(crate) fn abort_text(code: u32) -> String {
+    match AbortCode::from_code(code) {
+        Some(code) => format!("abort {code}"),
+        None => format!("abort {code:08X}h"),
+    }
+}
+
+/// Any of these aborts, in words.
+fn any_of(codes: &[AbortCode]) -> String {
+    let codes: Vec<_> = codes
+        .iter()
+        .map(|code| format!("{:08X}h", code.code()))
+        .collect();
+    format!("abort {}", codes.join(" or "))
+}
+
+/// The code of an answer that is an abort.
+pub(crate) fn abort_of(answer: &[u8; 8]) -> Option<u32> {
+    (answer[0] == 0x80).then(|| u32::from_le_bytes([answer[4], answer[5], answer[6], answer[7]]))
+}
+
+impl Dut<'_> {
+    /// Sends a request of the first SDO and waits for the response.
+    pub(crate) fn ask(&mut self, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
+        self.ask_within(data, ANSWER)
+    }
+
+    pub(crate) fn ask_within(&mut self, data: [u8; 8], micros: u64) -> Checked<Option<[u8; 8]>> {
+        self.drain()?;
+        self.send(Frame::full(self.node.plus(0x600), data))?;
+        let from = self.now();
+        let answer = self.response(micros)?;
+        if answer.is_some() {
+            let took = self.now().micros_since(from);
+            self.times.answers.push(took);
+        }
+        Ok(answer)
+    }
+
+    /// The next response of the first SDO.
+    pub(crate) fn response(&mut self, micros: u64) -> Checked<Option<[u8; 8]>> {
+        let id = self.id(0x580);
+        let Some(heard) = self.next(micros, |frame| is_data(frame, id))? else {
+            return Ok(None);
+        };
+        match heard.frame.dlc() {
+            8 => Ok(Some(*heard.frame.bytes())),
+            _ => fail(
+                "an SDO response of 8 bytes",
+                format!("{} came", heard.frame),
+            ),
+        }
+    }
+
+    /// As [`ask`](Self::ask); no response is a failure.
+    pub(crate) fn answer(&mut self, data: [u8; 8]) -> Checked<[u8; 8]> {
+        match self.ask(data)? {
+            Some(answer) => Ok(answer),
+            None => fail(
+                format!("a response to {} within 1 s", values::hex(&data)),
+                "none came",
+            ),
+        }
+    }
+
+    /// A response about the object of the request, or an abort about it.
+    fn about(&mut self, data: [u8; 8]) -> Checked<[u8; 8]> {
+        let answer = self.answer(data)?;
+        ensure(
+            answer[1..4] == data[1..4],
+            format!(
+                "index and sub-index {} in the response",
+                values::hex(&data[1..4])
+            ),
+            format!("{} came", values::hex(&answer)),
+        )?;
+        Ok(answer)
+    }
+
+    /// Fails unless the server answers with one of these aborts, or 08000000h, about the object.
+    pub(crate) fn refuses(&mut self, data: [u8; 8], codes: &[AbortCode]) -> Checked {
+        let answer = self.about(data)?;
+        is_abort(&answer, codes)
+    }
+
+    /// Reads an object.
+    pub(crate) fn upload(&mut self, address: Address) -> Checked<Transfer<Vec<u8>>> {
+        let answer = self.about(request(0x40, address, [0; 4]))?;
+        if let Some(code) = abort_of(&answer) {
+            return Ok(Err(code));
+        }
+        let (command, data) = (answer[0], &answer[4..]);
+        if command & 0xE2 == 0x42 {
+            let unused = usize::from(command >> 2 & 3);
+            let len = if command & 1 == 1 { 4 - unused } else { 4 };
+            return Ok(Ok(data[..len].to_vec()));
+        }
+        if command & 0xE2 != 0x40 {
+            let got = format!("{} came", values::hex(&answer));
+            return fail("the response to an upload, 4xh", got);
+        }
+        let size = u32::from_le_bytes([data[0], data[1], data[2], data[3]]);
+        let size = (command & 1 == 1).then_some(size as usize);
+        self.segments(size).map(Ok)
+    }
+
+    /// The segments of an upload.
+    pub(crate) fn segments(&mut self, size: Option<usize>) -> Checked<Vec<u8>> {
+        let mut bytes = Vec::new();
+        let mut toggle = 0;
+        loop {
+            let answer = self.answer([0x60 | toggle, 0, 0, 0, 0, 0, 0, 0])?;
+            let got = || format!("{} came", values::hex(&answer));
+            ensure(
+                answer[0] & 0xE0 == 0,
+                "an upload segment, 0xh or 1xh",
+                got(),
+            )?;
+            let bit = toggle >> 4;
+            ensure(
+                answer[0] & 0x10 == toggle,
+                format!("toggle bit {bit}"),
+                got(),
+            )?;
+            let unused = usize::from(answer[0] >> 1 & 7);
+            bytes.extend_from_slice(&answer[1..8 - unused]);
+            if answer[0] & 1 == 1 {
+                break;
+            }
+            ensure(
+                unused == 0,
+                "7 bytes in a segment that is not the last",
+                got(),
+            )?;
+            if size.is_some_and(|size| bytes.len() > size) || bytes.len() > 1 << 20 {
+                return fail("the last segment to be marked (bit 0)", got());
+            }
+            toggle ^= 0x10;
+        }
+        match size {
+            Some(size) if size != bytes.len() => fail(
+                format!("{size} bytes, as announced"),
+                format!("{} bytes came", bytes.len()),
+            ),
+            _ => Ok(bytes),
+        }
+    }
+
+    /// Reads an object; an abort is a failure.
+    pub(crate) fn read(&mut self, address: Address) -> Checked<Vec<u8>> {
+        let shown = values::label(self.eds.dictionary(), address);
+        match self.upload(address)? {
+            Ok(bytes) => Ok(bytes),
+            Err(code) => fail(
+                format!("a value of {shown}"),
+                format!("{} came", abort_text(code)),
+            ),
+        }
+    }
+
+    /// Reads a number; an abort is a failure.
+    pub(crate) fn number(&mut self, index: u16, sub: u8) -> Checked<u64> {
+        let bytes = self.read(Address::new(index, sub))?;
+        Ok(number(&bytes))
+    }
+
+    /// Writes an object.
+    pub(crate) fn download(&mut self, address: Address, bytes: &[u8]) -> Checked<Transfer<()>> {
+        if !(1..=4).contains(&bytes.len()) {
+            return self.download_segments(address, bytes, true, 7);
+        }
+        let mut data = [0; 4];
+        data[..bytes.len()].copy_from_slice(bytes);
+        let command = 0x23 | (4 - bytes.len() as u8) << 2;
+        let answer = self.about(request(command, address, data))?;
+        Ok(match abort_of(&answer) {
+            Some(code) => Err(code),
+            None => {
+                let right = answer[0] == 0x60;
+                let got = format!("{} came", values::hex(&answer));
+                ensure(right, "the confirmation of a download, 60h", got)?;
+                Ok(())
+            }
+        })
+    }
+
+    /// Writes an object by segments of `step` bytes.
+    pub(crate) fn download_segments(
+        &mut self,
+        address: Address,
+        bytes: &[u8],
+        sized: bool,
+        step: usize,
+    ) -> Checked<Transfer<()>> {
+        let size = (bytes.len() as u32).to_le_bytes();
+        let first = match sized {
+            true => request(0x21, address, size),
+            false => request(0x20, address, [0; 4]),
+        };
+        let answer = self.about(first)?;
+        if let Some(code) = abort_of(&answer) {
+            return Ok(Err(code));
+        }
+        let got = format!("{} came", values::hex(&answer));
+        ensure(
+            answer[0] == 0x60,
+            "the confirmation of a download, 60h",
+            got,
+        )?;
+        let mut toggle = 0;
+        let mut parts = bytes.chunks(step).peekable();
+        loop {
+            let part = parts.next().unwrap_or_default();
+            let last = u8::from(parts.peek().is_none());
+            let mut segment = [0; 8];
+            segment[0] = toggle | (7 - part.len() as u8) << 1 | last;
+            segment[1..=part.len()].copy_from_slice(part);
+            let answer = self.answer(segment)?;
+            if let Some(code) = abort_of(&answer) {
+                return Ok(Err(code));
+            }
+            let wanted = 0x20 | toggle;
+            let got = format!("{} came", values::hex(&answer));
+            ensure(
+                answer[0] == wanted,
+                format!("the confirmation of a segment, {wanted:02X}h"),
+                got,
+            )?;
+            if last == 1 {
+                return Ok(Ok(()));
+            }
+            toggle ^= 0x10;
+        }
+    }
+
+    /// Writes an object; an abort is a failure.
+    pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Checked {
+        let shown = values::label(self.eds.dictionary(), address);
+        match self.download(address, bytes)? {
+            Ok(()) => Ok(()),
+            Err(code) => fail(
+                format!("{shown} = {} to be written", values::hex(bytes)),
+                format!("{} came", abort_text(code)),
+            ),
+        }
+    }
+
+    /// Remembers the value of an object, to be put back after the case, and returns it.
+    pub(crate) fn keep(&mut self, address: Address) -> Checked<Vec<u8>> {
+        let before = self.read(address)?;
+        if !self.undo.iter().any(|(kept, _)| *kept == address) {
+            self.undo.push((address, before.clone()));
+        }
+        Ok(before)
+    }
+
+    /// Writes an object until the case is over.
+    pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Checked {
+        self.keep(address)?;
+        self.write(address, bytes)
+    }
+
+    /// Fails unless a download is refused with one of these aborts, or 08000000h; the value is
+    /// put back if it was not.
+    pub(crate) fn refuses_value(
+        &mut self,
+        address: Address,
+        bytes: &[u8],
+        codes: &[AbortCode],
+    ) -> Checked {
+        let shown = values::label(self.eds.dictionary(), address);
+        let hex = values::hex(bytes);
+        match self.download(address, bytes)? {
+            Ok(()) => fail(
+                format!("{} for {shown} = {hex}", any_of(codes)),
+                "the value was accepted",
+            ),
+            Err(code) => ensure(
+                is_one_of(code, codes),
+                any_of(codes),
+                format!("{} came", abort_text(code)),
+            ),
+        }
+    }
+
+    /// Is the server ready for a new transfer?
+    pub(crate) fn still_serves(&mut self) -> Checked {
+        self.read(Address::new(0x1000, 0)).map(drop)
+    }
+}
+
+/// Fails unless an answer is one of these aborts, or 08000000h.
+pub(crate) fn is_abort(answer: &[u8; 8], codes: &[AbortCode]) -> Checked {
+    match abort_of(answer) {
+        Some(code) if is_one_of(code, codes) => Ok(()),
+        Some(code) => fail(any_of(codes), format!("{} came", abort_text(code))),
+        None => fail(any_of(codes), format!("{} came", values::hex(answer))),
+    }
+}
+
+fn is_one_of(code: u32, codes: &[AbortCode]) -> bool {
+    code == AbortCode::General.code() || codes.iter().any(|one| one.code() == code)
+}
+
+/// A number of up to 8 bytes.
+pub(crate) fn number(bytes: &[u8]) -> u64 {
+    let mut wide = [0; 8];
+    let len = bytes.len().min(8);
+    wide[..len].copy_from_slice(&bytes[..len]);
+    u64::from_le_bytes(wide)
+}
+
+/// The checksum of a block transfer.
+pub(crate) fn crc(bytes: &[u8]) -> u16 {
+    sdo::crc16(bytes)
+}

@@ -1,0 +1,191 @@
+//! One case after the other, and what each changed put back.
+
+use od_wire::NodeId;
+use od_wire::nmt::Command;
+
+use super::case::{Case, Step};
+use super::check;
+use super::deviations::Deviations;
+use super::dut::Dut;
+use super::eds::Eds;
+use super::end::{Checked, End, skip};
+use super::record::{Record, Times, Verdict};
+use super::rig::Rig;
+
+/// What somebody allows the test to do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Leave {
+    /// Reset the node.
+    pub reset: bool,
+    /// Save and restore values in the node's memory.
+    pub store: bool,
+}
+
+impl Leave {
+    /// All of it, for a simulated device.
+    pub const ALL: Self = Self {
+        reset: true,
+        store: true,
+    };
+}
+
+/// A conformance test of one node.
+pub struct Session<'s> {
+    rig: &'s mut dyn Rig,
+    eds: &'s Eds,
+    node: NodeId,
+    leave: Leave,
+    deviations: Deviations,
+    times: Times,
+    lost: Option<String>,
+}
+
+impl<'s> Session<'s> {
+    /// A test of `node` on `rig`, which is as `eds` says.
+    pub fn new(rig: &'s mut dyn Rig, eds: &'s Eds, node: NodeId, leave: Leave) -> Self {
+        Self {
+            rig,
+            eds,
+            node,
+            leave,
+            deviations: Deviations::built_in(),
+            times: Times::default(),
+            lost: None,
+        }
+    }
+
+    /// The times that the node took so far.
+    pub fn times(&self) -> &Times {
+        &self.times
+    }
+
+    /// Why the test could not go on, if it could not.
+    pub fn lost(&self) -> Option<&str> {
+        self.lost.as_deref()
+    }
+
+    /// Runs one case. After the link or the node was lost every case is skipped.
+    pub fn run(&mut self, case: &Case) -> Record {
+        let from = self.rig.now();
+        let mut dut = Dut {
+            rig: &mut *self.rig,
+            eds: self.eds,
+            node: self.node,
+            times: &mut self.times,
+            frames: Vec::new(),
+            undo: Vec::new(),
+            notes: Vec::new(),
+            may_reset: self.leave.reset,
+        };
+        let mut result = match &self.lost {
+            Some(why) => skip(why),
+            None => may(case, self.leave, &self.deviations, &dut).and_then(|()| {
+                let done = steps(case, &mut dut);
+                let back = dut.put_back();
+                match (done, back) {
+                    (done, Err(End::Lost(fault))) if !matches!(done, Err(End::Lost(_))) => {
+                        done.and(Err(End::Lost(fault)))
+                    }
+                    (done, _) => done,
+                }
+            }),
+        };
+        // A node that hangs must not be the failure of all that follow.
+        if matches!(result, Err(End::Fail { .. })) && self.lost.is_none() {
+            match revive(&mut dut) {
+                Ok(true) => {}
+                Ok(false) => self.lost = Some("the node does not respond any more".into()),
+                Err(_) => self.lost = Some("the link is lost".into()),
+            }
+        }
+        if let Err(End::Lost(fault)) = &result {
+            let why = format!("the link is lost: {fault}");
+            self.lost = Some(why.clone());
+            result = Err(End::Skip(why));
+        }
+        let (notes, frames) = (dut.notes, dut.frames);
+        Record {
+            id: case.id.clone(),
+            group: case.group.clone(),
+            clause: case.clause.clone(),
+            title: case.title.clone(),
+            verdict: match result {
+                Ok(()) => Verdict::Pass,
+                Err(End::Fail { expected, got }) => Verdict::Fail { expected, got },
+                Err(End::Skip(why)) => Verdict::Skipped(why),
+                Err(End::NotApplicable(why)) => Verdict::NotApplicable(why),
+                Err(End::Lost(fault)) => Verdict::Skipped(fault.to_string()),
+            },
+            notes,
+            frames,
+            micros: self.rig.now().micros_since(from),
+        }
+    }
+}
+
+/// May the case be run, and is it about this node?
+fn may(case: &Case, leave: Leave, deviations: &Deviations, dut: &Dut<'_>) -> Checked {
+    for condition in &case.applies {
+        match dut.eds.meets(condition) {
+            Some(true) => {}
+            Some(false) => {
+                return Err(End::NotApplicable(format!(
+                    "the EDS does not have `{condition}`"
+                )));
+            }
+            None => return skip(format!("`{condition}` is not a condition")),
+        }
+    }
+    if let Some(reason) = deviations.reason(dut.eds, &case.id) {
+        return skip(format!("documented deviation: {reason}"));
+    }
+    for need in &case.needs {
+        let (allowed, option) = match need.as_str() {
+            "reset" => (leave.reset, "--allow-reset"),
+            "store" => (leave.store, "--allow-store"),
+            _ => (dut.rig.has_power(), "--power COMMAND"),
+        };
+        if !allowed {
+            return skip(format!("the case needs {option}"));
+        }
+    }
+    Ok(())
+}
+
+fn steps(case: &Case, dut: &mut Dut<'_>) -> Checked {
+    dut.drain()?;
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.drain()?;
+    for step in &case.steps {
+        match step {
+            Step::Check(name) => match check::NAMES.iter().find(|(known, _)| known == name) {
+                Some((_, check)) => check(dut)?,
+                None => return skip(format!("check `{name}` does not exist")),
+            },
+            Step::Script(..) => return skip("scripts are not played on this link"),
+        }
+    }
+    Ok(())
+}
+
+/// Does the node still respond, if need be after a reset?
+fn revive(dut: &mut Dut<'_>) -> Result<bool, End> {
+    for attempt in 0..2 {
+        if attempt == 1 {
+            if !dut.may_reset {
+                return Ok(false);
+            }
+            match dut.reset(Command::ResetNode) {
+                Err(End::Lost(fault)) => return Err(End::Lost(fault)),
+                Err(_) => return Ok(false),
+                Ok(()) => dut.notes.push("the node was reset to respond again".into()),
+            }
+        }
+        match dut.still_serves() {
+            Ok(()) => return Ok(true),
+            Err(End::Lost(fault)) => return Err(End::Lost(fault)),
+            Err(_) => {}
+        }
+    }
+    Ok(false)
+}

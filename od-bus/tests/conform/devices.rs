@@ -1,0 +1,50 @@
+//! The twelve devices pass, in virtual time.
+
+use std::time::Instant;
+
+use od_bench::VirtualDevice;
+use od_bench::bus::Bus;
+use od_bus::bench::OnBench;
+use od_bus::conform::case::built_in;
+use od_bus::conform::eds::Eds;
+use od_bus::conform::record::Record;
+use od_bus::conform::report::{Format, Report};
+use od_bus::conform::session::{Leave, Session};
+use od_wire::NodeId;
+
+/// Every case on a device that was just switched on.
+fn run(device: VirtualDevice, text: &str) -> Report {
+    let node = device.node_id();
+    let mut bus = Bus::new();
+    let number = bus.add(device);
+    bus.start(number);
+    let eds = Eds::read(text);
+    let mut rig = OnBench(bus);
+    let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);
+    let records: Vec<Record> = built_in().iter().map(|case| session.run(case)).collect();
+    Report {
+        device: eds.title(),
+        eds: "the built-in EDS".into(),
+        link: "bench".into(),
+        node: node.raw(),
+        records,
+        times: session.times().clone(),
+        lost: session.lost().map(str::to_owned),
+    }
+}
+
+#[test]
+fn the_twelve_devices_pass() {
+    let mut wrong = String::new();
+    for kind in od_devices::DEVICES {
+        let began = Instant::now();
+        let device = VirtualDevice::new(kind, NodeId::ONE);
+        let report = run(device, &od_devices::text::eds(kind));
+        eprintln!("{}: {} {:?}", kind.name, report.summary(), began.elapsed());
+        if !report.is_pass() {
+            wrong += &report.render(Format::Text);
+            wrong.push('\n');
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}

@@ -1,0 +1,3 @@
+//! The conformance test: no false failure on what is right, and what is wrong is found.
+
+mod devices;
