@@ -102,6 +102,14 @@ impl Clients {
         }
     }
 
+    /// Ends a client; what its port does not take of the last words at once is lost with it.
+    pub(super) fn dismiss(&mut self, number: usize) {
+        if let Some(client) = self.get(number) {
+            let _ = client.flush();
+        }
+        self.remove(number);
+    }
+
     pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Client> {
         self.list.iter_mut()
     }

@@ -352,20 +352,10 @@ impl Live {
                     self.frame(&frame, Some(number));
                 }
                 Step::Line(text) => self.line(number, &text),
-                Step::Leave => self.dismiss(number),
+                Step::Leave => self.clients.dismiss(number),
             }
         }
         self.cause = None;
-    }
-
-    /// A client goes when it has what waits for it.
-    fn dismiss(&mut self, number: usize) {
-        if let Some(client) = self.clients.get(number) {
-            // What its port does not take at once is lost with it.
-            let _ = client.flush();
-        }
-        self.clients.remove(number);
-        self.stats.forget(number);
     }
 
     /// A line of a client; one that was disconnected has no more to say.

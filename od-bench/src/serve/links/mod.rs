@@ -77,7 +77,7 @@ impl Link {
             "slcan" => tcp::check(place).map(Self::Slcan),
             "socketcand" => tcp::check(place).map(Self::Socketcand),
             "socketcan" => Ok(Self::SocketCan(place.to_owned())),
-            "ws" => web_socket::parse(place),
+            "ws" => web_socket::parse(place).map(|(place, token)| Self::WebSocket(place, token)),
             _ => Err(unknown()),
         }
     }

@@ -1,6 +1,5 @@
 //! A WebSocket server for pages.
 
-use super::Link;
 use super::opened::{Opened, Protocol};
 use super::tcp;
 use crate::links::web_socket::Gate;
@@ -9,11 +8,11 @@ use crate::serve::failure::Failure;
 /// Fewest characters of a token that is chosen.
 const SHORTEST: usize = 16;
 
-/// Reads `HOST:PORT[?token=TOKEN]`.
+/// Reads `HOST:PORT[?token=TOKEN]` into a place and a token.
 ///
 /// # Errors
 /// The problem of the address or of the token.
-pub(super) fn parse(place: &str) -> Result<Link, String> {
+pub(super) fn parse(place: &str) -> Result<(String, Option<String>), String> {
     let (place, query) = match place.split_once('?') {
         Some((place, query)) => (place, Some(query)),
         None => (place, None),
@@ -22,7 +21,7 @@ pub(super) fn parse(place: &str) -> Result<Link, String> {
         Some(query) => Some(token(query)?),
         None => None,
     };
-    tcp::check(place).map(|place| Link::WebSocket(place, token))
+    Ok((tcp::check(place)?, token))
 }
 
 fn token(query: &str) -> Result<String, String> {
