@@ -56,7 +56,7 @@ pub(crate) fn sentence(words: Words) -> String {
         (Service::ErrorControl | Service::Emcy, Some(node)) => {
             format!("node {node}: {}", words.text)
         }
-        _ => words.text,
+        _ => words.reason_first.unwrap_or(words.text),
     };
     if let Some(first) = text.get_mut(..1) {
         first.make_ascii_uppercase();

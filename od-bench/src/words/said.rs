@@ -60,6 +60,8 @@ pub struct Words {
     pub address: Option<Address>,
     /// Is it an abort, an emergency, an error?
     pub error: bool,
+    /// An abort with its reason first, for those who read one line; `None` for everything else.
+    pub reason_first: Option<String>,
     /// The meaning, without the service and the node.
     pub text: String,
 }
@@ -71,6 +73,7 @@ impl Words {
             node,
             address: None,
             error: false,
+            reason_first: None,
             text: text.into(),
         }
     }

@@ -103,6 +103,11 @@ impl Explainer<'_> {
     }
 
     fn show(&self, data: &[u8]) -> String {
+        // The signatures of 1010h and 1011h are numbers that spell a word.
+        let index = self.transfer.address.map(|address| address.index);
+        if matches!(index, Some(0x1010 | 0x1011)) && data.iter().all(u8::is_ascii_lowercase) {
+            return format!("\"{}\"", String::from_utf8_lossy(data));
+        }
         let find = |address| self.device?.dictionary().find(address).ok();
         match self.transfer.address.and_then(find) {
             Some(entry) => values::show(entry.data_type, data),
@@ -301,13 +306,12 @@ impl Explainer<'_> {
 
     fn abort(&mut self, address: Address, code: u32) -> Words {
         self.begin(address);
-        let why = match AbortCode::from_code(code) {
-            Some(code) => code.to_string(),
-            None => format!("{code:08X}h"),
-        };
-        let words = self
-            .words(format!("{} aborted: {why}", self.name(address)))
-            .error();
+        let known = AbortCode::from_code(code);
+        let why = known.map_or_else(|| format!("{code:08X}h"), |code| code.to_string());
+        let reason = known.map_or("unknown abort code", AbortCode::text);
+        let name = self.name(address);
+        let mut words = self.words(format!("{name} aborted: {why}")).error();
+        words.reason_first = Some(format!("{reason} ({code:08X}h): {name} aborted"));
         *self.transfer = Transfer::default();
         words
     }

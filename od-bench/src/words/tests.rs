@@ -47,6 +47,10 @@ fn frames_become_plain_words() {
                 "SDO node 1: write of 6000h Operating parameters confirmed",
             ),
             (
+                "601#2310100173617665",
+                "SDO node 1: write 1010h:01 Store parameters.Save all parameters = \"save\"",
+            ),
+            (
                 "581#8000200000000206",
                 "SDO node 1: 2000h:00 aborted: 06020000h object does not exist",
             ),

@@ -85,6 +85,9 @@ export const lessonRun = signal({ name: '', count: 0 });
 export const lessonFailed = signal<{ name: string; problems: Diagnostic[] } | null>(null);
 export const lessonDialog = signal(false);
 
+/** The encoder is unfolded beside a lesson. */
+export const encoderOpen = signal(false);
+
 /** The step of the tour; null while there is none. */
 export const tour = signal<number | null>(null);
 

@@ -25,6 +25,7 @@ export const bench = {
   },
   encoder: {
     title: 'Encoder',
+    fold: 'The encoder in full',
     tabs: { shaft: 'Shaft', hardware: 'Hardware', eeprom: 'EEPROM' },
     tabsLabel: 'Encoder views',
     nmt: 'NMT state',

@@ -1,6 +1,6 @@
 // The page: bar, three panels, and on a phone one of them at a time.
 
-import { html, nothing } from 'lit';
+import { html, nothing, type TemplateResult } from 'lit';
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
 import { togglePause } from '../actions';
@@ -90,22 +90,28 @@ class App extends View {
     togglePause();
   }
 
+  private toast(): TemplateResult {
+    const { value } = state.toast;
+    const close = (): void => void (state.toast.value = null);
+    return html`<div class="toasts" role="status" aria-live="polite">${value
+      ? html`<div class="toast" data-tone=${value.tone}>
+          <span>${value.text}</span>
+          ${value.action ? html`<button class="small" @click=${() => { value.action?.run(); close(); }}>${value.action.text}</button>` : nothing}
+          <button class="quiet" aria-label=${T.app.dismiss} @click=${close}>${icons.close}</button>
+        </div>`
+      : nothing}</div>`;
+  }
+
   protected override render() {
     const tab = state.tab.value;
     return html`
       <od-topbar></od-topbar>
-      <od-tour></od-tour>
-      <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null}>
+      <div><od-tour></od-tour><od-offers></od-offers></div>
+      <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null} data-encoder=${state.encoderOpen.value ? 'open' : 'folded'}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">
           <od-encoder class="panel" data-panel="encoder"></od-encoder>
-          ${state.lesson.value
-            ? html`<div class="side-switch segmented" role="group" aria-label=${T.lessons.beside}>
-                <button class="small" aria-pressed=${tab !== 'objects'} @click=${() => (state.tab.value = 'lesson')}>${T.app.tabs.lesson}</button>
-                <button class="small" aria-pressed=${tab === 'objects'} @click=${() => (state.tab.value = 'objects')}>${T.app.tabs.objects}</button>
-              </div>
-              <od-lesson class="panel" data-panel="lesson"></od-lesson>`
-            : nothing}
+          ${state.lesson.value ? html`<od-lesson class="panel" data-panel="lesson"></od-lesson>` : nothing}
           <od-objects class="panel" data-panel="objects"></od-objects>
         </div>
         <div class="panel bus" data-panel="console">
@@ -113,28 +119,18 @@ class App extends View {
           <od-send></od-send>
         </div>
       </main>
-      <nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
+      <div class="foot">${this.toast()}<nav aria-label=${T.app.panels}><div class="tabs" role="tablist" aria-label=${T.app.panels}>
         ${TABS.filter((one) => one !== 'lesson' || state.lesson.value).map(
           (one) => html`<button role="tab" aria-selected=${one === tab} @click=${() => (state.tab.value = one)}>
             ${icons[one]}<span>${T.app.tabs[one]}</span>
           </button>`,
         )}
-      </div></nav>
+      </div></nav></div>
       <od-device-dialog></od-device-dialog>
       <od-help></od-help>
       <od-share></od-share>
       <od-mapping></od-mapping>
       <od-lessons></od-lessons>
-      <od-offers></od-offers>
-      <div class="toasts" role="status" aria-live="polite">
-        ${state.toast.value
-          ? html`<div class="toast" data-tone=${state.toast.value.tone}>
-              <span>${state.toast.value.text}</span>
-              ${state.toast.value.action ? html`<button class="small" @click=${() => { state.toast.value?.action?.run(); state.toast.value = null; }}>${state.toast.value.action.text}</button>` : nothing}
-              <button class="quiet" aria-label=${T.app.dismiss} @click=${() => (state.toast.value = null)}>${icons.close}</button>
-            </div>`
-          : nothing}
-      </div>
       ${this.isDropping ? html`<div class="drop-veil"><p>${icons.file} ${T.app.drop}</p></div>` : nothing}
       ${state.health.value === 'failed'
         ? html`<div class="failed" role="alert">

@@ -36,6 +36,7 @@ class Encoder extends View {
     const hasShaft = state.shaft.value !== null || state.device.value === null;
     return html`
       <header class="panel-head">
+        ${state.lesson.value ? html`<button class="icon-button fold-button" aria-expanded=${state.encoderOpen.value} aria-label=${T.encoder.fold} title=${T.encoder.fold} @click=${() => (state.encoderOpen.value = !state.encoderOpen.value)}>${icons.chevron}</button>` : nothing}
         <h2>${T.encoder.title}</h2>
         <span class="pill" data-nmt=${nmtState} role="status" aria-label=${T.encoder.nmt}>${T.encoder.states[nmtState]}</span>
         <div class="spacer"></div>
@@ -45,10 +46,15 @@ class Encoder extends View {
         </button>
       </header>
       <div class="parts" role="group" aria-label=${T.encoder.tabsLabel}>
-        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => (this.shown = part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.waits() ? html`<span class="count-badge" title=${T.hardware.waitsTitle}>!</span>` : part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
+        ${(Object.keys(T.encoder.tabs) as Part[]).map((part) => html`<button class="small" aria-pressed=${part === this.shown} @click=${() => this.show(part)}>${T.encoder.tabs[part]}${part === 'eeprom' && state.unsaved.value.size ? html`<span class="count-badge" title=${T.eeprom.unsaved(state.unsaved.value.size)}>${state.unsaved.value.size}</span>` : nothing}${part === 'hardware' && this.waits() ? html`<span class="count-badge" title=${T.hardware.waitsTitle}>!</span>` : part === 'hardware' && this.isOdd() ? html`<span class="alert-dot"></span>` : nothing}</button>`)}
       </div>
       ${this.shown === 'hardware' ? html`<od-hardware></od-hardware>` : this.shown === 'eeprom' ? html`<od-eeprom></od-eeprom>` : this.shaftPart(hasShaft)}
     `;
+  }
+
+  private show(part: Part): void {
+    this.shown = part;
+    state.encoderOpen.value = true;
   }
 
   private waits(): boolean {

@@ -17,6 +17,9 @@ import { icons } from './icons';
 import { cells, Rows, setText } from './rows';
 import { View } from './view';
 
+/** Characters from which a meaning takes two small lines. */
+const LONG = 44;
+
 const COLUMNS = ['time', 'delta', 'dir', 'id', 'tag', 'dlc', 'data', 'words'] as const;
 
 class FrameList extends View {
@@ -202,6 +205,7 @@ class FrameList extends View {
       if (cell.textContent !== text) {
         cell.textContent = text;
         cell.title = text;
+        row.toggleAttribute('data-long', text.length > LONG);
       }
     }
   }
@@ -245,7 +249,7 @@ class FrameList extends View {
         )}</div>
         <div class="frames scroll" tabindex="0" role="rowgroup" aria-label=${t.rows}></div>
       </div>
-      ${kept > 0 && kept < 4 && paused === null && state.powered.value && !trace.filter ? this.hints() : nothing}
+      ${kept > 0 && kept < 4 && !state.lesson.value && paused === null && state.powered.value && !trace.filter ? this.hints() : nothing}
       ${kept === 0 ? html`<p class="frames-empty">${t.empty}</p>` : trace.count === 0 && trace.filter ? html`<p class="frames-empty">${t.nothing}</p>` : nothing}
       ${this.behind && paused === null ? html`<button class="to-end" @click=${() => this.toEnd()}>${icons.down} ${t.toEnd}</button>` : nothing}
     </div>`;
@@ -283,7 +287,7 @@ function foldWords(fold: Transfer | null | undefined, words: string | undefined)
   const device = state.devices.peek().find((_, number) => state.statuses.peek()[number]?.nodeId === fold.node);
   const object = device?.objects.find(({ index, sub }) => index === fold.index && sub === fold.sub);
   const name = `${address(fold.index, fold.sub)}${object ? ` ${object.parent ? `${object.parent}.` : ''}${object.name}` : ''}`;
-  if (fold.state === 'aborted') return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}: ${words ?? ''}`;
+  if (fold.state === 'aborted') return words ?? '';
   const value = object ? showValue(decode(fold.bytes, object), object) : Array.from(fold.bytes.subarray(0, 32), hexByte).join(' ');
   return `${fold.isWrite ? T.frames.write : T.frames.read} ${name}${fold.state === 'done' ? ` = ${value}` : ' …'}`;
 }

@@ -10,10 +10,14 @@ import { again } from '../lessons/open';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
 import { T } from '../texts';
+import { besideSwitch } from './beside';
 import { icons } from './icons';
 import { markdown } from './markdown';
 import './quiz';
 import { View } from './view';
+
+/** Height of a window in which a lesson shows its introduction in full. */
+const TALL = 900;
 
 type Step = Lesson['steps'][number];
 
@@ -46,6 +50,11 @@ class LessonPanel extends View {
     this.unfollow?.();
   }
 
+  private hint(): void {
+    this.hints += 1;
+    void this.updateComplete.then(() => this.querySelector('.hint:last-of-type')?.scrollIntoView({ block: 'nearest' }));
+  }
+
   private next(step: number): void {
     this.seen = step;
     this.hints = 0;
@@ -54,28 +63,35 @@ class LessonPanel extends View {
       const text = this.querySelector<HTMLElement>('.lesson');
       text?.scrollTo(0, 0);
       text?.focus();
+      this.scrollIntoView({ block: 'nearest' });
     });
   }
 
-  private done(step: Step, number: number, isLast: boolean): TemplateResult {
+  /** A step that is done: what happened first, what was asked for behind it. */
+  private done(step: Step, isLast: boolean): TemplateResult {
     const t = T.lessons;
     return html`<div class="happened" role="status"><h4>${icons.tick} ${t.happened}</h4><div class="prose">${markdown(step.happened)}</div></div>
-      ${isLast
-        ? html`<p class="lesson-end" role="status">${t.finished}</p>
-          <div class="button-row"><button class="primary" @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
-        : html`<button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>`}`;
+      ${isLast ? html`<p class="lesson-end" role="status">${t.finished}</p>` : nothing}
+      <details><summary>${t.asked}</summary><div class="prose">${markdown(step.text)}</div></details>`;
+  }
+
+  private goOn(number: number, isLast: boolean): TemplateResult {
+    const t = T.lessons;
+    return isLast
+      ? html`<div class="button-row"><button class="primary" @click=${choose}>${t.other}</button><button @click=${() => void again()}>${t.again}</button></div>`
+      : html`<div class="button-row"><button class="primary" @click=${() => this.next(number + 1)}>${t.next}</button>
+          ${state.running.value ? nothing : html`<span class="still">${icons.pause} ${t.still}</span>`}</div>`;
   }
 
   private open(step: Step, progress: LessonState): TemplateResult {
     const t = T.lessons;
     return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz}></od-quiz>` : nothing}
-      <ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
+      <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
         (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
       )}</ul>
-      ${step.hints.slice(0, this.hints).map((hint) => html`<div class="hint prose">${markdown(hint)}</div>`)}
       ${this.hints < step.hints.length
-        ? html`<button class="small" @click=${() => (this.hints += 1)}>${this.hints ? t.nextHint : t.hint}</button>`
-        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void playScript(step.solution)}>${t.show}</button>` : nothing}`;
+        ? html`<button class="small" @click=${this.hint}>${this.hints ? t.nextHint : t.hint}</button>`
+        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void playScript(step.solution)}>${t.show}</button>` : nothing}</div>`;
   }
 
   protected override render() {
@@ -87,26 +103,36 @@ class LessonPanel extends View {
     // A step back in time may lead to an earlier one.
     const shown = Math.min(this.seen, progress.step, all - 1);
     const step = lesson.steps[shown]!;
+    const isDone = progress.step > shown;
+    const isLast = shown === all - 1;
+    // Why it matters comes first; the rest can be opened where a window is low.
+    const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
     if (progress.done) finish(state.lessonRun.value.name);
     return html`
       <header class="panel-head">
         <h2>${lesson.title}</h2>
         <div class="spacer"></div>
+        ${besideSwitch()}
         <button class="icon-button" aria-label=${t.other} title=${t.other} aria-haspopup="dialog" @click=${choose}>${icons.lesson}</button>
         <button class="icon-button" aria-label=${t.leave} title=${t.leave} @click=${leaveLesson}>${icons.close}</button>
       </header>
       <div class="lesson scroll" tabindex="0" role="region" aria-label=${lesson.title} lang=${lesson.language}>
         <div class="lesson-steps" role="img" aria-label=${t.step(shown + 1, all)}>${lesson.steps.map((_, i) => html`<i data-state=${i < progress.step ? 'done' : i === shown ? 'now' : ''}></i>`)}</div>
-        ${shown === 0 && lesson.intro ? html`<div class="prose">${markdown(lesson.intro)}</div>` : nothing}
+        ${shown === 0 && why && !isDone
+          ? html`<div class="prose">${markdown(why)}</div>
+            ${more.length ? html`<details ?open=${window.innerHeight >= TALL}><summary>${t.background}</summary><div class="prose">${markdown(more.join('\n\n'))}</div></details>` : nothing}
+            <p class="begin">${icons.down} ${t.begin}</p>`
+          : nothing}
         ${keyed(
           `${state.lessonRun.value.count}/${shown}`,
           html`<section class="lesson-step">
             <h3><span class="muted num">${shown + 1}</span> ${step.title}</h3>
-            <div class="prose">${markdown(step.text)}</div>
-            ${progress.step > shown ? this.done(step, shown, shown === all - 1) : this.open(step, progress)}
+            ${isDone ? this.done(step, isLast) : html`<div class="prose">${markdown(step.text)}</div>`}
+            ${isDone ? nothing : step.hints.slice(0, this.hints).map((hint) => html`<div class="hint prose">${markdown(hint)}</div>`)}
           </section>`,
         )}
-      </div>`;
+      </div>
+      <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, progress))}</footer>`;
   }
 }
 

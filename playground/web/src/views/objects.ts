@@ -8,11 +8,15 @@ import { address, hexIndex, sameValue, showValue } from '../format';
 import { askEach, exportDcf, watch } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
+import { besideSwitch } from './beside';
 import { icons } from './icons';
 import { findObjects } from './object-search';
 import { cells, Rows, setText } from './rows';
 import { openMapping } from './object-detail';
 import { View } from './view';
+
+/** Characters from which a name takes two small lines. */
+const LONG = 17;
 
 /** What the list shows. */
 type Show = 'all' | 'changed' | 'unsaved';
@@ -103,6 +107,7 @@ class Objects extends View {
     if (line.heading) {
       setText(where, hexIndex(line.index));
       setText(name, line.name);
+      row.removeAttribute('data-long');
       setText(access, '');
       setText(value, '');
       setText(mark, '');
@@ -115,6 +120,7 @@ class Objects extends View {
     const live = state.values.peek().get(key);
     setText(where, object.parent === null ? hexIndex(object.index) : `:${object.sub.toString(16).toUpperCase().padStart(2, '0')}`);
     setText(name, object.name);
+    row.toggleAttribute('data-long', object.name.length > LONG);
     setText(access, object.access);
     setText(value, live === undefined ? '' : showValue(live, object));
     const kind = live === undefined ? '' : markOf(object, live);
@@ -194,6 +200,7 @@ class Objects extends View {
         <h2>${t.title}</h2>
         <span class="muted num count">${total}</span>
         <div class="spacer"></div>
+        ${besideSwitch()}
         <label class="search">${icons.search}<input type="search" placeholder=${t.hint} aria-label=${t.search} autocomplete="off" spellcheck="false"
           .value=${this.query} @input=${(event: Event) => { this.query = (event.target as HTMLInputElement).value; this.rebuild(); }}></label>
       </header>

@@ -42,7 +42,7 @@ class Quiz extends View {
     const t = T.lessons;
     return html`<form class="quiz" @submit=${(event: Event) => void this.check(event)}>
       <h4>${t.predict}</h4>
-      <div class="prose">${markdown(this.quiz.question)}</div>
+      <div class="prose question">${markdown(this.quiz.question)}</div>
       ${this.isTold
         ? nothing
         : html`<div class="button-row"><input class="mono" aria-label=${t.answer} placeholder=${t.answerHint} autocomplete="off" spellcheck="false">
