@@ -12,12 +12,16 @@ pub enum Fault {
     Link(String),
     /// A node is silent, or says what no node should.
     Node(String),
+    /// Somebody asked the program to stop (Ctrl-C).
+    Interrupted,
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (Self::Usage(text) | Self::Link(text) | Self::Node(text)) = self;
-        f.write_str(text)
+        match self {
+            Self::Usage(text) | Self::Link(text) | Self::Node(text) => f.write_str(text),
+            Self::Interrupted => f.write_str("stopped by Ctrl-C"),
+        }
     }
 }
 

@@ -6,6 +6,11 @@
 pub mod bench;
 pub mod conform;
 pub mod fault;
+pub mod interrupt;
 pub mod link;
 pub mod links;
 pub mod master;
+pub mod nmt;
+pub mod objects;
+pub mod scan;
+pub mod tap;

@@ -31,6 +31,17 @@ pub trait Link {
     /// # Errors
     /// [`Fault::Link`] if the link is lost.
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault>;
+
+    /// Goes on at another bit rate, in kbit/s, and only listens there: it acknowledges nothing,
+    /// so a wrong bit rate disturbs nobody.
+    ///
+    /// # Errors
+    /// [`Fault::Usage`] if this link cannot; [`Fault::Link`] if it is lost.
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        Err(Fault::Usage(format!(
+            "this link cannot listen at {kbit} kbit/s; bit-rate detection needs an slcan adapter"
+        )))
+    }
 }
 
 impl<L: Link + ?Sized> Link for &mut L {
@@ -45,6 +56,10 @@ impl<L: Link + ?Sized> Link for &mut L {
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
         (**self).receive(until)
     }
+
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        (**self).listen_at(kbit)
+    }
 }
 
 impl<L: Link + ?Sized> Link for Box<L> {
@@ -58,5 +73,9 @@ impl<L: Link + ?Sized> Link for Box<L> {
 
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
         (**self).receive(until)
+    }
+
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        (**self).listen_at(kbit)
     }
 }

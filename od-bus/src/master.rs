@@ -1,9 +1,9 @@
 //! A master on a link: it sends what its client has to send, and waits for answers.
 
 use od_client::sdo::{Options, SdoError};
-use od_client::{Client, Event, lss};
+use od_client::{Client, Event, Job, lss};
 use od_model::Address;
-use od_wire::{Instant, NodeId};
+use od_wire::{Duration, Instant, NodeId};
 
 use crate::fault::Fault;
 use crate::link::Link;
@@ -12,21 +12,34 @@ use crate::link::Link;
 /// 1 MiB, as a longer one is a device gone wild.
 const OPTIONS: Options = Options::DEFAULT;
 
+/// Longest time to throw away what came before a request, in ms.
+const DRAIN: u64 = 20;
+
 /// A master of one node on a link.
 #[derive(Debug)]
 pub struct Master<L> {
     link: L,
     node: NodeId,
     client: Client,
+    /// Longest time to an answer.
+    timeout: Duration,
 }
 
 impl<L: Link> Master<L> {
     /// A master of `node` on `link`.
     pub fn new(link: L, node: NodeId) -> Self {
+        Self::patient(link, node, OPTIONS.timeout)
+    }
+
+    /// A master of `node` that waits longer, or less long, for each answer.
+    pub fn patient(link: L, node: NodeId, timeout: Duration) -> Self {
+        let mut options = OPTIONS;
+        options.timeout = timeout;
         Self {
             link,
             node,
-            client: Client::with(OPTIONS, lss::Options::DEFAULT),
+            client: Client::with(options, lss::Options::DEFAULT),
+            timeout,
         }
     }
 
@@ -45,9 +58,9 @@ impl<L: Link> Master<L> {
     /// # Errors
     /// The link is lost, or the node says nothing, or what no server should.
     pub fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Fault> {
-        self.client.read(self.node, address);
+        let job = self.client.read(self.node, address);
         loop {
-            if let Event::Read(_, result) = self.event()? {
+            if let Event::Read(_, result) = self.event(job)? {
                 return self.outcome(address, result);
             }
         }
@@ -58,16 +71,29 @@ impl<L: Link> Master<L> {
     /// # Errors
     /// As [`upload`](Self::upload).
     pub fn download(&mut self, address: Address, bytes: &[u8]) -> Result<Result<(), u32>, Fault> {
-        self.client.write(self.node, address, bytes);
+        let job = self.client.write(self.node, address, bytes);
         loop {
-            if let Event::Written(_, result) = self.event()? {
+            if let Event::Written(_, result) = self.event(job)? {
                 return self.outcome(address, result);
             }
         }
     }
 
-    /// Waits for the client's next event; only for a client with a job, which ends with one.
-    fn event(&mut self) -> Result<Event, Fault> {
+    /// Waits for the client's next event; only for a client with a job, which ends with one. If the
+    /// program is to stop, the node hears that the transfer is over.
+    fn event(&mut self, job: Job) -> Result<Event, Fault> {
+        let event = self.wait();
+        if matches!(event, Err(Fault::Interrupted)) {
+            let now = self.link.now();
+            self.client.cancel(now, job);
+            while let Some(frame) = self.client.poll_transmit(now) {
+                self.link.send(&frame)?;
+            }
+        }
+        event
+    }
+
+    fn wait(&mut self) -> Result<Event, Fault> {
         loop {
             self.send()?;
             if let Some(event) = self.client.poll_event() {
@@ -83,8 +109,10 @@ impl<L: Link> Master<L> {
 
     fn send(&mut self) -> Result<(), Fault> {
         while let Some(frame) = self.client.poll_transmit(self.link.now()) {
-            // What an earlier, slower answer left behind is not the answer to this.
-            while self.link.receive(Instant::ZERO)?.is_some() {}
+            // What an earlier, slower answer left behind is not the answer to this. A bus that is
+            // full does not hold the request up.
+            let until = self.link.now().plus_millis(DRAIN);
+            while self.link.receive(Instant::ZERO)?.is_some() && self.link.now() < until {}
             self.link.send(&frame)?;
         }
         Ok(())
@@ -102,7 +130,7 @@ impl<L: Link> Master<L> {
             Err(SdoError::Silent) => format!(
                 "node {node} does not respond to SDO requests within {} s; check its power, its NMT \
                  state (not Stopped) and its node ID",
-                OPTIONS.timeout.as_secs()
+                self.timeout.as_secs_f32()
             ),
             Err(SdoError::OutOfTurn { got, .. }) => {
                 format!("node {node}: unexpected SDO response for {address}: {got:?}")

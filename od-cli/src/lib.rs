@@ -6,6 +6,7 @@
 //! writes to a pipe that may close, `report` shows findings.
 
 mod bridge;
+mod bus;
 mod check;
 mod config;
 mod conform;
@@ -16,12 +17,17 @@ mod dump;
 mod explain;
 mod export;
 mod failure;
+mod get;
 mod lesson;
 mod live;
 mod new;
+mod nmt;
 mod output;
 mod report;
 mod run;
+mod save;
+mod scan;
+mod set;
 mod sim;
 mod source;
 mod terminal;
@@ -60,6 +66,16 @@ enum Command {
     Diff(diff::Args),
     Conform(conform::Args),
     New(new::Args),
+    Scan(scan::Args),
+    Get(get::Args),
+    Set(set::Args),
+    Nmt(nmt::Args),
+    /// Save the values of a node in its memory (1010h)
+    Save(save::Args),
+    /// Restore the default values of a node (1011h)
+    ///
+    /// They take effect with the next reset.
+    Restore(save::Args),
 }
 
 /// The program `odkit`: reads the command line, does it, answers with the exit code.
@@ -97,6 +113,12 @@ pub fn main() -> ExitCode {
         Command::Diff(args) => diff::run(&args),
         Command::Conform(args) => conform::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Scan(args) => scan::run(&args),
+        Command::Get(args) => get::run(&args),
+        Command::Set(args) => set::run(&args),
+        Command::Nmt(args) => nmt::run(&args),
+        Command::Save(args) => save::save(&args),
+        Command::Restore(args) => save::restore(&args),
     };
     exit(result)
 }

@@ -93,3 +93,81 @@ fn allowed() -> bool {
     let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     !set("NO_COLOR") && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
 }
+
+/// A line on a terminal that says how far something is; elsewhere nothing.
+pub(crate) struct Bar {
+    what: &'static str,
+    /// The share that is shown; `None`: nothing is, or it must not be.
+    shown: Option<u8>,
+    is_terminal: bool,
+    /// Bytes of a transfer, as far as its frames tell.
+    bytes: usize,
+    /// Bytes that the transfer has in the end; 0: not known.
+    total: usize,
+}
+
+impl Bar {
+    pub(crate) fn new(what: &'static str) -> Self {
+        Self {
+            what,
+            shown: None,
+            is_terminal: io::stderr().is_terminal(),
+            bytes: 0,
+            total: 0,
+        }
+    }
+
+    /// Shows a share from 0 to 100.
+    pub(crate) fn show(&mut self, percent: u8) {
+        if self.is_terminal && self.shown != Some(percent) {
+            self.shown = Some(percent);
+            let done = usize::from(percent.min(100)) * 40 / 100;
+            let (what, bar) = (self.what, "#".repeat(done));
+            note_text(&format!("\r{what} [{bar:<40}] {percent:>3} %"));
+        }
+    }
+
+    /// Counts a frame of an upload: the first answer may tell the size.
+    pub(crate) fn transfer(&mut self, frame: &od_wire::Frame) {
+        let id = frame.id().as_standard().unwrap_or(0);
+        if !(0x581..=0x5FF).contains(&id) {
+            return;
+        }
+        let [first, _, _, _, size @ ..] = *frame.bytes();
+        // The answers to initiate upload and block upload that tell a size.
+        let is_first = self.bytes == 0 && (first & 0xE3 == 0x41 || first & 0xE3 == 0xC2);
+        if is_first {
+            self.total = u32::from_le_bytes(size) as usize;
+        } else {
+            self.count();
+        }
+    }
+
+    /// Counts a frame of a download of so many bytes.
+    pub(crate) fn transfer_of(&mut self, frame: &od_wire::Frame, total: usize) {
+        self.total = total;
+        if matches!(frame.id().as_standard(), Some(0x601..=0x67F)) {
+            self.count();
+        }
+    }
+
+    /// Seven bytes more.
+    fn count(&mut self) {
+        self.bytes += 7;
+        let percent = (100 * self.bytes).checked_div(self.total).unwrap_or(0);
+        self.show(percent.min(100) as u8);
+    }
+
+    /// Takes the line away.
+    pub(crate) fn clear(&mut self) {
+        if self.shown.take().is_some() {
+            note_text(&format!("\r{:60}\r", ""));
+        }
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.clear();
+    }
+}

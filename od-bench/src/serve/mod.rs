@@ -25,6 +25,7 @@ mod pace;
 mod program;
 mod ready;
 mod run;
+pub mod running;
 mod stats;
 mod terminal;
 mod told;

@@ -15,7 +15,7 @@ use super::maker::Maker;
 use super::options::Options;
 use super::ready::{self, Ready};
 use super::stats::Stats;
-use super::{control, fleet, greeting, hangup, terminal};
+use super::{control, fleet, greeting, hangup, running, terminal};
 
 /// Puts the devices on a bus and runs it until Ctrl-C, or until its last link has ended.
 ///
@@ -67,6 +67,7 @@ pub fn run(makers: &[Maker<'_>], options: &Options) -> Result<(), Failure> {
     for link in opened {
         live.add(link)?;
     }
+    let _enrolled = running::enrol(&report);
     match &ready {
         Some(ready) => ready.write(&report)?,
         None if options.ready_file.is_none() => {}

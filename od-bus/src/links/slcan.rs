@@ -1,108 +1,112 @@
-//! The client's side of slcan over TCP: an adapter's server, or `odkit sim`.
-
-use std::io::{ErrorKind, Read, Write};
-use std::net::TcpStream;
-use std::time;
+//! The client's side of slcan: an adapter on a serial line, a server of one, or `odkit sim`.
 
 use od_bench::links::slcan;
-use od_wire::{Duration, Frame, Instant};
+use od_wire::{Duration, Frame};
 
-use crate::fault::Fault;
-use crate::link::{Heard, Link};
+use super::stream::{Protocol, Said, shown};
 
-/// A connection to an adapter's server.
-pub(super) struct Tcp {
-    stream: TcpStream,
-    address: String,
-    /// Bytes of an incomplete line.
-    rest: Vec<u8>,
-    /// Origin of the link's time.
-    start: time::Instant,
+/// Bit rates in kbit/s, by their number in the command `S`.
+const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+/// Adapters that answer at all answer in this time.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// State of the conversation with an adapter.
+#[derive(Default)]
+pub(super) struct Slcan {
+    /// Bit rate in kbit/s that was asked for; `None`: the adapter keeps its own.
+    rate: Option<u16>,
+    /// Answers that are due before the channel is open.
+    due: u8,
+    /// The adapter has refused to open it.
+    is_open: bool,
 }
 
-impl Tcp {
-    pub(super) fn open(address: &str) -> Result<Self, Fault> {
-        // A port without a host is a port of this computer.
-        let address = match address.parse::<u16>() {
-            Ok(port) => format!("127.0.0.1:{port}"),
-            Err(_) => address.to_owned(),
-        };
-        let fail = |error: std::io::Error| {
-            Fault::Link(format!(
-                "slcan:{address}: {error}; start a CAN adapter server or `odkit sim` at this address"
-            ))
-        };
-        let stream = TcpStream::connect(&address).map_err(fail)?;
-        stream.set_nodelay(true).map_err(fail)?;
-        let mut client = Self {
-            stream,
-            address,
-            rest: Vec::new(),
-            start: time::Instant::now(),
-        };
-        client.write(b"C\rO\r")?;
-        Ok(client)
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
-        let blocking = self.stream.set_nonblocking(false);
-        let written = blocking.and_then(|()| self.stream.write_all(bytes));
-        written.map_err(|error| self.lost(&error.to_string()))
-    }
-
-    fn lost(&self, why: &str) -> Fault {
-        Fault::Link(format!("slcan:{}: {why}", self.address))
-    }
-
-    /// The next frame among the whole lines that are here.
-    fn take(&mut self) -> Option<Frame> {
-        while let Some(end) = self.rest.iter().position(|b| matches!(b, b'\r' | 0x07)) {
-            let line: Vec<u8> = self.rest.drain(..=end).collect();
-            if let Some(frame) = slcan::frame_of(&line[..end]) {
-                return Some(frame);
-            }
+impl Slcan {
+    pub(super) fn new(rate: Option<u16>) -> Self {
+        Self {
+            rate,
+            ..Self::default()
         }
-        None
+    }
+
+    /// An answer without text: right, or wrong.
+    fn answer(&mut self, is_right: bool) -> Result<Said, String> {
+        if self.is_open {
+            return match is_right {
+                true => Ok(Said::Nothing),
+                false => Err("the adapter refuses a frame; it may be bus-off".into()),
+            };
+        }
+        self.due = self.due.saturating_sub(1);
+        match (self.due, is_right) {
+            (0, true) => {
+                self.is_open = true;
+                Ok(Said::Open)
+            }
+            (0, false) => Err(
+                "the adapter does not open its CAN channel; give it a bit rate, such as with \
+                 `--bit-rate 500`"
+                    .into(),
+            ),
+            _ => Ok(Said::Nothing),
+        }
     }
 }
 
-impl Link for Tcp {
-    fn now(&self) -> Instant {
-        Instant::ZERO + self.start.elapsed()
-    }
-
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
-        let mut line = Vec::new();
-        slcan::write_frame(frame, &mut line);
-        line.push(b'\r');
-        self.write(&line)
-    }
-
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
-        loop {
-            if let Some(frame) = self.take() {
-                let at = self.now();
-                return Ok(Some(Heard { at, frame }));
-            }
-            let left = Duration::from_micros(until.micros_since(self.now()));
-            // A time-out of zero would mean none at all.
-            let set = self.stream.set_nonblocking(left.is_zero()).and_then(|()| {
-                let wait = Some(left).filter(|left| !left.is_zero());
-                self.stream.set_read_timeout(wait)
-            });
-            set.map_err(|error| self.lost(&error.to_string()))?;
-            let mut bytes = [0; 4096];
-            match self.stream.read(&mut bytes) {
-                Ok(0) => return Err(self.lost("the peer closed the connection")),
-                Ok(count) => self.rest.extend_from_slice(&bytes[..count]),
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error)
-                    if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) =>
-                {
-                    return Ok(None);
-                }
-                Err(error) => return Err(self.lost(&error.to_string())),
-            }
+impl Protocol for Slcan {
+    fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String> {
+        // The first end of line ends what an earlier host left.
+        let mut text = String::from("\rC\r");
+        self.due = 3;
+        self.is_open = false;
+        if let Some(rate) = listen_at.or(self.rate) {
+            let number = RATES.iter().position(|one| *one == rate).ok_or_else(|| {
+                let rates = RATES.map(|rate| rate.to_string()).join(", ");
+                format!("slcan does not support {rate} kbit/s; write one of {rates}")
+            })?;
+            text.push_str(&format!("S{number}\r"));
+            self.due += 1;
         }
+        text.push_str(if listen_at.is_some() { "L\r" } else { "O\r" });
+        Ok(text.into_bytes())
+    }
+
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String> {
+        let Some(end) = bytes.iter().position(|byte| matches!(byte, b'\r' | 0x07)) else {
+            return Ok(None);
+        };
+        let line: Vec<u8> = bytes.drain(..=end).filter(|byte| *byte != b'\n').collect();
+        let (line, is_right) = match line.split_last() {
+            Some((last, line)) => (line, *last == b'\r'),
+            None => return Ok(None),
+        };
+        if let Some(frame) = slcan::frame_of(line) {
+            return Ok(Some(Said::Frame(frame)));
+        }
+        Ok(Some(match line {
+            [] => self.answer(is_right)?,
+            [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Said::Nothing,
+            // The end of a line whose beginning went to somebody else.
+            _ if !self.is_open => Said::Nothing,
+            line => {
+                let line = shown(line);
+                return Err(format!(
+                    "unexpected line `{line}`; is an slcan adapter there, at this baud rate?"
+                ));
+            }
+        }))
+    }
+
+    fn write(&self, frame: &Frame, out: &mut Vec<u8>) {
+        slcan::write_frame(frame, out);
+        out.push(b'\r');
+    }
+
+    fn patience(&self) -> (Duration, bool) {
+        (PATIENCE, true)
+    }
+
+    fn end(&self) -> &'static [u8] {
+        b"C\r"
     }
 }

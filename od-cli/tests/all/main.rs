@@ -6,6 +6,8 @@ mod support;
 #[cfg(unix)]
 mod background;
 mod bridge;
+#[cfg(unix)]
+mod bus;
 mod canopennode;
 mod check;
 mod conform;

@@ -1,0 +1,99 @@
+//! Benches that run: each leaves its report where programs of the same user find it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::ready::Ready;
+
+/// Beginning of the files' names.
+const NAME: &str = "odkit-sim-";
+
+/// Tells programs of this user that this bench runs; it does so until the value goes. `None`: there
+/// is no place for it.
+pub(super) fn enrol(report: &str) -> Option<Ready> {
+    let path = folder().join(format!("{NAME}{}{}.json", user(), std::process::id()));
+    let ready = Ready::at(&path).ok()?;
+    ready.write(report).ok()?;
+    Some(ready)
+}
+
+/// The best link of each bench of this user that runs, as `--link` names it.
+pub fn links() -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder()).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_one = name.starts_with(&format!("{NAME}{}", user())) && name.ends_with(".json");
+        if is_one && is_own(&entry.path()) {
+            let text = fs::read_to_string(entry.path()).unwrap_or_default();
+            let report: Value = serde_json::from_str(&text).unwrap_or_default();
+            match is_alive(report["pid"].as_u64().unwrap_or(0)) {
+                true => found.extend(link(&report)),
+                // It was killed.
+                false => drop(fs::remove_file(entry.path())),
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The link of a report that most programs can open.
+fn link(report: &Value) -> Option<String> {
+    let links = report["links"].as_array()?;
+    let of = |kind: &str, place: &str| {
+        let place = |link: &Value| {
+            let place = (link["link"] == kind).then(|| link[place].as_str())??;
+            Some(format!("{kind}:{place}"))
+        };
+        links.iter().find_map(place)
+    };
+    of("slcan", "address")
+        .or_else(|| of("socketcand", "address"))
+        .or_else(|| of("socketcan", "interface"))
+        .or_else(|| of("slcan", "path"))
+}
+
+/// A folder of this user, or the one for temporary files.
+fn folder() -> PathBuf {
+    let folder = std::env::var_os("XDG_RUNTIME_DIR").map(PathBuf::from);
+    let folder = folder.filter(|folder| folder.is_absolute() && folder.is_dir());
+    folder.unwrap_or_else(std::env::temp_dir)
+}
+
+#[cfg(unix)]
+fn user() -> String {
+    format!("{}-", nix::unistd::Uid::effective())
+}
+
+#[cfg(not(unix))]
+fn user() -> String {
+    String::new()
+}
+
+/// Others can write into the folder for temporary files, too.
+#[cfg(unix)]
+fn is_own(path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+
+    let file = fs::symlink_metadata(path);
+    file.is_ok_and(|file| file.is_file() && file.uid() == nix::unistd::Uid::effective().as_raw())
+}
+
+#[cfg(not(unix))]
+fn is_own(_: &Path) -> bool {
+    true
+}
+
+#[cfg(unix)]
+fn is_alive(process: u64) -> bool {
+    let process = i32::try_from(process).ok().filter(|process| *process > 0);
+    // No signal: only whether one could be sent.
+    process.is_some_and(|id| nix::sys::signal::kill(nix::unistd::Pid::from_raw(id), None).is_ok())
+}
+
+#[cfg(not(unix))]
+fn is_alive(_: u64) -> bool {
+    true
+}

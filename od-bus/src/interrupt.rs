@@ -1,0 +1,55 @@
+//! A link whose waits end when somebody asks for it.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use od_wire::{Frame, Instant};
+
+use crate::fault::Fault;
+use crate::link::{Heard, Link};
+
+/// Longest wait before it looks whether it is to stop, in ms.
+const SLICE: u64 = 50;
+
+/// A link that ends each wait with [`Fault::Interrupted`] while `stop` is set.
+///
+/// It still sends, so that what was begun on the bus can be put back.
+#[derive(Debug)]
+pub struct Interruptible<L> {
+    link: L,
+    stop: Arc<AtomicBool>,
+}
+
+impl<L: Link> Interruptible<L> {
+    /// A link that stops when `stop` is set.
+    pub const fn new(link: L, stop: Arc<AtomicBool>) -> Self {
+        Self { link, stop }
+    }
+}
+
+impl<L: Link> Link for Interruptible<L> {
+    fn now(&self) -> Instant {
+        self.link.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        self.link.send(frame)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        loop {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Fault::Interrupted);
+            }
+            let slice = self.link.now().plus_millis(SLICE);
+            let heard = self.link.receive(until.min(slice))?;
+            if heard.is_some() || self.link.now() >= until {
+                return Ok(heard);
+            }
+        }
+    }
+
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        self.link.listen_at(kbit)
+    }
+}

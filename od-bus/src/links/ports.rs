@@ -1,0 +1,93 @@
+//! Ports that carry bytes: TCP and serial lines.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpStream, ToSocketAddrs};
+
+use od_wire::Duration;
+use serial2::SerialPort;
+
+use super::stream::Port;
+use crate::fault::Fault;
+
+/// Longest time until a server accepts a connection.
+const CONNECT: Duration = Duration::from_secs(5);
+/// Longest time for the other side to take bytes.
+const WRITE: Duration = Duration::from_secs(2);
+
+/// Connects to `HOST:PORT`, or to a port of this computer.
+pub(super) fn connect(kind: &str, place: &str) -> Result<(TcpStream, String), Fault> {
+    // A port without a host is a port of this computer.
+    let place = match place.parse::<u16>() {
+        Ok(port) => format!("127.0.0.1:{port}"),
+        Err(_) => place.to_owned(),
+    };
+    let name = format!("{kind}:{place}");
+    let addresses = place.to_socket_addrs().map_err(|error| {
+        Fault::Usage(format!(
+            "{name}: {error}; write `{kind}:HOST:PORT`, such as `{kind}:127.0.0.1:29536`"
+        ))
+    })?;
+    let mut last = io::Error::from(ErrorKind::NotFound);
+    for address in addresses {
+        match TcpStream::connect_timeout(&address, CONNECT) {
+            Ok(stream) => {
+                let ready = stream.set_nodelay(true);
+                let ready = ready.and_then(|()| stream.set_write_timeout(Some(WRITE)));
+                match ready {
+                    Ok(()) => return Ok((stream, name)),
+                    Err(error) => last = error,
+                }
+            }
+            Err(error) => last = error,
+        }
+    }
+    Err(Fault::Link(format!(
+        "{name}: {last}; start a CAN adapter server or `odkit sim` at this address"
+    )))
+}
+
+impl Port for TcpStream {
+    fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        // A time-out of zero would mean none at all.
+        self.set_nonblocking(wait.is_zero())?;
+        self.set_read_timeout(Some(wait).filter(|wait| !wait.is_zero()))?;
+        Read::read(self, buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.set_nonblocking(false)?;
+        self.write_all(bytes)
+    }
+}
+
+/// Opens a serial port at a baud rate.
+pub(super) fn serial(path: &str, baud: u32) -> Result<SerialPort, Fault> {
+    let failed = |error: io::Error| {
+        Fault::Link(match error.kind() {
+            ErrorKind::NotFound => {
+                format!("serial port {path} does not exist; is the adapter plugged in?")
+            }
+            ErrorKind::PermissionDenied => format!(
+                "{path} cannot be opened (permission denied); on Debian and Ubuntu join the group \
+                 dialout with `sudo usermod -aG dialout $USER`, then log in again"
+            ),
+            _ => format!("{path} at {baud} bit/s: {error}"),
+        })
+    };
+    let mut port = SerialPort::open(path, baud).map_err(failed)?;
+    port.set_write_timeout(WRITE).map_err(failed)?;
+    Ok(port)
+}
+
+impl Port for SerialPort {
+    fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize> {
+        // The system counts in milliseconds.
+        let millis = u64::try_from(wait.as_micros().div_ceil(1000)).unwrap_or(u64::MAX);
+        self.set_read_timeout(Duration::from_millis(millis))?;
+        Self::read(self, buffer)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.write_all(bytes)
+    }
+}

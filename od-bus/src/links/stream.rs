@@ -1,0 +1,206 @@
+//! A link over bytes: a port that carries them, and a protocol that says what they mean.
+
+use std::collections::VecDeque;
+use std::io::{self, ErrorKind};
+use std::time;
+
+use od_wire::{Duration, Frame, Instant};
+
+use crate::fault::Fault;
+use crate::link::{Heard, Link};
+
+/// Longest time for the first answers of the other side.
+const OPENING: Duration = Duration::from_secs(2);
+/// Most bytes without an end of line or of command.
+const LONGEST: usize = 256;
+
+/// Carries bytes both ways.
+pub(super) trait Port {
+    /// Reads what is there, or waits; 0: the other side has left.
+    fn read(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<usize>;
+
+    /// Writes all of it, in at most 2 s.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
+}
+
+/// What the other side said.
+pub(super) enum Said {
+    /// A frame of the bus.
+    Frame(Frame),
+    /// It waits for these bytes.
+    Reply(Vec<u8>),
+    /// The bus is open.
+    Open,
+    /// Nothing that matters.
+    Nothing,
+}
+
+/// The client's side of a protocol.
+pub(super) trait Protocol {
+    /// The first bytes, and those that go on at another bit rate in kbit/s, listening only.
+    fn begin(&mut self, listen_at: Option<u16>) -> Result<Vec<u8>, String>;
+
+    /// Takes what is whole off the front of `bytes`; `None`: more has to come.
+    ///
+    /// # Errors
+    /// Why the other side cannot be understood.
+    fn take(&mut self, bytes: &mut Vec<u8>) -> Result<Option<Said>, String>;
+
+    /// Adds the bytes that send a frame.
+    fn write(&self, frame: &Frame, out: &mut Vec<u8>);
+
+    /// Longest time until the bus is open, and whether it counts as open after that time.
+    fn patience(&self) -> (Duration, bool) {
+        (OPENING, false)
+    }
+
+    /// The bytes that leave the other side as it was.
+    fn end(&self) -> &'static [u8] {
+        b""
+    }
+}
+
+/// A connection whose bytes have a meaning.
+pub(super) struct Stream<P: Port, S: Protocol> {
+    port: P,
+    protocol: S,
+    /// For messages: as `--link` names it.
+    name: String,
+    /// Bytes of an incomplete message.
+    rest: Vec<u8>,
+    /// Came while the bus was opened.
+    early: VecDeque<Heard>,
+    /// Origin of the link's time.
+    start: time::Instant,
+}
+
+impl<P: Port, S: Protocol> Stream<P, S> {
+    pub(super) fn open(port: P, protocol: S, name: String) -> Result<Self, Fault> {
+        let mut stream = Self {
+            port,
+            protocol,
+            name,
+            rest: Vec::new(),
+            early: VecDeque::new(),
+            start: time::Instant::now(),
+        };
+        stream.begin(None)?;
+        Ok(stream)
+    }
+
+    /// Opens the bus, and waits until it is.
+    fn begin(&mut self, listen_at: Option<u16>) -> Result<(), Fault> {
+        let first = self.protocol.begin(listen_at).map_err(Fault::Usage)?;
+        self.write(&first)?;
+        let (patience, is_open_after) = self.protocol.patience();
+        let until = self.now() + patience;
+        loop {
+            match self.hear(until)? {
+                Some(Said::Open) => return Ok(()),
+                Some(Said::Frame(frame)) => {
+                    let at = self.now();
+                    self.early.push_back(Heard { at, frame });
+                }
+                Some(_) => {}
+                None if is_open_after => return Ok(()),
+                None => {
+                    return Err(
+                        self.lost("the server does not answer; does it speak this protocol?")
+                    );
+                }
+            }
+        }
+    }
+
+    /// The next message; `None`: none came in time.
+    fn hear(&mut self, until: Instant) -> Result<Option<Said>, Fault> {
+        loop {
+            match self.protocol.take(&mut self.rest) {
+                Ok(Some(Said::Reply(bytes))) => self.write(&bytes)?,
+                Ok(Some(said)) => return Ok(Some(said)),
+                Ok(None) if self.rest.len() > LONGEST => {
+                    let shown = shown(&self.rest[..40]);
+                    return Err(self.lost(&format!("unexpected bytes `{shown}` …")));
+                }
+                Ok(None) => {
+                    let left = Duration::from_micros(until.micros_since(self.now()));
+                    let mut bytes = [0; 4096];
+                    match self.port.read(&mut bytes, left) {
+                        Ok(0) => return Err(self.lost("the other side closed the connection")),
+                        Ok(count) => self.rest.extend_from_slice(&bytes[..count]),
+                        Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                        Err(error) if is_time_out(&error) => {
+                            if self.now() >= until {
+                                return Ok(None);
+                            }
+                        }
+                        Err(error) => return Err(self.lost(&error.to_string())),
+                    }
+                }
+                Err(why) => return Err(self.lost(&why)),
+            }
+        }
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        self.port.write(bytes).map_err(|error| match error.kind() {
+            ErrorKind::WouldBlock | ErrorKind::TimedOut => {
+                self.lost("the other side takes no bytes any more")
+            }
+            _ => self.lost(&error.to_string()),
+        })
+    }
+
+    fn lost(&self, why: &str) -> Fault {
+        Fault::Link(format!("{}: {why}", self.name))
+    }
+}
+
+impl<P: Port, S: Protocol> Link for Stream<P, S> {
+    fn now(&self) -> Instant {
+        Instant::ZERO + self.start.elapsed()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        let mut bytes = Vec::new();
+        self.protocol.write(frame, &mut bytes);
+        self.write(&bytes)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        if let Some(heard) = self.early.pop_front() {
+            return Ok(Some(heard));
+        }
+        loop {
+            match self.hear(until)? {
+                Some(Said::Frame(frame)) => {
+                    let at = self.now();
+                    return Ok(Some(Heard { at, frame }));
+                }
+                Some(_) => {}
+                None => return Ok(None),
+            }
+        }
+    }
+
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        self.early.clear();
+        self.begin(Some(kbit))
+    }
+}
+
+impl<P: Port, S: Protocol> Drop for Stream<P, S> {
+    fn drop(&mut self) {
+        // If the other side is gone, there is nothing to put back.
+        let _ = self.port.write(self.protocol.end());
+    }
+}
+
+/// Bytes in a message.
+pub(super) fn shown(bytes: &[u8]) -> String {
+    bytes.escape_ascii().to_string()
+}
+
+fn is_time_out(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut)
+}

@@ -1,0 +1,50 @@
+//! NMT commands, and what the nodes make of them.
+
+use std::collections::BTreeMap;
+
+use od_client::{nmt, watch};
+use od_wire::nmt::{Command, State};
+use od_wire::{Duration, NodeId};
+
+use crate::fault::Fault;
+use crate::link::Link;
+
+/// Sends a command to a node, or to all, and listens for at most `wait`: to all the time for
+/// all nodes, to one until it shows the state that the command leads to. Returns the states
+/// that were heard: [`State::Initialising`] for a boot-up message.
+///
+/// # Errors
+/// The link is lost.
+pub fn command(
+    link: &mut impl Link,
+    node: Option<NodeId>,
+    command: Command,
+    wait: Duration,
+) -> Result<BTreeMap<NodeId, State>, Fault> {
+    let wanted = match command {
+        Command::Start => State::Operational,
+        Command::Stop => State::Stopped,
+        Command::EnterPreOperational => State::PreOperational,
+        Command::ResetNode | Command::ResetCommunication => State::Initialising,
+    };
+    link.send(&nmt::frame(node, command))?;
+    let until = link.now() + wait;
+    let mut states = BTreeMap::new();
+    while let Some(heard) = link.receive(until)? {
+        if let Some((from, state)) = watch::parse(&heard.frame)
+            && node.is_none_or(|node| node == from)
+        {
+            // A heartbeat of the moment before the command does not count.
+            if node.is_none() || state == wanted {
+                states.insert(from, state);
+            }
+            if node.is_some() && state == wanted {
+                break;
+            }
+        }
+        if heard.at > until {
+            break;
+        }
+    }
+    Ok(states)
+}

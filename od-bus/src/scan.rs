@@ -1,0 +1,277 @@
+//! Who is on the bus: heartbeats, boot-up messages, and an SDO request to each node ID.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_client::watch;
+use od_model::Address;
+use od_wire::nmt::State;
+use od_wire::sdo::{Request, Response};
+use od_wire::{CanId, Duration, Frame, Instant, NodeId, lss};
+
+use crate::fault::Fault;
+use crate::link::Link;
+use crate::master::Master;
+
+/// Requests that are out at the same time.
+const AT_ONCE: usize = 16;
+const DEVICE_TYPE: Address = Address::new(0x1000, 0);
+const SERIAL: Address = Address::new(0x1018, 4);
+
+/// Times of a scan.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Options {
+    /// How long to listen before the first request.
+    pub listen: Duration,
+    /// How long a node has for its answer.
+    pub answer: Duration,
+}
+
+impl Default for Options {
+    /// 500 ms and 200 ms: with the requests it listens for 2.1 s.
+    fn default() -> Self {
+        Self {
+            listen: Duration::from_millis(500),
+            answer: Duration::from_millis(200),
+        }
+    }
+}
+
+/// A node that was found.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Found {
+    /// Node ID.
+    pub node: NodeId,
+    /// State in its last heartbeat; `None`: it sent none while odkit listened.
+    pub state: Option<State>,
+    /// It sent a boot-up message meanwhile.
+    pub has_booted: bool,
+    /// It answers SDO requests; in Stopped it does not.
+    pub answers: bool,
+    /// 1000h, device type.
+    pub device_type: Option<u32>,
+    /// 1018h: vendor-ID, product code, revision number, serial number.
+    pub identity: [Option<u32>; 4],
+    /// 1008h, 1009h, 100Ah: device name, hardware version, software version.
+    pub texts: [Option<String>; 3],
+    /// Serial numbers of all nodes with this node ID if several answer; else empty.
+    pub conflict: Vec<u32>,
+}
+
+/// Result of a scan.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Scan {
+    /// The nodes, by node ID.
+    pub nodes: Vec<Found>,
+    /// An LSS slave without a node ID is on the bus.
+    pub has_unconfigured: bool,
+}
+
+/// What was heard on the bus besides answers.
+#[derive(Default)]
+struct Heard {
+    states: BTreeMap<NodeId, State>,
+    boot_ups: BTreeSet<NodeId>,
+    answers: BTreeMap<NodeId, Vec<[u8; 8]>>,
+    has_unconfigured: bool,
+}
+
+/// Looks for the nodes of a bus: listens, asks each of the 127 node IDs for 1000h, and those that
+/// answer for who they are. It changes nothing on the bus.
+///
+/// `progress` is told the share that is done, 0 to 100.
+///
+/// # Errors
+/// The link is lost.
+pub fn scan(
+    link: &mut impl Link,
+    options: Options,
+    mut progress: impl FnMut(u8),
+) -> Result<Scan, Fault> {
+    let mut heard = Heard::default();
+    heard.listen(link, options.listen)?;
+    link.send(&Frame::full(
+        CanId::standard(lss::MASTER),
+        lss::Request::IdentifyNonConfigured.emit(),
+    ))?;
+    let all: Vec<NodeId> = (1..=127).filter_map(NodeId::new).collect();
+    for (done, batch) in all.chunks(AT_ONCE).enumerate() {
+        progress((done * 10) as u8);
+        heard.ask(link, batch, DEVICE_TYPE, options.answer)?;
+    }
+    let mut types = core::mem::take(&mut heard.answers);
+    let there: Vec<NodeId> = types.keys().copied().collect();
+    for batch in there.chunks(AT_ONCE) {
+        // Two nodes of one type give the same answer at the same time, which is one frame; their
+        // serial numbers differ.
+        heard.ask(link, batch, SERIAL, options.answer)?;
+    }
+    let mut serials = core::mem::take(&mut heard.answers);
+    let mut found = BTreeMap::new();
+    for (at, node) in there.iter().enumerate() {
+        progress(80 + (20 * at / there.len()) as u8);
+        let types = types.remove(node).unwrap_or_default();
+        let serials = serials.remove(node).unwrap_or_default();
+        let mut one = Found::new(*node);
+        one.answers = true;
+        one.device_type = types.first().and_then(number);
+        if types.len() > 1 || serials.len() > 1 {
+            one.conflict = serials.iter().filter_map(number).collect();
+            one.conflict.sort_unstable();
+            one.conflict.resize(one.conflict.len().max(2), 0);
+        } else {
+            one.identity[3] = serials.first().and_then(number);
+            one.read(&mut *link)?;
+        }
+        found.insert(*node, one);
+    }
+    // What came while nodes were read.
+    heard.listen(link, Duration::ZERO)?;
+    for node in heard.states.keys().chain(&heard.boot_ups) {
+        found.entry(*node).or_insert_with(|| Found::new(*node));
+    }
+    for (node, one) in &mut found {
+        one.state = heard.states.get(node).copied();
+        one.has_booted = heard.boot_ups.contains(node);
+    }
+    Ok(Scan {
+        nodes: found.into_values().collect(),
+        has_unconfigured: heard.has_unconfigured,
+    })
+}
+
+impl Found {
+    fn new(node: NodeId) -> Self {
+        Self {
+            node,
+            state: None,
+            has_booted: false,
+            answers: false,
+            device_type: None,
+            identity: [None; 4],
+            texts: [None, None, None],
+            conflict: Vec::new(),
+        }
+    }
+
+    /// Reads who it is.
+    fn read(&mut self, link: &mut impl Link) -> Result<(), Fault> {
+        let mut master = Master::new(link, self.node);
+        for (part, sub) in self.identity.iter_mut().zip(1..=3) {
+            *part = optional(master.upload(Address::new(0x1018, sub)))?.and_then(|bytes| {
+                let bytes = bytes.as_slice().try_into().ok()?;
+                Some(u32::from_le_bytes(bytes))
+            });
+        }
+        for (text, index) in self.texts.iter_mut().zip(0x1008..) {
+            let bytes = optional(master.upload(Address::new(index, 0)))?;
+            *text = bytes.map(|bytes| {
+                let text = String::from_utf8_lossy(&bytes);
+                text.trim_end_matches(['\0', ' ']).to_owned()
+            });
+        }
+        Ok(())
+    }
+}
+
+/// An object that a device may lack; a node that falls silent meanwhile lacks it, too.
+fn optional(read: Result<Result<Vec<u8>, u32>, Fault>) -> Result<Option<Vec<u8>>, Fault> {
+    match read {
+        Ok(bytes) => Ok(bytes.ok()),
+        Err(Fault::Node(_)) => Ok(None),
+        Err(fault) => Err(fault),
+    }
+}
+
+impl Heard {
+    /// Sends a request to each of these nodes, and collects all answers.
+    fn ask(
+        &mut self,
+        link: &mut impl Link,
+        nodes: &[NodeId],
+        address: Address,
+        wait: Duration,
+    ) -> Result<(), Fault> {
+        let request = Request::InitiateUpload { address }.emit();
+        for node in nodes {
+            let id = CanId::standard(0x600 + u16::from(node.raw()));
+            link.send(&Frame::full(id, request))?;
+        }
+        self.listen(link, wait)
+    }
+
+    fn listen(&mut self, link: &mut impl Link, wait: Duration) -> Result<(), Fault> {
+        let until = link.now() + wait;
+        while let Some(heard) = link.receive(until)? {
+            self.frame(&heard.frame);
+            // A bus that is full does not hold it up.
+            if link.now() > until {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        if let Some((node, state)) = watch::parse(frame) {
+            match state {
+                State::Initialising => {
+                    self.boot_ups.insert(node);
+                }
+                state => {
+                    self.states.insert(node, state);
+                }
+            }
+        }
+        let Some(id) = frame.id().as_standard() else {
+            return;
+        };
+        if id == lss::SLAVE {
+            let answer = lss::Response::parse(frame.data());
+            self.has_unconfigured |= answer == Some(lss::Response::NonConfigured);
+        }
+        let node = id
+            .checked_sub(0x580)
+            .and_then(|node| u8::try_from(node).ok());
+        if let Some(node) = node.and_then(NodeId::new)
+            && !frame.is_remote()
+            && frame.dlc() == 8
+        {
+            self.answers.entry(node).or_default().push(*frame.bytes());
+        }
+    }
+}
+
+/// The number in an expedited answer.
+fn number(answer: &[u8; 8]) -> Option<u32> {
+    match Response::parse(answer) {
+        Response::InitiateUpload { .. } => {
+            let [_, _, _, _, bytes @ ..] = *answer;
+            Some(u32::from_le_bytes(bytes))
+        }
+        _ => None,
+    }
+}
+
+/// Bit rates of CiA 301 in kbit/s, the most common ones first.
+pub const RATES: [u16; 8] = [500, 250, 125, 1000, 800, 50, 20, 10];
+
+/// Finds the bit rate by listening: the first at which a frame comes. `try_` is told each bit rate
+/// before it listens there for `wait`. `None`: no frame came at any.
+///
+/// # Errors
+/// The link cannot listen without taking part, or is lost.
+pub fn detect(
+    link: &mut impl Link,
+    wait: Duration,
+    mut try_: impl FnMut(u16),
+) -> Result<Option<u16>, Fault> {
+    for rate in RATES {
+        try_(rate);
+        link.listen_at(rate)?;
+        let until: Instant = link.now() + wait;
+        if link.receive(until)?.is_some() {
+            return Ok(Some(rate));
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,44 @@
+//! A link that shows its frames to somebody.
+
+use od_wire::{Frame, Instant};
+
+use crate::fault::Fault;
+use crate::link::{Heard, Link};
+
+/// A link whose frames, both ways, a function sees.
+#[derive(Debug)]
+pub struct Tap<L, F> {
+    link: L,
+    see: F,
+}
+
+impl<L: Link, F: FnMut(&Frame)> Tap<L, F> {
+    /// Shows the frames of `link` to `see`.
+    pub const fn new(link: L, see: F) -> Self {
+        Self { link, see }
+    }
+}
+
+impl<L: Link, F: FnMut(&Frame)> Link for Tap<L, F> {
+    fn now(&self) -> Instant {
+        self.link.now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        self.link.send(frame)?;
+        (self.see)(frame);
+        Ok(())
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        let heard = self.link.receive(until)?;
+        if let Some(heard) = &heard {
+            (self.see)(&heard.frame);
+        }
+        Ok(heard)
+    }
+
+    fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
+        self.link.listen_at(kbit)
+    }
+}

@@ -1,0 +1,25 @@
+//! What tools do on a bus, on the bench and in virtual time.
+
+mod master;
+mod objects;
+mod scan;
+
+use od_bench::VirtualDevice;
+use od_bench::bus::Bus;
+use od_wire::NodeId;
+
+/// A node ID.
+fn id(raw: u8) -> NodeId {
+    NodeId::new(raw).expect("a node ID")
+}
+
+/// A bus with these built-in devices, under power.
+fn bus(devices: &[(&str, u8)]) -> Bus {
+    let mut bus = Bus::new();
+    for (name, node) in devices {
+        let kind = od_devices::find(name).expect("a built-in device");
+        let device = bus.add(VirtualDevice::new(kind, id(*node)));
+        bus.start(device);
+    }
+    bus
+}
