@@ -102,11 +102,15 @@ pub fn probe(master: &mut Master<impl Link>, text: &str) -> Result<Vec<Asked>, F
             continue;
         };
         let mut subs = vec![0];
-        // A value, or the highest sub-index of an ARRAY or RECORD.
+        // A value, or the highest sub-index of an ARRAY or RECORD, which may have gaps.
         if let [count] = *first
             && exists(master, Address::new(index, 1))?.is_some()
         {
-            subs.extend(1..=count);
+            for sub in 1..=count {
+                if exists(master, Address::new(index, sub))?.is_some() {
+                    subs.push(sub);
+                }
+            }
         }
         let addresses = subs.into_iter().map(|sub| Address::new(index, sub));
         for address in addresses.filter(|address| pattern.matches(*address)) {
