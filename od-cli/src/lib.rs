@@ -20,6 +20,7 @@ mod failure;
 mod get;
 mod lesson;
 mod live;
+mod lsp;
 mod new;
 mod nmt;
 mod output;
@@ -60,6 +61,7 @@ enum Command {
     Lesson(lesson::Args),
     Check(check::Args),
     Explain(explain::Args),
+    Lsp(lsp::Args),
     Dump(dump::Args),
     Export(export::Args),
     Convert(convert::Args),
@@ -107,6 +109,7 @@ pub fn main() -> ExitCode {
         Command::Lesson(args) => lesson::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Explain(args) => explain::run(&args),
+        Command::Lsp(args) => lsp::run(&args),
         Command::Dump(args) => dump::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Convert(args) => convert::run(&args),

@@ -36,6 +36,7 @@ mod finding;
 pub mod fix;
 mod load;
 mod log;
+pub mod outline;
 mod overlay;
 pub mod patch;
 mod read;

@@ -185,3 +185,44 @@ fn findings_of_an_overlay_have_the_lines_of_their_file() {
         github.out
     );
 }
+
+/// Messages of a client as the language server reads them.
+fn framed(messages: &[&str]) -> String {
+    let frame = |text: &&str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
+    messages.iter().map(frame).collect()
+}
+
+#[test]
+fn an_editor_sees_what_check_reports() {
+    let settings = "[rules]\nE0412 = \"warning\"\nW0108 = \"off\"\n";
+    let folder = folder("editor", &[("odkit.toml", settings), ("a.eds", FILE)]);
+    let uri = format!("file://{}", folder.join("a.eds").display());
+    let text = FILE.replace('\n', "\\n");
+    let open = format!(
+        r#"{{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{{"textDocument":{{"uri":"{uri}","version":1,"text":"{text}"}}}}}}"#
+    );
+    let start = r#"{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}"#;
+    let stop = r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#;
+    let exit = r#"{"jsonrpc":"2.0","method":"exit"}"#;
+    // What nobody can read is answered, and the next message is read.
+    let broken = "Content-Length: x\r\n\r\n";
+    let input = framed(&[start]) + broken + &framed(&["{", &open]);
+    let run = odkit(&["lsp"], &input);
+    assert_eq!((run.code, run.err.as_str()), (1, ""), "no shutdown");
+    assert_eq!(run.out.matches("\"code\":-32700").count(), 2, "{}", run.out);
+    let said = run
+        .out
+        .split("Content-Length")
+        .find(|text| text.contains("publishDiagnostics"));
+    let said = said.expect("diagnostics");
+    assert!(said.contains(r#""severity":2,"code":"E0412""#), "{said}");
+    assert!(!said.contains("W0108"), "{said}");
+    let run = odkit(&["lsp", "--stdio"], &framed(&[start, &open, stop, exit]));
+    assert_eq!(run.code, 0);
+    assert!(
+        run.out
+            .ends_with(r#"{"jsonrpc":"2.0","id":2,"result":null}"#),
+        "{}",
+        run.out
+    );
+}

@@ -9,7 +9,8 @@ use crate::scan::number;
 
 /// Form of a value in a section that describes no object.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Form {
+pub enum Form {
+    /// Any text.
     Text,
     /// 0 or 1.
     Flag,
@@ -24,9 +25,11 @@ pub(crate) enum Form {
 }
 
 /// A section with its keys; a `#` in a name is a number.
-pub(crate) struct Known {
-    pub(crate) name: &'static str,
-    pub(crate) keys: &'static [(&'static str, Form)],
+pub struct Known {
+    /// Its name.
+    pub name: &'static str,
+    /// Its keys and the forms of their values.
+    pub keys: &'static [(&'static str, Form)],
 }
 
 const U8: Form = Form::Number(0xFF);
@@ -49,7 +52,7 @@ const COMMENTS: &[(&str, Form)] = &[("Lines", U16), ("Line#", Form::Text)];
 const INDEX_LIST: &[(&str, Form)] = &[("NrOfEntries", U16), ("#", U16)];
 
 /// The sections, in the order in which they are written.
-pub(crate) const SECTIONS: &[Known] = &[
+pub const SECTIONS: &[Known] = &[
     Known {
         name: "FileInfo",
         keys: &[
@@ -167,7 +170,7 @@ pub(crate) const SECTIONS: &[Known] = &[
 ];
 
 /// The keys of an object or a member.
-pub(crate) const OBJECT_KEYS: [&str; 16] = [
+pub const OBJECT_KEYS: [&str; 16] = [
     "ParameterName",
     "ObjectType",
     "SubNumber",
@@ -187,7 +190,7 @@ pub(crate) const OBJECT_KEYS: [&str; 16] = [
 ];
 
 /// The section of this name, and its place among [`SECTIONS`].
-pub(crate) fn section(name: &str) -> Option<(usize, &'static Known)> {
+pub fn section(name: &str) -> Option<(usize, &'static Known)> {
     SECTIONS
         .iter()
         .enumerate()
@@ -195,7 +198,7 @@ pub(crate) fn section(name: &str) -> Option<(usize, &'static Known)> {
 }
 
 /// A known key: its spelling, unless it has a number in it, and its form.
-pub(crate) fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
+pub fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
     known.keys.iter().copied().find(|(name, _)| is(key, name))
 }
 

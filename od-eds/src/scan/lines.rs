@@ -148,7 +148,7 @@ pub(crate) fn comment(text: &str) -> String {
 }
 
 /// The sections of a text, in file order, duplicates and all; a byte order mark is skipped.
-pub(crate) fn sections(text: &str) -> Vec<Placed<'_>> {
+pub fn sections(text: &str) -> Vec<Placed<'_>> {
     scan(text, &mut |_| {})
 }
 

@@ -5,16 +5,21 @@ use alloc::string::String;
 
 /// The three lists of objects.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum List {
+pub enum List {
+    /// 1000h, 1001h and 1018h.
     Mandatory,
+    /// The others of the standards.
     Optional,
+    /// 2000h to 5FFFh.
     Manufacturer,
 }
 
 impl List {
-    pub(crate) const ALL: [List; 3] = [List::Mandatory, List::Optional, List::Manufacturer];
+    /// All lists.
+    pub const ALL: [List; 3] = [List::Mandatory, List::Optional, List::Manufacturer];
 
-    pub(crate) const fn name(self) -> &'static str {
+    /// The name of its section.
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Mandatory => "MandatoryObjects",
             Self::Optional => "OptionalObjects",
@@ -23,7 +28,7 @@ impl List {
     }
 
     /// The list that an object belongs to.
-    pub(crate) const fn of(index: u16) -> Self {
+    pub const fn of(index: u16) -> Self {
         match index {
             0x1000 | 0x1001 | 0x1018 => Self::Mandatory,
             0x2000..=0x5FFF => Self::Manufacturer,
@@ -35,25 +40,33 @@ impl List {
 /// The three sections that an object with CompactSubObj may have besides its own,
 /// in the order in which they are taken.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum Compact {
+pub enum Compact {
+    /// `[1600Name]`
     Name,
+    /// `[1600Value]`
     Value,
+    /// `[1600Denotation]`
     Denotation,
 }
 
 /// Subject of a section.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) enum Place {
+pub enum Place {
+    /// `[1018]`
     Object(u16),
+    /// `[1018sub1]`
     Member(u16, u8),
+    /// A list beside an object with CompactSubObj.
     Compact(u16, Compact),
+    /// A list of objects.
     List(List),
+    /// Anything else.
     Other,
 }
 
 impl Place {
     /// The name of the section of an object or a member.
-    pub(crate) fn name(self) -> Option<String> {
+    pub fn name(self) -> Option<String> {
         match self {
             Self::Object(index) => Some(format!("{index:04X}")),
             Self::Member(index, sub) => Some(format!("{index:04X}sub{sub:X}")),
@@ -63,7 +76,7 @@ impl Place {
 }
 
 /// The subject of the section of this name: `1018`, `1018sub2`, `1600Name` …
-pub(crate) fn place(name: &str) -> Place {
+pub fn place(name: &str) -> Place {
     for list in List::ALL {
         if name.eq_ignore_ascii_case(list.name()) {
             return Place::List(list);

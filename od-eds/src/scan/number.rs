@@ -39,7 +39,7 @@ pub(crate) struct Number {
 }
 
 /// The text in front of a `;` or a `#`.
-pub(crate) fn before_comment(text: &str) -> &str {
+pub fn before_comment(text: &str) -> &str {
     let found = either(text, [';', '#']).or_else(|| text.find("//"));
     match found {
         Some(at) => text[..at].trim_end(),
@@ -212,7 +212,7 @@ pub(crate) fn meant_node_id(text: &str) -> Option<u32> {
 }
 
 /// A number of a section that describes no object, however it is written.
-pub(crate) fn number(text: &str) -> Option<i128> {
+pub fn number(text: &str) -> Option<i128> {
     let mut notes = Vec::new();
     let text = without_comment(text, &mut notes);
     integer(text, &mut notes).map(|number| number.value)

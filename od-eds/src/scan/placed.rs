@@ -7,19 +7,19 @@ use alloc::vec::Vec;
 use crate::span::{Span, Spanned};
 
 /// A piece of the text; owned if it had to be made, as for an XDD.
-pub(crate) type Text<'a> = Spanned<Cow<'a, str>>;
+pub type Text<'a> = Spanned<Cow<'a, str>>;
 
 /// A section as it is in the text.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Placed<'a> {
+pub struct Placed<'a> {
     /// The trimmed text between the brackets; empty for the keys before the first section.
-    pub(crate) name: Text<'a>,
+    pub name: Text<'a>,
     /// Keys and values, trimmed, in file order.
-    pub(crate) pairs: Vec<(Text<'a>, Text<'a>)>,
+    pub pairs: Vec<(Text<'a>, Text<'a>)>,
     /// The brackets with what is between them.
-    pub(crate) header: Span,
+    pub header: Span,
     /// The first `;StorageLocation=` comment.
-    pub(crate) storage: Option<Text<'a>>,
+    pub storage: Option<Text<'a>>,
 }
 
 impl Placed<'_> {

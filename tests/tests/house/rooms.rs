@@ -21,13 +21,14 @@ const fn room(name: &'static str, storey: u8, lines: usize) -> Room {
 }
 
 /// All rooms, from the ground up.
-pub(crate) const ROOMS: [Room; 17] = [
+pub(crate) const ROOMS: [Room; 18] = [
     room("od-model", 1, 3_000),
     room("od-wire", 2, 1_600),
     room("od-eds", 2, 13_400),
     room("od-client", 3, 1_600),
     room("od-runtime", 3, 7_300),
     room("od-macros", 3, 2_400),
+    room("od-lsp", 3, 3_400),
     room("od-board", 4, 1_200),
     room("od-bench", 4, 8_700),
     room("odkit", 5, 200),

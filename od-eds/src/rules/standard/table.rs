@@ -68,9 +68,33 @@ impl Standard {
     }
 }
 
+/// An object of CiA 301 or CiA 302 in words.
+pub struct Specified {
+    /// The standard's name of it.
+    pub name: &'static str,
+    /// Which standard it is in.
+    pub source: &'static str,
+    /// VAR, ARRAY or RECORD.
+    pub code: ObjectCode,
+    /// Access to its value, or to sub-index 1.
+    pub access: Access,
+}
+
+/// The object that CiA 301 or CiA 302 specifies at an index.
+pub fn specified(index: u16) -> Option<Specified> {
+    let standard = of(index)?;
+    let first = standard.value(0).or_else(|| standard.value(1));
+    Some(Specified {
+        name: standard.name,
+        source: standard.source(),
+        code: standard.code(),
+        access: first.map_or(Access::Rw, |value| value.access),
+    })
+}
+
 /// The type of a value of an object of the standards, or of a member of the records 0020h to
 /// 0023h; `is_whole` if it is the one value of a VAR.
-pub(crate) fn data_type(index: u16, sub: u8, is_whole: bool) -> Option<DataType> {
+pub fn data_type(index: u16, sub: u8, is_whole: bool) -> Option<DataType> {
     let members = match (index, is_whole) {
         (0x20, false) => TPDO,
         (0x22, false) => SDO_CLIENT,

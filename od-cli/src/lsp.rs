@@ -1,0 +1,94 @@
+//! `odkit lsp`: findings, fixes and explanations in an editor, over standard input and output.
+
+use std::io::{self, StdoutLock, Write};
+use std::sync::mpsc::{self, TryRecvError};
+use std::thread;
+
+use od_lsp::Server;
+
+use crate::failure::Failure;
+use disk::Disk;
+use frames::Frame;
+
+mod disk;
+mod frames;
+
+/// Language server for EDS, DCF and XDD files; an editor starts it (Language Server Protocol 3.17)
+///
+/// It reads messages from standard input and writes them to standard output. Settings come from
+/// `odkit.toml`, as for `odkit check`. A comment `;odkit-base=my.eds` in an overlay names its base.
+#[derive(clap::Args)]
+#[command(after_help = "Exit codes: 0 after `shutdown` and `exit`, 1 otherwise")]
+pub(crate) struct Args {
+    /// Use standard input and output (the only way; editors pass it)
+    #[arg(long)]
+    stdio: bool,
+    /// Process of the editor (the server ends with its input; editors pass it)
+    #[arg(long = "clientProcessId", value_name = "PID", hide = true)]
+    client: Option<u32>,
+}
+
+pub(crate) fn run(_: &Args) -> Result<(), Failure> {
+    let (sender, receiver) = mpsc::channel();
+    // It ends with its input, or with the process.
+    thread::spawn(move || {
+        let mut input = io::stdin().lock();
+        loop {
+            let frame = frames::read(&mut input).unwrap_or(Frame::End);
+            let is_end = matches!(frame, Frame::End);
+            if sender.send(frame).is_err() || is_end {
+                break;
+            }
+        }
+    });
+    let mut server = Server::new(Box::new(Disk));
+    let mut output = io::stdout().lock();
+    let mut is_open = true;
+    let mut is_idle = false;
+    loop {
+        // All that waits is taken before the next step: a cancelled request is not answered, and a
+        // file is checked once for all of its changes.
+        let waiting = match is_idle && is_open {
+            true => receiver.recv().map_err(|_| TryRecvError::Disconnected),
+            false => receiver.try_recv(),
+        };
+        match waiting {
+            Ok(Frame::Message(text)) => server.receive(&text),
+            Ok(Frame::Broken(why)) => server.reject(&why),
+            Ok(Frame::End) | Err(TryRecvError::Disconnected) if is_open => is_open = false,
+            _ => {
+                let worked = server.step();
+                write(&mut server, &mut output)?;
+                if let Some(code) = server.exit_code() {
+                    return ended(code);
+                }
+                if !worked && !is_open {
+                    return ended(server.end_of_input());
+                }
+                is_idle = !worked;
+                continue;
+            }
+        }
+        is_idle = false;
+    }
+}
+
+fn ended(code: u8) -> Result<(), Failure> {
+    match code {
+        0 => Ok(()),
+        code => Err(Failure::Reported(code)),
+    }
+}
+
+/// Writes what the server has to say.
+fn write(server: &mut Server, output: &mut StdoutLock<'_>) -> Result<(), Failure> {
+    let mut wrote = false;
+    while let Some(text) = server.poll() {
+        write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;
+        wrote = true;
+    }
+    if wrote {
+        output.flush()?;
+    }
+    Ok(())
+}

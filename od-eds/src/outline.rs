@@ -1,0 +1,9 @@
+//! The text of an EDS for a tool that edits it: sections, keys and values with their places, and
+//! what CiA 306 and CiA 301 say about them.
+
+pub use crate::rules::standard::table::{Specified, data_type, specified};
+pub use crate::scan::known::{Form, Known, OBJECT_KEYS, SECTIONS, key, section};
+pub use crate::scan::lines::sections;
+pub use crate::scan::names::{Compact, List, Place, place};
+pub use crate::scan::number::{before_comment, number};
+pub use crate::scan::placed::{Placed, Text};

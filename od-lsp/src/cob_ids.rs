@@ -1,0 +1,88 @@
+//! COB-IDs of a description: which values are one, and what they say (CiA 301, chapter 7.5.2).
+
+use od_eds::{Description, Value};
+use od_model::Address;
+
+/// Is the value at this address a COB-ID?
+pub(crate) const fn is_one(address: Address) -> bool {
+    match address.index {
+        0x1005 | 0x1012 | 0x1014 => address.sub == 0,
+        0x1028 => address.sub > 0,
+        0x1200..=0x12FF => matches!(address.sub, 1 | 2),
+        0x1400..=0x15FF | 0x1800..=0x19FF => address.sub == 1,
+        _ => false,
+    }
+}
+
+/// A COB-ID without its flags.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct CobId {
+    can_id: u32,
+    /// Is the node ID added?
+    node_id: bool,
+    invalid: bool,
+    extended: bool,
+}
+
+impl CobId {
+    /// The COB-ID that this value is.
+    pub(crate) fn of(value: &Value) -> Option<Self> {
+        let (number, node_id) = match value {
+            Value::NodeId(offset) => (*offset, true),
+            Value::Unsigned(number) => (u32::try_from(*number).ok()?, false),
+            _ => return None,
+        };
+        Some(Self {
+            can_id: number & 0x1FFF_FFFF,
+            node_id,
+            invalid: number & 1 << 31 != 0,
+            extended: number & 1 << 29 != 0,
+        })
+    }
+
+    /// Do two have the same CAN-ID, if the node IDs are the same?
+    pub(crate) fn is_like(self, other: Self) -> bool {
+        (self.can_id, self.node_id, self.extended) == (other.can_id, other.node_id, other.extended)
+    }
+
+    /// In words: `180h + node ID`.
+    pub(crate) fn words(self, address: Address) -> String {
+        let mut words = match self.node_id {
+            true => format!("{:X}h + node ID", self.can_id),
+            false => format!("{:X}h", self.can_id),
+        };
+        if self.extended {
+            words.push_str(", 29 bits");
+        }
+        // Of SYNC and TIME the bit says something else.
+        if self.invalid && !matches!(address.index, 0x1005 | 0x1012) {
+            words.push_str(", not valid");
+        }
+        words
+    }
+}
+
+/// The values of a description that are COB-IDs, with their addresses and the bytes of the text.
+pub(crate) fn all(
+    description: &Description,
+) -> impl Iterator<Item = (Address, CobId, std::ops::Range<usize>)> + '_ {
+    let entries = description
+        .entries()
+        .filter(|(address, _)| is_one(*address));
+    entries.flat_map(|(address, entry)| {
+        let values = [&entry.default, &entry.parameter].into_iter().flatten();
+        values.filter_map(move |value| {
+            let own = value.span.line != 0;
+            let id = CobId::of(&value.value).filter(|_| own)?;
+            Some((address, id, crate::layout::bytes(value.span)))
+        })
+    })
+}
+
+/// The mapping that belongs to the communication parameter of a PDO.
+pub(crate) const fn mapping_of(index: u16) -> Option<u16> {
+    match index {
+        0x1400..=0x15FF | 0x1800..=0x19FF => Some(index + 0x200),
+        _ => None,
+    }
+}

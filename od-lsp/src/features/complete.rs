@@ -1,0 +1,236 @@
+//! Completion: sections, keys, and the values of keys that have a list of them.
+
+use std::ops::Range;
+
+use od_eds::outline::{self, Form, List, OBJECT_KEYS, Place};
+
+use crate::features::complete::values::Choice;
+use crate::file::{File, Seen};
+use crate::keys;
+use crate::layout::{Layout, Section};
+use crate::types::{CompletionItem, CompletionList, Markup, TextEdit};
+
+mod sections;
+mod values;
+
+/// Kinds of items.
+const PROPERTY: u8 = 10;
+const VALUE: u8 = 12;
+const MODULE: u8 = 9;
+
+/// The line that is completed.
+struct Line<'a> {
+    file: &'a File,
+    /// Its text up to the cursor, and behind it.
+    before: &'a str,
+    behind: &'a str,
+    offset: usize,
+}
+
+impl Line<'_> {
+    fn item(&self, kind: u8, choice: Choice, bytes: &Range<usize>, rank: usize) -> CompletionItem {
+        CompletionItem {
+            kind,
+            sort_text: format!("{rank:04}"),
+            filter_text: choice.filter.unwrap_or_else(|| choice.label.clone()),
+            detail: choice.detail,
+            documentation: choice.note.map(Markup::markdown),
+            text_edit: TextEdit {
+                range: self.file.text.range(bytes.clone()),
+                new_text: choice.text.unwrap_or_else(|| choice.label.clone()),
+            },
+            label: choice.label,
+        }
+    }
+
+    fn items(&self, kind: u8, choices: Vec<Choice>, bytes: &Range<usize>) -> Vec<CompletionItem> {
+        let ranked = choices.into_iter().enumerate();
+        ranked
+            .map(|(rank, choice)| self.item(kind, choice, bytes, rank))
+            .collect()
+    }
+}
+
+/// What can be written at a byte.
+pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> CompletionList {
+    let bytes = file.text.line(file.text.line_at(offset));
+    let line = Line {
+        file,
+        before: file.part(bytes.start..offset.min(bytes.end)),
+        behind: file.part(offset.min(bytes.end)..bytes.end),
+        offset,
+    };
+    let items = match line.before.trim_start().as_bytes().first() {
+        Some(b';' | b'#') => Vec::new(),
+        Some(b'[') => header(&line, seen),
+        _ => match (line.before.find('='), seen.layout.section_at(bytes.start)) {
+            (Some(sign), Some(section)) => value(&line, seen, section, sign),
+            (None, Some(section)) => key(&line, &seen.layout, section),
+            (_, None) => Vec::new(),
+        },
+    };
+    CompletionList {
+        is_incomplete: false,
+        items,
+    }
+}
+
+fn header(line: &Line<'_>, seen: &Seen) -> Vec<CompletionItem> {
+    let Some(open) = line.before.find('[') else {
+        return Vec::new();
+    };
+    // Behind the closing bracket there is nothing to complete.
+    if line.before.contains(']') {
+        return Vec::new();
+    }
+    let start = line.offset - line.before.len() + open + 1;
+    let end = match line.behind.find(']') {
+        Some(close) => line.offset + close + 1,
+        None => line.offset + line.behind.trim_end().len(),
+    };
+    let section = seen.layout.section_at(line.offset);
+    let is_empty = section.is_none_or(|section| section.pairs.is_empty());
+    let choices = sections::of(seen, section, is_empty);
+    line.items(MODULE, choices, &(start..end))
+}
+
+fn key(line: &Line<'_>, layout: &Layout, section: &Section) -> Vec<CompletionItem> {
+    let text = line.file.str();
+    let typed = line.before.trim_start();
+    let start = line.offset - typed.len();
+    let sign = line.behind.find('=');
+    let word = sign.unwrap_or(line.behind.len());
+    let end = line.offset + line.behind.get(..word).unwrap_or_default().trim_end().len();
+    let current =
+        |pair: &crate::layout::Pair| (pair.key.start..=pair.key.end).contains(&line.offset);
+    let has = |key: &str| {
+        let own = section.pairs.iter().filter(|pair| !current(pair));
+        own.filter_map(|pair| text.get(pair.key.clone()))
+            .any(|own| own.eq_ignore_ascii_case(key))
+    };
+    let is_dcf = line.file.path.to_ascii_lowercase().ends_with(".dcf")
+        || layout.sections.iter().any(|other| {
+            let name = text.get(other.name.clone()).unwrap_or_default();
+            name.to_ascii_lowercase().starts_with("devicecom")
+        });
+    let choices = names(text, section, is_dcf, line.offset)
+        .into_iter()
+        .filter(|(key, _)| !has(key));
+    let choices = choices.map(|(key, note)| Choice {
+        text: Some(match sign {
+            Some(_) => key.clone(),
+            None => format!("{key}="),
+        }),
+        note: note.map(str::to_owned),
+        ..Choice::new(key, "")
+    });
+    line.items(PROPERTY, choices.collect(), &(start..end))
+}
+
+/// The keys that a section may have, with what they say.
+fn names(
+    text: &str,
+    section: &Section,
+    is_dcf: bool,
+    cursor: usize,
+) -> Vec<(String, Option<&'static str>)> {
+    match section.place {
+        Place::Object(_) | Place::Member(..) => {
+            let of_dcf = |key: &str| {
+                matches!(
+                    key,
+                    "ParameterValue" | "Denotation" | "UploadFile" | "DownloadFile" | "ParamRefd"
+                )
+            };
+            let own = OBJECT_KEYS.into_iter();
+            let own = own.filter(|key| is_dcf || !of_dcf(key));
+            let own = own.filter(|key| {
+                matches!(section.place, Place::Object(_))
+                    || !matches!(*key, "SubNumber" | "CompactSubObj")
+            });
+            own.map(|key| (key.to_owned(), keys::of_object(key)))
+                .collect()
+        }
+        Place::List(_) => {
+            let count = "SupportedObjects";
+            let next = format!("{}", last(text, section, cursor) + 1);
+            let said = keys::of_section("OptionalObjects", count);
+            vec![(count.into(), said), (next, None)]
+        }
+        Place::Compact(..) => vec![
+            ("NrOfEntries".into(), None),
+            (format!("{}", last(text, section, cursor) + 1), None),
+        ],
+        Place::Other => {
+            let name = text.get(section.name.clone()).unwrap_or_default();
+            let known = outline::section(name).map_or(&[][..], |(_, known)| known.keys);
+            let mut all: Vec<(String, Option<&'static str>)> = Vec::new();
+            for (key, _) in known {
+                match *key {
+                    "Dummy#" => all.extend(
+                        (1..=7).map(|n| (format!("Dummy{n:04}"), keys::of_section(name, key))),
+                    ),
+                    key if key.contains('#') => {
+                        all.push((
+                            key.replace('#', &format!("{}", last(text, section, cursor) + 1)),
+                            None,
+                        ));
+                    }
+                    key => all.push((key.into(), keys::of_section(name, key))),
+                }
+            }
+            all
+        }
+    }
+}
+
+/// The largest number at the end of a key that is not at the cursor: `3` of `Line3` or `3`.
+fn last(text: &str, section: &Section, cursor: usize) -> u64 {
+    let pairs = section.pairs.iter();
+    let others = pairs.filter(|pair| !(pair.key.start..=pair.key.end).contains(&cursor));
+    let keys = others.filter_map(|pair| text.get(pair.key.clone()));
+    let numbers = keys.filter_map(|key| {
+        let digits = key.trim_start_matches(|c: char| !c.is_ascii_digit());
+        digits.parse::<u64>().ok()
+    });
+    numbers.max().unwrap_or(0).min(u64::from(u32::MAX))
+}
+
+fn value(line: &Line<'_>, seen: &Seen, section: &Section, sign: usize) -> Vec<CompletionItem> {
+    let text = line.file.str();
+    let key = line.before.get(..sign).unwrap_or_default().trim();
+    let typed = line.before.get(sign + 1..).unwrap_or_default().trim_start();
+    let start = line.offset - typed.len();
+    let rest = outline::before_comment(line.behind);
+    let end = line.offset + rest.trim_end().len();
+    let choices = match section.place {
+        Place::Object(_) | Place::Member(..) => values::of_object(text, seen, section, key),
+        Place::List(list) => listed(line.file.str(), seen, section, list),
+        _ => {
+            let name = text.get(section.name.clone()).unwrap_or_default();
+            let known = outline::section(name).and_then(|(_, known)| outline::key(known, key));
+            match known {
+                Some((_, Form::Flag)) => vec![Choice::new("0", "no"), Choice::new("1", "yes")],
+                Some((_, Form::Version)) => vec![
+                    Choice::new("4.0", "CiA 306-1"),
+                    Choice::new("3.0", "CiA 306"),
+                ],
+                _ => Vec::new(),
+            }
+        }
+    };
+    line.items(VALUE, choices, &(start..end))
+}
+
+/// The objects of a list that it lacks.
+fn listed(text: &str, seen: &Seen, section: &Section, list: List) -> Vec<Choice> {
+    let pairs = section.pairs.iter();
+    let known: Vec<u16> = pairs
+        .filter_map(|pair| crate::mentions::listed(text, section, pair))
+        .collect();
+    let objects = seen.description.objects.iter();
+    objects
+        .filter(|(index, _)| List::of(**index) == list && !known.contains(index))
+        .map(|(index, object)| Choice::new(format!("0x{index:04X}"), object.name.value.as_str()))
+        .collect()
+}

@@ -1,0 +1,144 @@
+//! The values of the keys of an object that have a list of them.
+
+use od_eds::outline::Place;
+use od_model::{Access, Address, DataType, Kind, ObjectCode};
+
+use crate::file::Seen;
+use crate::layout::Section;
+use crate::mentions::{is_mapping, is_value_key};
+use crate::words;
+
+/// One thing to choose.
+pub(super) struct Choice {
+    pub(super) label: String,
+    pub(super) detail: String,
+    /// The text to write, if it is another than the label.
+    pub(super) text: Option<String>,
+    /// The text that typed letters are compared with, if it is another than the label.
+    pub(super) filter: Option<String>,
+    pub(super) note: Option<String>,
+}
+
+impl Choice {
+    pub(super) fn new(label: impl Into<String>, detail: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            detail: detail.into(),
+            text: None,
+            filter: None,
+            note: None,
+        }
+    }
+
+    /// A number that is also found by its name.
+    fn named(label: String, detail: &str) -> Self {
+        Self {
+            filter: Some(format!("{label} {detail}")),
+            ..Self::new(label, detail)
+        }
+    }
+}
+
+/// The values that a key of an object or of a member may have.
+pub(super) fn of_object(text: &str, seen: &Seen, section: &Section, key: &str) -> Vec<Choice> {
+    let (at, is_member) = match section.place {
+        Place::Object(index) => (Address::new(index, 0), false),
+        Place::Member(index, sub) => (Address::new(index, sub), true),
+        _ => return Vec::new(),
+    };
+    match key.to_ascii_lowercase().as_str() {
+        "datatype" => {
+            let values = DataType::ALL.into_iter();
+            let values = values.filter(|known| known.kind() != Kind::Record);
+            values
+                .map(|known| Choice::named(format!("0x{:04X}", known.code()), known.name()))
+                .collect()
+        }
+        "objecttype" => {
+            let codes = [
+                ObjectCode::Var,
+                ObjectCode::Array,
+                ObjectCode::Record,
+                ObjectCode::Domain,
+            ];
+            let codes = codes
+                .into_iter()
+                .filter(|code| !is_member || !code.has_members());
+            codes
+                .map(|code| Choice::named(format!("0x{:X}", code.code()), code.name()))
+                .collect()
+        }
+        "accesstype" => {
+            let access = Access::ALL.into_iter();
+            access
+                .map(|access| Choice::new(access.name(), words::access(access)))
+                .collect()
+        }
+        "pdomapping" => vec![
+            Choice::new("0", "the value cannot be mapped into a PDO"),
+            Choice::new("1", "the value can be mapped into a PDO"),
+        ],
+        "objflags" => vec![
+            Choice::new("0", "no flags"),
+            Choice::new("1", "tools do not write the object on a download"),
+            Choice::new("2", "tools do not read the object on a scan"),
+            Choice::new("3", "tools do neither"),
+        ],
+        key if is_value_key(key) => value(text, seen, section, at),
+        _ => Vec::new(),
+    }
+}
+
+/// Default values: what can be mapped, and the COB-IDs of CiA 301.
+fn value(text: &str, seen: &Seen, section: &Section, at: Address) -> Vec<Choice> {
+    if is_mapping(at.index) && at.sub > 0 {
+        return mappable(seen, at.index >= 0x1A00);
+    }
+    let offset = match (at.index, at.sub) {
+        (0x1005, 0) => return vec![Choice::new("0x80", "COB-ID of SYNC")],
+        (0x1012, 0) => return vec![Choice::new("0x100", "COB-ID of TIME")],
+        (0x1014, 0) => 0x80,
+        (0x1200, 1) => 0x600,
+        (0x1200, 2) => 0x580,
+        (0x1400..=0x1403, 1) => 0x200 + 0x100 * u32::from(at.index - 0x1400),
+        (0x1800..=0x1803, 1) => 0x180 + 0x100 * u32::from(at.index - 0x1800),
+        _ => {
+            let boolean = section.get(text, "DataType");
+            let code = boolean.and_then(|pair| crate::mentions::number(text, pair));
+            return match code {
+                Some(1) => vec![Choice::new("0", "false"), Choice::new("1", "true")],
+                _ => Vec::new(),
+            };
+        }
+    };
+    let detail = format!("{offset:X}h + node ID");
+    let mut choices = vec![Choice::new(format!("$NODEID+0x{offset:X}"), detail.clone())];
+    if matches!(at.index, 0x1400..) {
+        let label = format!("$NODEID+0x{:X}", 0x8000_0000 | offset);
+        choices.push(Choice::new(label, format!("{detail}, not valid")));
+    }
+    choices
+}
+
+/// The mapping entries of all values that can be mapped in this direction.
+fn mappable(seen: &Seen, into_tpdo: bool) -> Vec<Choice> {
+    let description = &seen.description;
+    let entries = description.entries().filter(|(_, entry)| {
+        *entry.mappable
+            && match into_tpdo {
+                true => entry.access.maps_to_tpdo(),
+                false => entry.access.maps_to_rpdo(),
+            }
+    });
+    let choices = entries.filter_map(|(at, entry)| {
+        let bits = entry.data_type?.bits()?;
+        let label = format!("0x{:04X}{:02X}{bits:02X}", at.index, at.sub);
+        let name = words::name(description, at).unwrap_or_default();
+        let shown = words::address(description, at);
+        Some(Choice::named(
+            label,
+            &format!("{shown} {name}, {bits} bits"),
+        ))
+    });
+    choices.collect()
+}

@@ -1,0 +1,49 @@
+//! Findings as diagnostics of the protocol.
+
+use od_eds::{Eds, Finding, Severity, say};
+
+use crate::file::File;
+use crate::layout::bytes;
+use crate::types::{Diagnostic, Location, Range, RelatedInformation};
+
+/// The findings of a text.
+pub(crate) fn of(file: &File, findings: &[Finding]) -> Vec<Diagnostic> {
+    findings.iter().map(|finding| one(file, finding)).collect()
+}
+
+/// One finding; without a place it is at the start of the text.
+pub(crate) fn one(file: &File, finding: &Finding) -> Diagnostic {
+    let said = say(finding, &Eds);
+    let place = |span| file.text.range(bytes(span));
+    let related = said.labels.iter().map(|label| RelatedInformation {
+        location: Location {
+            uri: file.uri.clone(),
+            range: place(label.span),
+        },
+        message: label.text.clone(),
+    });
+    let mut message = match said.address {
+        Some(address) => format!("object {address}: {}", said.message),
+        None => said.message.clone(),
+    };
+    if !said.help.is_empty() {
+        message.push_str("\nhelp: ");
+        message.push_str(&said.help);
+    }
+    Diagnostic {
+        range: said.span.map_or(Range::default(), place),
+        severity: severity(finding.severity()),
+        code: said.code,
+        source: "odkit",
+        message,
+        related_information: related.collect(),
+    }
+}
+
+const fn severity(severity: Severity) -> u8 {
+    match severity {
+        Severity::Error => 1,
+        Severity::Warning => 2,
+        Severity::Info => 3,
+    }
+}

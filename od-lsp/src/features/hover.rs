@@ -1,0 +1,210 @@
+//! What is under the cursor: an object, a key, a value in words, and the rules that report there.
+
+use od_eds::check::Fixability;
+use od_eds::outline::{self, Compact, Place};
+use od_eds::{Eds, Finding, say};
+use od_model::{Access, Address, DataType, ObjectCode};
+
+use crate::file::{File, Seen};
+use crate::keys;
+use crate::layout::{Pair, Section, Spot, bytes};
+use crate::mentions::{self, listed, mapped, number, plain};
+use crate::standard;
+use crate::types::{Hover, Markup};
+use crate::words;
+
+/// The hover at a byte; `None` if there is nothing to say.
+pub(crate) fn at(file: &File, seen: &Seen, offset: usize) -> Option<Hover> {
+    let spot = seen.layout.spot(offset);
+    let mut parts: Vec<String> = spot.map_or_else(Vec::new, |spot| said(file, seen, spot));
+    let mut here = None;
+    for finding in &seen.findings {
+        let Some(span) = finding.span().map(bytes) else {
+            continue;
+        };
+        if span.start <= offset && offset <= span.end {
+            here = Some(span);
+            parts.push(explained(finding));
+        }
+    }
+    if parts.is_empty() {
+        return None;
+    }
+    let range = match spot {
+        Some(Spot::Header(section)) => Some(section.header.clone()),
+        Some(Spot::Key(_, pair)) => Some(pair.key.clone()),
+        Some(Spot::Value(_, pair)) => Some(plain(file.str(), pair)),
+        None => here,
+    };
+    Some(Hover {
+        contents: Markup::markdown(parts.join("\n\n---\n\n")),
+        range: range.map(|range| file.text.range(range)),
+    })
+}
+
+fn said(file: &File, seen: &Seen, spot: Spot<'_>) -> Vec<String> {
+    let section = spot.section();
+    let about = about(file, seen, section);
+    let own = match spot {
+        Spot::Header(_) => None,
+        Spot::Key(_, pair) => key(file, section, pair),
+        Spot::Value(_, pair) => value(file, seen, section, pair),
+    };
+    match (own, about) {
+        (Some(own), Some(about)) => vec![format!("{own}\n\n{about}")],
+        (own, about) => own.into_iter().chain(about).collect(),
+    }
+}
+
+/// The subject of a section.
+fn about(file: &File, seen: &Seen, section: &Section) -> Option<String> {
+    let (at, whole) = match section.place {
+        Place::Object(index) | Place::Compact(index, _) => (Address::new(index, 0), true),
+        Place::Member(index, sub) => (Address::new(index, sub), false),
+        Place::List(_) | Place::Other => {
+            let name = file.part(section.name.clone());
+            return mentions::header(file.str(), section)
+                .map(|links| words::heading(&seen.description, links.object))
+                .or_else(|| keys::section(name).map(str::to_owned));
+        }
+    };
+    Some(object(seen, at, whole))
+}
+
+/// An object or a sub-object in words.
+pub(crate) fn object(seen: &Seen, at: Address, whole: bool) -> String {
+    let description = &seen.description;
+    let mut lines = vec![words::heading(description, at)];
+    let Some(object) = description.objects.get(&at.index) else {
+        lines.push("The file does not define this object.".into());
+        return lines.join("\n\n");
+    };
+    if whole && object.code.has_members() {
+        let count = object.entries.len();
+        let noun = if count == 1 {
+            "sub-object"
+        } else {
+            "sub-objects"
+        };
+        lines.push(format!("{}, {count} {noun}", object.code.name()));
+        return lines.join("\n\n");
+    }
+    let Some(entry) = object.entries.get(&at.sub) else {
+        lines.push("The file does not define this sub-object.".into());
+        return lines.join("\n\n");
+    };
+    let mappable = if *entry.mappable {
+        ", mappable into a PDO"
+    } else {
+        ""
+    };
+    lines.push(format!("{}{mappable}", words::of_type(entry)));
+    for (name, given) in [
+        ("DefaultValue", &entry.default),
+        ("ParameterValue", &entry.parameter),
+    ] {
+        let said = given.as_ref();
+        let said = said.and_then(|given| words::value(description, at, entry, &given.value));
+        if let Some(said) = said {
+            lines.push(format!("{name}: {}", words::escaped(&said)));
+        }
+    }
+    lines.join("\n\n")
+}
+
+fn key(file: &File, section: &Section, pair: &Pair) -> Option<String> {
+    let key = file.part(pair.key.clone());
+    let said = match section.place {
+        Place::Object(_) | Place::Member(..) => keys::of_object(key),
+        _ => keys::of_section(file.part(section.name.clone()), key),
+    };
+    said.map(|said| format!("`{}`: {said}", key.replace('`', "'")))
+}
+
+/// A value in words.
+fn value(file: &File, seen: &Seen, section: &Section, pair: &Pair) -> Option<String> {
+    let text = file.str();
+    let description = &seen.description;
+    if let Some(index) = listed(text, section, pair) {
+        return Some(object(seen, Address::new(index, 0), true));
+    }
+    if let Some(mapped) = mapped(text, section, pair) {
+        let whole = description
+            .objects
+            .get(&mapped.object.index)
+            .is_none_or(|object| !object.code.has_members());
+        let dummy = DataType::from_code(mapped.object.index)
+            .map(|dummy| format!("dummy entry, {}", dummy.name()));
+        let about = dummy.unwrap_or_else(|| object(seen, mapped.object, whole));
+        return Some(format!("maps {}\n\n{about}", words::mapping(mapped)));
+    }
+    let at = match section.place {
+        Place::Object(index) => Address::new(index, 0),
+        Place::Member(index, sub) => Address::new(index, sub),
+        Place::Compact(index, Compact::Value) => {
+            let sub = outline::number(file.part(pair.key.clone()))?;
+            Address::new(index, u8::try_from(sub).ok()?)
+        }
+        _ => return key(file, section, pair),
+    };
+    let key = file.part(pair.key.clone()).to_ascii_lowercase();
+    let code = || number(text, pair).and_then(|number| u16::try_from(number).ok());
+    let given = file.part(plain(text, pair));
+    match key.as_str() {
+        "datatype" => Some(match DataType::from_code(code()?) {
+            Some(known) => words::data_type(known),
+            None => words::heading(description, Address::new(code()?, 0)),
+        }),
+        "objecttype" => {
+            let code = ObjectCode::from_code(u8::try_from(code()?).ok()?)?;
+            Some(format!("{}: {}", code.name(), words::code(code)))
+        }
+        "accesstype" => {
+            let mut all = Access::ALL.into_iter();
+            let access = all.find(|access| access.name().eq_ignore_ascii_case(given))?;
+            Some(format!("`{}`: {}", access.name(), words::access(access)))
+        }
+        "pdomapping" => Some(match code()? {
+            0 => "The value cannot be mapped into a PDO.".into(),
+            _ => "The value can be mapped into a PDO.".into(),
+        }),
+        "lowlimit" | "highlimit" => {
+            let entry = description.entry(at)?;
+            let limit = [&entry.low, &entry.high].into_iter().flatten();
+            let mut own = limit.filter(|limit| limit.span.start as usize == pair.value.start);
+            let said = words::value(
+                description,
+                Address::new(0x2000, 0),
+                entry,
+                &own.next()?.value,
+            )?;
+            Some(words::escaped(&said))
+        }
+        "defaultvalue" | "parametervalue" => {
+            let name = standard::name(at.index, standard::profile(description));
+            // Below it the object is described with the value in words.
+            name.map_or_else(|| None, |_| self::key(file, section, pair))
+        }
+        _ => self::key(file, section, pair),
+    }
+}
+
+/// The rule of a finding, as `odkit explain` shows it.
+pub(crate) fn explained(finding: &Finding) -> String {
+    let rule = finding.rule;
+    let fix = match rule.fixability {
+        Fixability::None => "no fix; correct the file yourself",
+        Fixability::Safe => "safe fix",
+        Fixability::Unsafe => "unsafe fix; review the result",
+        Fixability::Either => "safe fix, or an unsafe one if content is lost",
+    };
+    let said = say(finding, &Eds);
+    format!(
+        "**{}** {}\n\n{}\n\n{}\n\nFix: {fix}. Source: {}",
+        rule.code,
+        words::escaped(rule.title),
+        words::escaped(&said.message),
+        rule.why,
+        rule.source
+    )
+}

@@ -1,0 +1,132 @@
+//! From a place to the one that it is about: objects, lists, mappings, COB-IDs.
+
+use std::ops::Range;
+
+use od_eds::outline::Place;
+use od_model::Address;
+
+use crate::cob_ids::{self, CobId};
+use crate::file::{File, Seen};
+use crate::layout::Spot;
+use crate::mentions::{self, Mention, What, number};
+
+/// What a place is about.
+enum Target {
+    /// An object, or one of its sub-objects.
+    Object(Address, bool),
+    /// A COB-ID, and the value that holds it.
+    Cob(Address, CobId, Range<usize>),
+}
+
+fn target(file: &File, seen: &Seen, offset: usize) -> Option<Target> {
+    let text = file.str();
+    match seen.layout.spot(offset)? {
+        Spot::Header(section) => {
+            let header = mentions::header(text, section)?;
+            let is_sub = matches!(section.place, Place::Member(..));
+            Some(Target::Object(header.object, is_sub))
+        }
+        Spot::Key(section, pair) | Spot::Value(section, pair) => {
+            if let Some(mention) = mentions::value(text, section, pair) {
+                return Some(Target::Object(mention.object, is_sub(seen, &mention)));
+            }
+            let key = text.get(pair.key.clone())?;
+            if key.eq_ignore_ascii_case("DataType") {
+                let index = u16::try_from(number(text, pair)?).ok()?;
+                return Some(Target::Object(Address::new(index, 0), false));
+            }
+            let mut ids = cob_ids::all(&seen.description);
+            let own = ids.find(|(_, _, bytes)| bytes.start == pair.value.start);
+            own.map(|(at, id, bytes)| Target::Cob(at, id, bytes))
+        }
+    }
+}
+
+/// Is a mapping about one of several sub-objects?
+fn is_sub(seen: &Seen, mention: &Mention) -> bool {
+    let object = seen.description.objects.get(&mention.object.index);
+    mention.what == What::Mapping && object.is_some_and(|object| object.code.has_members())
+}
+
+/// Where the object is described; of a COB-ID, the other values with it, or the mapping of its PDO.
+pub(crate) fn definition(file: &File, seen: &Seen, offset: usize) -> Vec<Range<usize>> {
+    match target(file, seen, offset) {
+        None => Vec::new(),
+        Some(Target::Object(at, is_sub)) => {
+            let own = Place::Member(at.index, at.sub);
+            let header = match seen.layout.spot(offset) {
+                // From a member to its object.
+                Some(Spot::Header(section)) if section.place == own => None,
+                _ => seen.layout.section_of(own).filter(|_| is_sub),
+            };
+            let header = header.or_else(|| seen.layout.section_of(Place::Object(at.index)));
+            header
+                .map(|section| section.header.clone())
+                .into_iter()
+                .collect()
+        }
+        Some(Target::Cob(at, id, own)) => {
+            let like = like(seen, id).filter(|bytes| *bytes != own);
+            let mut found: Vec<_> = like.collect();
+            if found.is_empty() {
+                let mapping = cob_ids::mapping_of(at.index).map(Place::Object);
+                let section = mapping.and_then(|place| seen.layout.section_of(place));
+                found.extend(section.map(|section| section.header.clone()));
+            }
+            found
+        }
+    }
+}
+
+/// All places about the same object or COB-ID; without those that define it unless `declared`.
+pub(crate) fn references(
+    file: &File,
+    seen: &Seen,
+    offset: usize,
+    declared: bool,
+) -> Vec<Range<usize>> {
+    match target(file, seen, offset) {
+        None => Vec::new(),
+        Some(Target::Cob(_, id, _)) => like(seen, id).collect(),
+        Some(Target::Object(at, is_sub)) => {
+            let about = |mention: &Mention| match (is_sub, mention.what) {
+                (true, What::Header | What::Mapping) => mention.object == at,
+                (true, What::Entry) => false,
+                (false, _) => mention.object.index == at.index,
+            };
+            let mut found: Vec<_> = mentions::all(file, &seen.layout)
+                .filter(|mention| declared || mention.what != What::Header)
+                .filter(about)
+                .map(|mention| mention.bytes)
+                .collect();
+            if !is_sub {
+                found.extend(typed(file, seen, at.index));
+                found.sort_by_key(|bytes| bytes.start);
+            }
+            found
+        }
+    }
+}
+
+/// The values of DataType that name a type of the file.
+fn typed<'a>(
+    file: &'a File,
+    seen: &'a Seen,
+    index: u16,
+) -> impl Iterator<Item = Range<usize>> + 'a {
+    let text = file.str();
+    let own = (0x40..=0x25F).contains(&index);
+    let sections = seen.layout.sections.iter().filter(move |_| own);
+    sections.filter_map(move |section| {
+        let pair = section.get(text, "DataType")?;
+        let bytes = mentions::plain(text, pair);
+        (number(text, pair) == Some(i128::from(index))).then_some(bytes)
+    })
+}
+
+/// The values with this COB-ID.
+fn like(seen: &Seen, id: CobId) -> impl Iterator<Item = Range<usize>> + '_ {
+    let all = cob_ids::all(&seen.description);
+    all.filter(move |(_, other, _)| other.is_like(id))
+        .map(|(_, _, bytes)| bytes)
+}

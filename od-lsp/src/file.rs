@@ -1,0 +1,227 @@
+//! One open file: its text, and what odkit reads in it, made when somebody asks.
+
+use std::cell::OnceCell;
+
+use od_eds::{Description, Document, Edit, Encoding, Finding, Origin, Overlaid, Parsed};
+
+use crate::host::Host;
+use crate::layout::Layout;
+use crate::text::{Text, Unit};
+use crate::uri;
+
+/// A byte order mark.
+const MARK: char = '\u{FEFF}';
+
+/// Kind of a file, by its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Kind {
+    /// An EDS or a DCF.
+    Eds,
+    /// An XDD or an XDC.
+    Xdd,
+    /// Differences to an EDS.
+    Overlay,
+    /// Rust source with calls of `object_dictionary!`.
+    Rust,
+}
+
+/// A file that a client has open.
+pub(crate) struct File {
+    pub(crate) uri: String,
+    pub(crate) path: String,
+    pub(crate) version: Option<i64>,
+    pub(crate) text: Text,
+    pub(crate) kind: Kind,
+    /// The file on the disk without its text, if its encoding is another than that of the client's text.
+    disk: Option<Document>,
+    seen: OnceCell<Seen>,
+}
+
+/// What odkit reads in a text.
+pub(crate) struct Seen {
+    pub(crate) layout: Layout,
+    pub(crate) description: Description,
+    /// Those about this file.
+    pub(crate) findings: Vec<Finding>,
+    /// What is wrong with the settings of the project.
+    pub(crate) misused: Option<String>,
+}
+
+impl File {
+    pub(crate) fn new(
+        uri: String,
+        language: &str,
+        version: Option<i64>,
+        text: String,
+        unit: Unit,
+        host: &dyn Host,
+    ) -> Self {
+        let path = uri::path(&uri);
+        let kind = kind(&path, language);
+        let disk = match kind {
+            Kind::Eds | Kind::Xdd => host.read(&path).and_then(foreign),
+            Kind::Overlay | Kind::Rust => None,
+        };
+        Self {
+            uri,
+            path,
+            version,
+            text: Text::new(text, unit),
+            kind,
+            disk,
+            seen: OnceCell::new(),
+        }
+    }
+
+    /// Forgets what was read: the text, a file it depends on, or the project's settings changed.
+    pub(crate) fn forget(&mut self) {
+        self.seen = OnceCell::new();
+    }
+
+    pub(crate) fn str(&self) -> &str {
+        self.text.as_str()
+    }
+
+    /// A piece of the text.
+    pub(crate) fn part(&self, bytes: std::ops::Range<usize>) -> &str {
+        self.str().get(bytes).unwrap_or_default()
+    }
+
+    /// The byte order mark that the client left in the text.
+    pub(crate) fn mark(&self) -> &str {
+        match self.str().starts_with(MARK) {
+            true => &self.str()[..MARK.len_utf8()],
+            false => "",
+        }
+    }
+
+    /// What odkit reads in the text.
+    pub(crate) fn seen(&self, host: &dyn Host) -> &Seen {
+        self.seen.get_or_init(|| match self.kind {
+            Kind::Eds | Kind::Xdd => self.read(host),
+            Kind::Overlay => self.overlaid(host),
+            Kind::Rust => Seen {
+                layout: Layout::default(),
+                description: Description::default(),
+                findings: Vec::new(),
+                misused: None,
+            },
+        })
+    }
+
+    /// The file as it would be on the disk.
+    pub(crate) fn document(&self) -> Document {
+        let disk = self.disk.clone().and_then(|mut disk| {
+            let edit = Edit {
+                range: 0..0,
+                text: self.str().into(),
+            };
+            disk.apply(&[edit]).ok()?;
+            Some(disk)
+        });
+        let document = disk.unwrap_or_else(|| Document::new(self.str()));
+        document.named(&self.path)
+    }
+
+    fn read(&self, host: &dyn Host) -> Seen {
+        let Parsed {
+            description,
+            mut findings,
+        } = match self.mark().is_empty() {
+            true => self.document().load(),
+            // Places are those of the text with the mark.
+            false => od_eds::load(self.str()),
+        };
+        let misused = host.judge(&self.path, &mut findings).err();
+        let layout = match self.kind {
+            Kind::Eds if !od_eds::is_xml(self.str()) => Layout::of(self.str()),
+            _ => Layout::default(),
+        };
+        Seen {
+            layout,
+            description,
+            findings,
+            misused,
+        }
+    }
+
+    /// An overlay with the base that it names.
+    fn overlaid(&self, host: &dyn Host) -> Seen {
+        let mut seen = Seen {
+            layout: Layout::of(self.str()),
+            description: Description::default(),
+            findings: Vec::new(),
+            misused: None,
+        };
+        let base = self.base(host).and_then(|path| host.read(&path));
+        let Some(base) = base.map(Document::new) else {
+            return seen;
+        };
+        let Ok(made) = od_eds::overlay(base.text(), self.str()) else {
+            return seen;
+        };
+        let mut parsed = od_eds::load(&made.text);
+        seen.misused = host.judge(&self.path, &mut parsed.findings).err();
+        seen.findings = own(&made, parsed.findings);
+        seen.description = parsed.description;
+        seen
+    }
+
+    /// Path of the EDS that an overlay is laid over: the one of its first line `;odkit-base=my.eds`,
+    /// else the only EDS or DCF beside it.
+    pub(crate) fn base(&self, host: &dyn Host) -> Option<String> {
+        let named = self.str().lines().find_map(|line| {
+            let rest = line.trim().strip_prefix([';', '#'])?.trim_start();
+            rest.strip_prefix("odkit-base=").map(str::trim)
+        });
+        if let Some(name) = named {
+            return Some(uri::join(&self.path, name));
+        }
+        let mut all = host.beside(&self.path).into_iter();
+        all.by_ref()
+            .find(|path| is_eds(path))
+            .filter(|_| !all.any(|path| is_eds(&path)))
+    }
+}
+
+/// Findings of base and overlay that are about the overlay.
+fn own(made: &Overlaid, findings: Vec<Finding>) -> Vec<Finding> {
+    let placed = findings.into_iter().map(|finding| made.place(finding));
+    placed
+        .filter(|(origin, finding)| *origin == Origin::Overlay && finding.span().is_some())
+        .map(|(_, finding)| finding)
+        .collect()
+}
+
+/// A file in an encoding that is not that of a client's text, or with a mark; without its text.
+fn foreign(bytes: Vec<u8>) -> Option<Document> {
+    let mut document = Document::new(bytes);
+    let same = matches!(document.encoding(), Encoding::Ascii | Encoding::Utf8);
+    if same && !document.has_mark() {
+        return None;
+    }
+    let edit = Edit {
+        range: 0..document.text().len(),
+        text: String::new(),
+    };
+    document.apply(&[edit]).ok()?;
+    Some(document)
+}
+
+fn extension(path: &str) -> &str {
+    path.rsplit_once('.').map_or("", |(_, extension)| extension)
+}
+
+fn is_eds(path: &str) -> bool {
+    matches!(extension(path).to_ascii_lowercase().as_str(), "eds" | "dcf")
+}
+
+fn kind(path: &str, language: &str) -> Kind {
+    let extension = extension(path).to_ascii_lowercase();
+    match (extension.as_str(), language) {
+        ("rs", _) | (_, "rust") => Kind::Rust,
+        ("overlay", _) => Kind::Overlay,
+        ("xdd" | "xdc", _) => Kind::Xdd,
+        _ => Kind::Eds,
+    }
+}

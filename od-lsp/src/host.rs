@@ -1,0 +1,36 @@
+//! What the server asks of the world outside: files, and the settings of a project.
+
+use od_eds::Finding;
+
+/// The world around a server.
+pub trait Host {
+    /// The bytes of a file; `None` if it cannot be read.
+    fn read(&self, path: &str) -> Option<Vec<u8>>;
+
+    /// The names of the files beside a file, with their paths.
+    fn beside(&self, path: &str) -> Vec<String>;
+
+    /// Removes findings of rules that a project has off, and gives the others their severity.
+    ///
+    /// # Errors
+    /// What is wrong with the project's settings; the findings are as they were.
+    fn judge(&self, path: &str, findings: &mut Vec<Finding>) -> Result<(), String>;
+}
+
+/// A world without files and settings.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoHost;
+
+impl Host for NoHost {
+    fn read(&self, _: &str) -> Option<Vec<u8>> {
+        None
+    }
+
+    fn beside(&self, _: &str) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), String> {
+        Ok(())
+    }
+}

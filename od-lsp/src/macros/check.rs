@@ -1,0 +1,301 @@
+//! What the macro would say about a call: errors of the file, and of the statements.
+
+use std::ops::Range;
+
+use od_eds::check::check;
+use od_eds::patch::{self, Action, Change, Edit, Raw, Target};
+use od_eds::{Description, Fact, Finding, Key, Span, Spanned, Vocabulary, say, token, token_of};
+use od_model::{Access, DataType, Group, ObjectCode};
+
+use crate::file::File;
+use crate::macros::base::{Base, Find};
+use crate::macros::call::{self, Call, Statement};
+use crate::macros::scan::{Kind, Token};
+use crate::types::{Diagnostic, RelatedInformation};
+
+/// Errors of the file that are shown; the rest is counted.
+const SHOWN: usize = 20;
+
+/// The types that the macro has a word for; it takes the names of CiA 301, too.
+pub(crate) const TYPES: [(&str, DataType); 12] = [
+    ("bool", DataType::Boolean),
+    ("u8", DataType::Unsigned8),
+    ("u16", DataType::Unsigned16),
+    ("u32", DataType::Unsigned32),
+    ("u64", DataType::Unsigned64),
+    ("i8", DataType::Integer8),
+    ("i16", DataType::Integer16),
+    ("i32", DataType::Integer32),
+    ("i64", DataType::Integer64),
+    ("f32", DataType::Real32),
+    ("f64", DataType::Real64),
+    ("str", DataType::VisibleString),
+];
+
+/// The object codes that the macro has a word for.
+pub(crate) const CODES: [(&str, ObjectCode); 4] = [
+    ("var", ObjectCode::Var),
+    ("array", ObjectCode::Array),
+    ("record", ObjectCode::Record),
+    ("domain", ObjectCode::Domain),
+];
+
+/// The groups that the macro has a word for.
+pub(crate) const GROUPS: [(&str, Group); 4] = [
+    ("communication", Group::Communication),
+    ("application", Group::Application),
+    ("manufacturer", Group::Manufacturer),
+    ("none", Group::None),
+];
+
+/// The diagnostics of the calls of a source.
+pub(crate) fn of(file: &File, find: Find<'_>) -> Vec<Diagnostic> {
+    let calls = call::all(file.str());
+    calls
+        .iter()
+        .flat_map(|call| of_call(file, call, find))
+        .collect()
+}
+
+fn of_call(file: &File, call: &Call, find: Find<'_>) -> Vec<Diagnostic> {
+    let (base, home) = match Base::of(file, call, find) {
+        Ok(base) => (
+            base,
+            call.eds.clone().unwrap_or(call.body.start..call.body.start),
+        ),
+        Err((bytes, why)) => return vec![diagnostic(file, bytes, "", why)],
+    };
+    let mut found = Vec::new();
+    if let Some(base) = &base {
+        let unsound: Vec<_> = base
+            .findings
+            .iter()
+            .filter(|one| one.is_unsound())
+            .collect();
+        for finding in unsound.iter().take(SHOWN) {
+            let mut told = told(file, home.clone(), finding);
+            let location = base.place(finding);
+            told.related_information
+                .extend(location.map(|location| RelatedInformation {
+                    location,
+                    message: "here".into(),
+                }));
+            found.push(told);
+        }
+        if let Some(more @ 1..) = unsound.len().checked_sub(SHOWN) {
+            let said = format!("{more} more errors; open the file, or run `odkit check`");
+            found.push(diagnostic(file, home.clone(), "", said));
+        }
+    }
+    let mut whole = base.map(|base| base.description).unwrap_or_default();
+    patched(file, call, None, &mut whole, &mut found);
+    let variants = call.statements.iter().filter_map(|own| own.variant).max();
+    for variant in 0..variants.map_or(0, |last| last + 1) {
+        patched(file, call, Some(variant), &mut whole.clone(), &mut found);
+    }
+    found
+}
+
+/// Applies the statements of a variant, or those outside; findings at their tokens.
+fn patched(
+    file: &File,
+    call: &Call,
+    variant: Option<usize>,
+    description: &mut Description,
+    found: &mut Vec<Diagnostic>,
+) {
+    let mut places = Vec::new();
+    let own = call.statements.iter().filter(|own| own.variant == variant);
+    let own: Vec<&Statement> = own.collect();
+    let edits: Vec<Edit> = own
+        .iter()
+        .filter_map(|own| edit(file.str(), own, &mut places))
+        .collect();
+    let mut findings = patch::apply(description, &edits);
+    for statement in own.iter().filter(|own| own.action.is_none()) {
+        if let Some((target, bytes)) = &statement.target {
+            let target = Spanned::new(*target, mark(bytes, &mut places));
+            findings.extend(patch::missing(description, &target));
+        }
+    }
+    let checked = check(description).into_iter().filter(Finding::is_unsound);
+    findings.extend(checked);
+    findings.sort_by_key(|finding| finding.span().and_then(token_of));
+    for finding in &findings {
+        let id = finding.span().and_then(token_of);
+        let place = id.and_then(|id| places.get(id as usize));
+        found.extend(place.map(|bytes| told(file, bytes.clone(), finding)));
+    }
+}
+
+fn mark(bytes: &Range<usize>, places: &mut Vec<Range<usize>>) -> Span {
+    places.push(bytes.clone());
+    token(places.len() as u32 - 1)
+}
+
+fn edit(source: &str, own: &Statement, places: &mut Vec<Range<usize>>) -> Option<Edit> {
+    let (target, bytes) = own.target.as_ref()?;
+    let mut edit = Edit::new(own.action?, *target);
+    edit.target = Spanned::new(*target, mark(bytes, places));
+    for field in own.fields.split(|token| token.kind == Kind::Sign(b';')) {
+        let [key, sign, value @ ..] = field else {
+            continue;
+        };
+        let (Some(first), Some(last)) = (value.first(), value.last()) else {
+            continue;
+        };
+        if sign.kind != Kind::Sign(b'=') {
+            continue;
+        }
+        let key = source.get(key.bytes.clone()).unwrap_or_default();
+        let change = change(source, key, value)?;
+        let span = mark(&(first.bytes.start..last.bytes.end), places);
+        edit.changes.push(Spanned::new(change, span));
+    }
+    // While an `add` is being typed it lacks fields, and rustc says so.
+    let is_typed = own.action == Some(Action::Add) && own.braces.is_none();
+    (!is_typed).then_some(edit)
+}
+
+/// A field; `None` for one that only the macro itself can judge.
+fn change(source: &str, key: &str, value: &[Token]) -> Option<Change> {
+    let text = |token: &Token| source.get(token.bytes.clone());
+    let [only] = value else {
+        let raw = raw(source, value)?;
+        return match key {
+            "default" => Some(Change::Default(Some(raw))),
+            "low" => Some(Change::Low(Some(raw))),
+            "high" => Some(Change::High(Some(raw))),
+            _ => None,
+        };
+    };
+    let word = text(only)?;
+    Some(match key {
+        "name" if only.kind == Kind::Text => Change::Name(word.into()),
+        "type" => Change::Type(data_type(word)?),
+        "access" => Change::Access(Access::ALL.into_iter().find(|own| own.name() == word)?),
+        "code" => Change::Code(CODES.iter().find(|(own, _)| *own == word)?.1),
+        "save" => Change::Save(GROUPS.iter().find(|(own, _)| *own == word)?.1),
+        "capacity" => Change::Capacity(word.parse().ok()?),
+        "mappable" => Change::Mappable(word == "true"),
+        "default" => Change::Default(raw_or_none(source, value)?),
+        "low" => Change::Low(raw_or_none(source, value)?),
+        "high" => Change::High(raw_or_none(source, value)?),
+        _ => return None,
+    })
+}
+
+fn data_type(word: &str) -> Option<DataType> {
+    let known = TYPES.iter().find(|(own, _)| *own == word);
+    let named = || DataType::ALL.into_iter().find(|own| own.name() == word);
+    known.map(|(_, data_type)| *data_type).or_else(named)
+}
+
+fn raw_or_none(source: &str, value: &[Token]) -> Option<Option<Raw>> {
+    let text = source.get(value.first()?.bytes.clone())?;
+    match text {
+        "none" => Some(None),
+        _ => raw(source, value).map(Some),
+    }
+}
+
+/// An integer, a truth value or a text; other values are left to the macro.
+fn raw(source: &str, value: &[Token]) -> Option<Raw> {
+    let (negative, token) = match value {
+        [sign, token] if sign.kind == Kind::Sign(b'-') => (true, token),
+        [token] => (false, token),
+        _ => return None,
+    };
+    let text = source.get(token.bytes.clone())?;
+    match (token.kind, text) {
+        (Kind::Number, text) => {
+            let plain = text.replace('_', "");
+            let number = match plain.strip_prefix("0x") {
+                Some(hex) => i128::from_str_radix(hex, 16).ok()?,
+                None => plain.parse().ok()?,
+            };
+            Some(Raw::Integer(if negative { -number } else { number }))
+        }
+        (Kind::Word, "true" | "false") => Some(Raw::Bool(text == "true")),
+        (Kind::Text, text) if !text.contains('\\') => Some(Raw::Text(text.into())),
+        _ => None,
+    }
+}
+
+fn told(file: &File, bytes: Range<usize>, finding: &Finding) -> Diagnostic {
+    let said = say(finding, &Row);
+    let mut message = match said.address {
+        Some(address) if !said.code.starts_with("E07") => {
+            format!("object {address}: {}", said.message)
+        }
+        _ => said.message,
+    };
+    if !said.help.is_empty() {
+        message.push_str("\nhelp: ");
+        message.push_str(&said.help);
+    }
+    diagnostic(file, bytes, said.code, message)
+}
+
+fn diagnostic(file: &File, bytes: Range<usize>, code: &'static str, message: String) -> Diagnostic {
+    Diagnostic {
+        range: file.text.range(bytes),
+        severity: 1,
+        code,
+        source: "odkit",
+        message,
+        related_information: Vec::new(),
+    }
+}
+
+/// The words of a macro call: `low = 5`.
+struct Row;
+
+impl Vocabulary for Row {
+    fn key(&self, key: Key) -> &'static str {
+        match key {
+            Key::ParameterName => "`name`",
+            Key::ObjectType => "`code`",
+            Key::DataType => "`type`",
+            Key::AccessType => "`access`",
+            Key::PdoMapping => "`mappable`",
+            Key::DefaultValue => "`default`",
+            Key::LowLimit => "`low`",
+            Key::HighLimit => "`high`",
+            Key::StorageLocation => "`save`",
+            Key::Capacity => "`capacity`",
+            other => other.name(),
+        }
+    }
+
+    fn set(&self, key: Key, value: &str) -> String {
+        let field = self.key(key).trim_matches('`');
+        match value {
+            "" => field.into(),
+            value => format!("{field} = {value}"),
+        }
+    }
+
+    fn written(&self, fact: &Fact) -> Option<String> {
+        let word = match fact {
+            Fact::Type(own) => TYPES
+                .iter()
+                .find(|(_, known)| known == own)
+                .map(|(word, _)| *word),
+            Fact::Code(own) => CODES
+                .iter()
+                .find(|(_, known)| known == own)
+                .map(|(word, _)| *word),
+            _ => None,
+        };
+        word.map(Into::into)
+    }
+
+    fn section(&self, index: u16, sub: Option<u8>) -> String {
+        format!("a row `add {} {{ … }}`", Target { index, sub })
+    }
+
+    fn fix(&self, _: od_eds::fix::Applicability) -> &'static str {
+        ""
+    }
+}

@@ -1,0 +1,302 @@
+//! The server: messages wait in a queue, each is answered in its turn, and files that changed are
+//! checked when no message waits.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use serde_json::Value;
+
+use crate::features::diagnostics;
+use crate::file::{File, Kind};
+use crate::host::Host;
+use crate::macros::base::decoded;
+use crate::macros::check;
+use crate::message::{self, Fault, Incoming};
+use crate::text::Unit;
+use crate::types::{DidChange, DidOpen, OfDocument, PublishDiagnostics};
+
+mod capabilities;
+mod requests;
+
+/// A language server for one client.
+///
+/// Every message goes to [`receive`](Self::receive); then [`step`](Self::step) is called until it
+/// returns `false`, and [`poll`](Self::poll) until it returns `None`. A caller that has more input
+/// at hand should `receive` it first: a file is checked once for all changes that wait.
+pub struct Server {
+    host: Box<dyn Host>,
+    files: BTreeMap<String, Open>,
+    inbox: VecDeque<Incoming>,
+    outbox: VecDeque<String>,
+    unit: Unit,
+    /// Can edits of code actions be asked for later?
+    later: bool,
+    /// Does the client report changes of files that it has not opened?
+    watches: bool,
+    phase: Phase,
+    exit: Option<u8>,
+    /// The last complaint about a project's settings.
+    complained: Option<String>,
+}
+
+/// An open file, and what the client knows of it.
+struct Open {
+    file: File,
+    /// Does the client wait for diagnostics?
+    dirty: bool,
+    /// The tokens that it has, and the number of that answer.
+    tokens: (u64, Vec<u32>),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Before,
+    Running,
+    Shutdown,
+}
+
+impl Server {
+    /// A server for a client that has not said a word yet.
+    pub fn new(host: Box<dyn Host>) -> Self {
+        Self {
+            host,
+            files: BTreeMap::new(),
+            inbox: VecDeque::new(),
+            outbox: VecDeque::new(),
+            unit: Unit::default(),
+            later: false,
+            watches: false,
+            phase: Phase::Before,
+            exit: None,
+            complained: None,
+        }
+    }
+
+    /// Takes a message: the text between two headers. A text that is not one is answered with an error.
+    pub fn receive(&mut self, text: &str) {
+        let incoming = match Incoming::read(text) {
+            Ok(incoming) => incoming,
+            Err(fault) => {
+                self.outbox
+                    .push_back(message::refusal(&Value::Null, &fault));
+                return;
+            }
+        };
+        if incoming.method.as_deref() == Some("$/cancelRequest") {
+            self.cancel(&incoming.params);
+            return;
+        }
+        self.inbox.push_back(incoming);
+    }
+
+    /// Takes note of input that is not even a message.
+    pub fn reject(&mut self, why: &str) {
+        let fault = message::refusal(&Value::Null, &Fault::parse(why));
+        self.outbox.push_back(fault);
+    }
+
+    /// Does one thing that is due; `false` if there is nothing to do.
+    pub fn step(&mut self) -> bool {
+        if let Some(incoming) = self.inbox.pop_front() {
+            self.handle(incoming);
+            return true;
+        }
+        let dirty = self.files.values_mut().find(|open| open.dirty);
+        let Some(open) = dirty.filter(|_| self.phase == Phase::Running) else {
+            return false;
+        };
+        open.dirty = false;
+        let uri = open.file.uri.clone();
+        let misused = self.publish(&uri);
+        self.complain(misused);
+        true
+    }
+
+    /// The next message for the client.
+    pub fn poll(&mut self) -> Option<String> {
+        self.outbox.pop_front()
+    }
+
+    /// The exit code, once the client has said `exit`: 0 after `shutdown`, else 1.
+    pub const fn exit_code(&self) -> Option<u8> {
+        self.exit
+    }
+
+    /// The exit code for input that ends without `exit`.
+    pub const fn end_of_input(&self) -> u8 {
+        match self.phase {
+            Phase::Shutdown => 0,
+            Phase::Before | Phase::Running => 1,
+        }
+    }
+
+    /// Answers a request that waits with "cancelled"; one that is answered already stays so.
+    fn cancel(&mut self, params: &Value) {
+        let Some(id) = params.get("id") else {
+            return;
+        };
+        let waiting = self.inbox.iter();
+        let mut waiting = waiting.map(|incoming| incoming.id.as_ref() == Some(id));
+        if let Some(at) = waiting.position(|own| own) {
+            self.inbox.remove(at);
+            let fault = message::refusal(id, &Fault::cancelled());
+            self.outbox.push_back(fault);
+        }
+    }
+
+    fn handle(&mut self, incoming: Incoming) {
+        if self.exit.is_some() {
+            return;
+        }
+        let Incoming { id, method, params } = incoming;
+        let Some(method) = method else {
+            // A response of the client, of which none matters; or nothing.
+            return;
+        };
+        let Some(id) = id else {
+            self.notified(&method, params);
+            return;
+        };
+        if !id.is_string() && !id.is_number() {
+            let fault = Fault::invalid("an id is a number or a string");
+            let text = message::refusal(&Value::Null, &fault);
+            self.outbox.push_back(text);
+            return;
+        }
+        let text = match self.answer(&id, &method, params) {
+            Ok(text) => text,
+            Err(fault) => message::refusal(&id, &fault),
+        };
+        self.outbox.push_back(text);
+    }
+
+    fn answer(&mut self, id: &Value, method: &str, params: Value) -> Result<String, Fault> {
+        match (self.phase, method) {
+            (Phase::Before, "initialize") => {
+                self.phase = Phase::Running;
+                Ok(message::answer(id, &self.initialize(&params)))
+            }
+            (Phase::Before, _) => Err(Fault::not_initialized()),
+            (Phase::Running, "initialize") => Err(Fault::invalid("`initialize` is sent once")),
+            (Phase::Running, "shutdown") => {
+                self.phase = Phase::Shutdown;
+                Ok(message::answer(id, &Value::Null))
+            }
+            (Phase::Running, _) => self.request(id, method, params),
+            (Phase::Shutdown, _) => Err(Fault::invalid("only `exit` follows `shutdown`")),
+        }
+    }
+
+    fn notified(&mut self, method: &str, params: Value) {
+        if method == "exit" {
+            self.exit = Some(self.end_of_input());
+            return;
+        }
+        if self.phase != Phase::Running {
+            return;
+        }
+        // What cannot be read has no answer: a notification has none.
+        match method {
+            "initialized" => self.watch(),
+            "textDocument/didOpen" => {
+                if let Ok(params) = serde_json::from_value::<DidOpen>(params) {
+                    let own = params.text_document;
+                    let (uri, text) = (own.uri.clone(), own.text);
+                    let (language, unit) = (own.language_id.as_str(), self.unit);
+                    let file = File::new(own.uri, language, own.version, text, unit, &*self.host);
+                    let open = Open {
+                        file,
+                        dirty: true,
+                        tokens: (0, Vec::new()),
+                    };
+                    self.files.insert(uri.clone(), open);
+                    self.others(&uri);
+                }
+            }
+            "textDocument/didChange" => {
+                if let Ok(params) = serde_json::from_value::<DidChange>(params)
+                    && let Some(open) = self.files.get_mut(&params.text_document.uri)
+                {
+                    for change in &params.content_changes {
+                        open.file.text.change(change.range, &change.text);
+                    }
+                    open.file.version = params.text_document.version;
+                    open.file.forget();
+                    open.dirty = true;
+                    if open.file.kind != Kind::Rust {
+                        self.others(&params.text_document.uri);
+                    }
+                }
+            }
+            "textDocument/didClose" => {
+                if let Ok(params) = serde_json::from_value::<OfDocument>(params)
+                    && let Some(open) = self.files.remove(&params.text_document.uri)
+                {
+                    let params = PublishDiagnostics {
+                        uri: &open.file.uri,
+                        version: None,
+                        diagnostics: Vec::new(),
+                    };
+                    let text = message::notification("textDocument/publishDiagnostics", &params);
+                    self.outbox.push_back(text);
+                }
+            }
+            // A file on the disk, or the settings of a project.
+            "textDocument/didSave"
+            | "workspace/didChangeWatchedFiles"
+            | "workspace/didChangeConfiguration" => self.others(""),
+            _ => {}
+        }
+    }
+
+    /// Checks all files again that depend on other files; after a save, all.
+    fn others(&mut self, but: &str) {
+        for (uri, open) in &mut self.files {
+            let depends = matches!(open.file.kind, Kind::Overlay | Kind::Rust) || but.is_empty();
+            if uri != but && depends {
+                open.file.forget();
+                open.dirty = true;
+            }
+        }
+    }
+
+    /// Shows what is wrong with a project's settings, once.
+    fn complain(&mut self, misused: Option<String>) {
+        if let Some(why) = &misused
+            && self.complained != misused
+        {
+            let params = serde_json::json!({ "type": 1, "message": why });
+            let text = message::notification("window/showMessage", &params);
+            self.outbox.push_back(text);
+        }
+        self.complained = misused;
+    }
+
+    /// Sends the diagnostics of a file; returns what is wrong with the project's settings.
+    fn publish(&mut self, uri: &str) -> Option<String> {
+        let open = self.files.get(uri)?;
+        let file = &open.file;
+        let seen = file.seen(&*self.host);
+        let diagnostics = match file.kind {
+            Kind::Rust => check::of(file, &|path| self.find(path)),
+            Kind::Eds | Kind::Xdd | Kind::Overlay => diagnostics::of(file, &seen.findings),
+        };
+        let params = PublishDiagnostics {
+            uri: &file.uri,
+            version: file.version,
+            diagnostics,
+        };
+        let text = message::notification("textDocument/publishDiagnostics", &params);
+        let misused = seen.misused.clone();
+        self.outbox.push_back(text);
+        misused
+    }
+
+    /// The text of a file, as the client has it or as it is on the disk.
+    fn find(&self, path: &str) -> Option<String> {
+        let mut open = self.files.values();
+        match open.find(|open| open.file.path == path) {
+            Some(open) => Some(open.file.str().to_owned()),
+            None => self.host.read(path).map(decoded),
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! A text with places as a client counts them: lines, and characters in the unit agreed on.
+
+use crate::types::{Position, Range};
+
+/// The unit of [`Position::character`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) enum Unit {
+    Utf8,
+    /// The unit of a client that names none.
+    #[default]
+    Utf16,
+}
+
+impl Unit {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Utf8 => "utf-8",
+            Self::Utf16 => "utf-16",
+        }
+    }
+
+    const fn len(self, c: char) -> usize {
+        match self {
+            Self::Utf8 => c.len_utf8(),
+            Self::Utf16 => c.len_utf16(),
+        }
+    }
+
+    /// Length of a text without line ends.
+    pub(crate) fn count(self, text: &str) -> u32 {
+        let count = match self {
+            _ if text.is_ascii() => text.len(),
+            unit => text.chars().map(|c| unit.len(c)).sum(),
+        };
+        count as u32
+    }
+}
+
+/// A text and the byte where each of its lines begins; `\n`, `\r\n` and `\r` end one.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Text {
+    content: String,
+    starts: Vec<usize>,
+    unit: Unit,
+}
+
+impl Text {
+    pub(crate) fn new(content: String, unit: Unit) -> Self {
+        let starts = starts(&content);
+        Self {
+            content,
+            starts,
+            unit,
+        }
+    }
+
+    pub(crate) fn as_str(&self) -> &str {
+        &self.content
+    }
+
+    pub(crate) const fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// Number of the line at a byte, from 0.
+    pub(crate) fn line_at(&self, offset: usize) -> usize {
+        let behind = self.starts.partition_point(|start| *start <= offset);
+        behind.saturating_sub(1)
+    }
+
+    /// The bytes of a line without its end; of one behind the text, none.
+    pub(crate) fn line(&self, number: usize) -> std::ops::Range<usize> {
+        let len = self.content.len();
+        let Some(&start) = self.starts.get(number) else {
+            return len..len;
+        };
+        let end = self.starts.get(number + 1).copied().unwrap_or(len);
+        let body = self.content.get(start..end).unwrap_or_default();
+        start..start + body.trim_end_matches(['\n', '\r']).len()
+    }
+
+    /// Number of its lines.
+    pub(crate) fn lines(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The place of a byte; of one inside a character, that of the character.
+    pub(crate) fn position(&self, offset: usize) -> Position {
+        let mut offset = offset.min(self.content.len());
+        while !self.content.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = self.line_at(offset);
+        let start = self.starts.get(line).copied().unwrap_or(0);
+        let before = self.content.get(start..offset).unwrap_or_default();
+        Position {
+            line: line as u32,
+            character: self.unit.count(before),
+        }
+    }
+
+    /// The byte of a place; behind the end of a line or of the text, that end.
+    pub(crate) fn offset(&self, position: Position) -> usize {
+        let line = self.line(position.line as usize);
+        let mut left = position.character as usize;
+        let body = self.content.get(line.clone()).unwrap_or_default();
+        for (at, c) in body.char_indices() {
+            match left.checked_sub(self.unit.len(c)) {
+                // At it, or inside.
+                None => return line.start + at,
+                Some(rest) => left = rest,
+            }
+        }
+        line.end
+    }
+
+    /// The places of a stretch of bytes.
+    pub(crate) fn range(&self, bytes: std::ops::Range<usize>) -> Range {
+        Range {
+            start: self.position(bytes.start),
+            end: self.position(bytes.end),
+        }
+    }
+
+    /// The bytes between two places, in either order.
+    pub(crate) fn bytes(&self, range: Range) -> std::ops::Range<usize> {
+        let (a, b) = (self.offset(range.start), self.offset(range.end));
+        a.min(b)..a.max(b)
+    }
+
+    /// Writes `text` in the place of a range, or of everything.
+    pub(crate) fn change(&mut self, range: Option<Range>, text: &str) {
+        match range {
+            Some(range) => self.content.replace_range(self.bytes(range), text),
+            None => text.clone_into(&mut self.content),
+        }
+        self.starts = starts(&self.content);
+    }
+}
+
+fn starts(text: &str) -> Vec<usize> {
+    let bytes = text.as_bytes();
+    let mut starts = Vec::with_capacity(bytes.len() / 16 + 1);
+    starts.push(0);
+    for (at, byte) in bytes.iter().enumerate() {
+        let ends = match byte {
+            b'\n' => true,
+            b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+            _ => false,
+        };
+        if ends {
+            starts.push(at + 1);
+        }
+    }
+    starts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(line: u32, character: u32) -> Position {
+        Position { line, character }
+    }
+
+    #[test]
+    fn places_in_every_unit() {
+        let content = "a\r\nµ😀b\rz";
+        for (unit, b) in [(Unit::Utf8, 6), (Unit::Utf16, 3)] {
+            let text = Text::new(content.into(), unit);
+            let byte = content.find('b').unwrap();
+            assert_eq!(text.position(byte), at(1, b), "{unit:?}");
+            assert_eq!(text.offset(at(1, b)), byte, "{unit:?}");
+            assert_eq!(text.offset(at(1, 99)), byte + 1, "{unit:?}");
+            assert_eq!(text.offset(at(0, 9)), 1);
+            assert_eq!(text.offset(at(9, 9)), content.len());
+            assert_eq!(text.position(content.len()), at(2, 1));
+        }
+        // Half of a surrogate pair is the place of the pair.
+        let text = Text::new(content.into(), Unit::Utf16);
+        assert_eq!(text.offset(at(1, 2)), content.find('😀').unwrap());
+    }
+
+    #[test]
+    fn changes_move_lines() {
+        let mut text = Text::new("[a]\nx=1\n".into(), Unit::Utf16);
+        let (start, end) = (at(1, 2), at(1, 3));
+        text.change(Some(Range { start, end }), "2\ny=µ");
+        assert_eq!(text.as_str(), "[a]\nx=2\ny=µ\n");
+        assert_eq!(text.lines(), 4);
+        // Backwards, and far outside.
+        let range = Range {
+            start: at(99, 0),
+            end: at(2, 0),
+        };
+        text.change(Some(range), "");
+        assert_eq!(text.as_str(), "[a]\nx=2\n");
+        text.change(None, "b");
+        assert_eq!((text.as_str(), text.lines()), ("b", 1));
+    }
+}

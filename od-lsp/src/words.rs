@@ -1,0 +1,195 @@
+//! Values of an EDS in words.
+
+use od_eds::{Description, EntryDescription, Value};
+use od_model::{Access, Address, DataType, ObjectCode};
+
+use crate::cob_ids::{self, CobId};
+use crate::mentions::{Mapped, is_mapping};
+use crate::standard;
+
+/// An address in words: `6004h` of a VAR, else `1018h:01`.
+pub(crate) fn address(description: &Description, address: Address) -> String {
+    let object = description.objects.get(&address.index);
+    match object {
+        Some(object) if !object.code.has_members() && address.sub == 0 => {
+            format!("{:04X}h", address.index)
+        }
+        _ => address.to_string(),
+    }
+}
+
+/// The name of an object or a sub-object in the file.
+pub(crate) fn name(description: &Description, address: Address) -> Option<&str> {
+    let object = description.objects.get(&address.index)?;
+    let name = match object.entries.get(&address.sub) {
+        Some(entry) if object.code.has_members() => &entry.name,
+        _ => &object.name,
+    };
+    (!name.is_empty()).then_some(name.value.as_str())
+}
+
+/// A mapping entry: `2000h:00, 16 bits`.
+pub(crate) fn mapping(mapped: Mapped) -> String {
+    let bits = if mapped.bits == 1 { "bit" } else { "bits" };
+    format!("{}, {} {bits}", mapped.object, mapped.bits)
+}
+
+/// The name that belongs to a mapping entry: of the object, or of the data type of a gap.
+pub(crate) fn mapped_name(description: &Description, mapped: Mapped) -> Option<String> {
+    if let Some(name) = name(description, mapped.object) {
+        return Some(name.to_owned());
+    }
+    let dummy = DataType::from_code(mapped.object.index)?;
+    Some(format!("dummy entry, {}", dummy.name()))
+}
+
+/// The value of an entry in words, if the words say more than the text.
+pub(crate) fn value(
+    description: &Description,
+    at: Address,
+    entry: &EntryDescription,
+    value: &Value,
+) -> Option<String> {
+    if cob_ids::is_one(at) {
+        return CobId::of(value).map(|id| format!("COB-ID {}", id.words(at)));
+    }
+    let number = value.integer(0);
+    if is_mapping(at.index) && at.sub > 0 {
+        let mapped = Mapped::of(number?)?;
+        let name = mapped_name(description, mapped);
+        let name = name.map_or_else(String::new, |name| format!(" ({name})"));
+        return Some(format!("maps {}{name}", mapping(mapped)));
+    }
+    if let Some(special) = special(at, number) {
+        return Some(special);
+    }
+    match value {
+        Value::NodeId(offset) => Some(format!("{offset:X}h + node ID")),
+        Value::Unsigned(number @ 0..=9) => Some(number.to_string()),
+        Value::Unsigned(number) => Some(format!("{number} ({number:X}h)")),
+        Value::Signed(number) => {
+            let bits = entry.data_type.and_then(|data_type| data_type.size());
+            let mask = bits.map_or(u64::MAX, |bytes| u64::MAX >> (64 - 8 * bytes.clamp(1, 8)));
+            Some(format!("{number} ({:X}h)", (*number as u64) & mask))
+        }
+        Value::Real(number) => Some(number.to_string()),
+        Value::Text(text) => Some(format!("{:?}, {} bytes", text, text.len())),
+        Value::Bytes(bytes) => Some(format!(
+            "{} ({} bytes)",
+            od_model::values::hex(bytes.get(..32).unwrap_or(bytes)),
+            bytes.len()
+        )),
+    }
+}
+
+/// Values of communication objects that have a meaning of their own.
+fn special(at: Address, number: Option<i128>) -> Option<String> {
+    let number = u32::try_from(number?).ok()?;
+    let [low, high, third, _] = number.to_le_bytes();
+    let half = u16::from_le_bytes([low, high]);
+    Some(match (at.index, at.sub) {
+        (0x1000, 0) => match half {
+            0 => "no device profile".into(),
+            profile => format!(
+                "device profile CiA {profile}, additional information {:04X}h",
+                number >> 16
+            ),
+        },
+        (0x1006, 0) => format!("{number} µs"),
+        (0x100C | 0x1017, 0) if number == 0 => "off".into(),
+        (0x100C | 0x1017, 0) => format!("{number} ms"),
+        (0x1016, 1..) if number == 0 => "not used".into(),
+        (0x1016, 1..) => format!("heartbeat of node {third} within {half} ms"),
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 2) => transmission(at.index, number)?,
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 3) => {
+            format!("inhibit time {},{} ms", number / 10, number % 10)
+        }
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 5) if number == 0 => "event timer off".into(),
+        (0x1400..=0x15FF | 0x1800..=0x19FF, 5) => format!("event timer {number} ms"),
+        _ => return None,
+    })
+}
+
+/// A transmission type of a PDO (CiA 301, chapter 7.5.2.37).
+fn transmission(index: u16, number: u32) -> Option<String> {
+    let is_tpdo = index >= 0x1800;
+    Some(match (number, is_tpdo) {
+        (0, true) => "synchronous (acyclic)".into(),
+        (1, true) => "synchronous, with every SYNC".into(),
+        (2..=240, true) => format!("synchronous, with every {number}th SYNC"),
+        (0..=240, false) => "synchronous".into(),
+        (252, true) => "RTR-only (synchronous)".into(),
+        (253, true) => "RTR-only (event-driven)".into(),
+        (254, _) => "event-driven (manufacturer-specific)".into(),
+        (255, _) => "event-driven (device profile and application profile)".into(),
+        _ => return None,
+    })
+}
+
+/// An access type in words.
+pub(crate) const fn access(access: Access) -> &'static str {
+    match access {
+        Access::Ro => "a master can read the value",
+        Access::Wo => "a master can write the value",
+        Access::Rw => "a master can read and write the value",
+        Access::Rwr => "a master can read and write the value; it can be mapped into a TPDO only",
+        Access::Rww => "a master can read and write the value; it can be mapped into an RPDO only",
+        Access::Const => "a master can read the value, which never changes",
+    }
+}
+
+/// An object code in words.
+pub(crate) const fn code(code: ObjectCode) -> &'static str {
+    match code {
+        ObjectCode::Null => "no value",
+        ObjectCode::Domain => "a large number of bytes",
+        ObjectCode::DefType => "the definition of a type",
+        ObjectCode::DefStruct => "the definition of a record",
+        ObjectCode::Var => "a single value",
+        ObjectCode::Array => "sub-objects of one type",
+        ObjectCode::Record => "sub-objects of different types",
+    }
+}
+
+/// A data type in words: its name and its size or range.
+pub(crate) fn data_type(data_type: DataType) -> String {
+    match data_type.integer_range() {
+        Some((low, high)) => format!("{}, {low} to {high}", data_type.name()),
+        None => data_type.name().into(),
+    }
+}
+
+/// Heading of an object or a sub-object: address, name in the file, name in the standard.
+pub(crate) fn heading(description: &Description, at: Address) -> String {
+    let mut heading = format!("**{}**", address(description, at));
+    let own = name(description, at);
+    if let Some(own) = own {
+        heading.push_str(&format!(" {}", escaped(own)));
+    }
+    let standard = standard::name(at.index, standard::profile(description));
+    match standard {
+        Some((name, source)) => heading.push_str(&format!(": {name} ({source})")),
+        None => heading.push_str(&format!(": {}", standard::area(at.index))),
+    }
+    heading
+}
+
+/// A text of a file in Markdown.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if "\\`*_{}[]<>#|~&!".contains(c) {
+            out.push('\\');
+        }
+        out.push(if c.is_control() { ' ' } else { c });
+    }
+    out
+}
+
+/// Type and access: `UNSIGNED32, ro`.
+pub(crate) fn of_type(entry: &EntryDescription) -> String {
+    match entry.data_type {
+        Some(data_type) => format!("{}, {}", data_type.name(), entry.access.name()),
+        None => entry.access.name().into(),
+    }
+}
