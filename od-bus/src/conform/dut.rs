@@ -31,6 +31,8 @@ pub struct Dut<'d> {
     pub(crate) notes: Vec<String>,
     /// Whether the case may reset the node.
     pub(crate) may_reset: bool,
+    /// The COB-ID of SYNC, as last learned.
+    pub(crate) sync_id: u32,
 }
 
 impl Dut<'_> {

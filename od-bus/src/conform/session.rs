@@ -76,6 +76,7 @@ impl<'s> Session<'s> {
             undo: Vec::new(),
             notes: Vec::new(),
             may_reset: self.leave.reset,
+            sync_id: 0x80,
         };
         let mut result = match &self.lost {
             Some(why) => skip(why),

@@ -112,7 +112,7 @@ fn watched(dut: &Dut<'_>) -> u8 {
 }
 
 /// 1016h:01 for the watched node.
-fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
+pub(super) fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
     if !dut.eds.writes(0x1016, 1) {
         return lacks("1016h:01 cannot be written");
     }
@@ -122,7 +122,7 @@ fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
     Ok(node)
 }
 
-fn beat(dut: &mut Dut<'_>, node: u8) -> Checked {
+pub(super) fn beat(dut: &mut Dut<'_>, node: u8) -> Checked {
     dut.send_to(0x700 + u16::from(node), &[5])
 }
 

@@ -1,12 +1,19 @@
 //! The steps that are written in Rust, a file for each service: `check NAME` in a case.
 
 mod block;
+mod emergency;
+mod encoder;
 mod file;
 mod heartbeat;
+mod lss;
+mod mapping;
 mod nmt;
 mod objects;
+mod rpdo;
 mod segments;
 mod store;
+mod sync;
+mod tpdo;
 mod transfer;
 
 use super::dut::Dut;
@@ -17,7 +24,7 @@ pub(super) type Check = fn(&mut Dut<'_>) -> Checked;
 
 /// Every step by its name, which is that of the case about it.
 #[rustfmt::skip]
-pub(super) const NAMES: [(&str, Check); 110] = [
+pub(super) const NAMES: [(&str, Check); 185] = [
     ("eds-no-errors", file::no_errors),
     ("eds-mandatory", file::mandatory),
     ("eds-device-type", file::device_type),
@@ -107,6 +114,81 @@ pub(super) const NAMES: [(&str, Check); 110] = [
     ("guarding-objects", heartbeat::guarding_objects),
     ("guarding-life", heartbeat::life_guarding),
     ("guarding-not-with-heartbeat", heartbeat::heartbeat_excludes),
+    ("pdo-objects", tpdo::objects),
+    ("pdo-mapped-objects", tpdo::mapped_objects),
+    ("tpdo-event-timer", tpdo::event_timer),
+    ("tpdo-sync-every", tpdo::sync_every),
+    ("tpdo-sync-third", tpdo::sync_third),
+    ("tpdo-acyclic", tpdo::acyclic),
+    ("tpdo-rtr", tpdo::rtr),
+    ("tpdo-not-in-pre-operational", tpdo::not_in_pre_operational),
+    ("tpdo-not-in-stopped", tpdo::not_in_stopped),
+    ("tpdo-sync-not-in-stopped", tpdo::sync_not_in_stopped),
+    ("tpdo-length", tpdo::length),
+    ("tpdo-content", tpdo::content),
+    ("tpdo-off", tpdo::off),
+    ("tpdo-cob-id", tpdo::cob_id),
+    ("tpdo-reserved-types", tpdo::reserved_types),
+    ("tpdo-inhibit", tpdo::inhibit),
+    ("mapping-procedure", mapping::procedure),
+    ("mapping-new", mapping::new_mapping),
+    ("mapping-without-procedure", mapping::without_procedure),
+    ("mapping-while-on", mapping::while_on),
+    ("mapping-too-many", mapping::too_many),
+    ("mapping-too-long", mapping::too_long),
+    ("mapping-missing-object", mapping::missing_object),
+    ("mapping-not-mappable", mapping::not_mappable),
+    ("rpdo-write", rpdo::write),
+    ("rpdo-not-in-pre-operational", rpdo::not_in_pre_operational),
+    ("rpdo-short", rpdo::short),
+    ("rpdo-synchronous", rpdo::synchronous),
+    ("rpdo-off", rpdo::off),
+    ("sync-cob-id", sync::cob_id),
+    ("sync-other-cob-id", sync::other_cob_id),
+    ("sync-producer", sync::producer),
+    ("sync-producer-off", sync::producer_off),
+    ("sync-counter", sync::counter),
+    ("sync-counter-range", sync::counter_range),
+    ("emcy-cob-id", emergency::cob_id),
+    ("emcy-register", emergency::register),
+    ("emcy-history", emergency::history),
+    ("emcy-history-clear", emergency::history_clear),
+    ("emcy-history-refuses", emergency::history_refuses),
+    ("emcy-inhibit", emergency::inhibit),
+    ("emcy-message", emergency::message),
+    ("emcy-logged", emergency::logged),
+    ("emcy-reset", emergency::reset),
+    ("emcy-off", emergency::off),
+    ("emcy-not-in-stopped", emergency::not_in_stopped),
+    ("time-cob-id", sync::time_cob_id),
+    ("time-message", sync::time),
+    ("lss-selective", lss::selective),
+    ("lss-selective-other", lss::selective_other),
+    ("lss-waiting-silent", lss::waiting_silent),
+    ("lss-inquire-identity", lss::inquire_identity),
+    ("lss-inquire-node-id", lss::inquire_node_id),
+    ("lss-identify", lss::identify),
+    ("lss-identify-unconfigured", lss::identify_unconfigured),
+    ("lss-node-id", lss::node_id),
+    ("lss-node-id-range", lss::node_id_range),
+    ("lss-bit-timing-range", lss::bit_timing_range),
+    ("lss-unknown", lss::unknown),
+    ("lss-fastscan-configured", lss::fastscan_configured),
+    ("lss-fastscan", lss::fastscan),
+    ("lss-store", lss::store),
+    ("error-behaviour-pre-operational", emergency::behaviour_pre_operational),
+    ("error-behaviour-none", emergency::behaviour_none),
+    ("error-behaviour-stopped", emergency::behaviour_stopped),
+    ("error-behaviour-range", emergency::behaviour_range),
+    ("encoder-objects", encoder::objects),
+    ("encoder-position", encoder::position),
+    ("encoder-status", encoder::status),
+    ("encoder-code-sequence", encoder::code_sequence),
+    ("encoder-steps", encoder::steps),
+    ("encoder-preset", encoder::preset),
+    ("encoder-alarms", encoder::alarms),
+    ("encoder-warnings", encoder::warnings),
+    ("encoder-serial", encoder::serial),
     ("store-can", store::save_can),
     ("store-signature", store::save_signature),
     ("store-save", store::save),

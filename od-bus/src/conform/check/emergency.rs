@@ -1,0 +1,203 @@
+//! EMCY: message, register, history.
+
+use od_model::{Address, values};
+use od_wire::AbortCode::{LocalControl, NoData, NoSubIndex, ValueRange, ValueTooHigh};
+use od_wire::nmt::Command;
+use od_wire::{CobId, Frame};
+
+use super::heartbeat::{beat, emcy, watch};
+use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::end::{Checked, ensure, fail};
+use crate::conform::sdo::{abort_text, is_abort, request};
+
+const HISTORY: Address = Address::new(0x1003, 0);
+
+pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
+    let raw = dut.number(0x1014, 0)? as u32;
+    let wanted = u32::from(dut.id(0x80));
+    ensure(
+        raw & 0x7FFF_FFFF == wanted,
+        format!("1014h = {wanted:X}h, as predefined"),
+        format!("{raw:X}h was read"),
+    )
+}
+
+pub(super) fn register(dut: &mut Dut<'_>) -> Checked {
+    let bytes = dut.read(Address::new(0x1001, 0))?;
+    let shown = values::hex(&bytes);
+    ensure(
+        bytes.len() == 1 && (bytes[0] == 0 || bytes[0] & 1 == 1),
+        "one byte in 1001h, with bit 0 if there is any error",
+        format!("{shown} was read"),
+    )
+}
+
+/// As many entries as sub-index 0 says, and no more.
+pub(super) fn history(dut: &mut Dut<'_>) -> Checked {
+    let count = dut.number(0x1003, 0)?;
+    for sub in 1..=count.min(254) as u8 {
+        dut.read(Address::new(0x1003, sub))?;
+    }
+    if count < 254 {
+        let beyond = Address::new(0x1003, count as u8 + 1);
+        match dut.upload(beyond)? {
+            // 0 in the place of an error that there is not.
+            Ok(bytes) => ensure(
+                bytes.iter().all(|byte| *byte == 0),
+                format!("no error in {beyond}"),
+                values::hex(&bytes),
+            )?,
+            Err(code) => is_abort(
+                &request(0x80, beyond, code.to_le_bytes()),
+                &[NoData, NoSubIndex],
+            )?,
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
+    dut.write(HISTORY, &[0])?;
+    let count = dut.number(0x1003, 0)?;
+    ensure(
+        count == 0,
+        "no entry after 0 was written to 1003h:00",
+        format!("{count} entries"),
+    )
+}
+
+pub(super) fn history_refuses(dut: &mut Dut<'_>) -> Checked {
+    dut.refuses_value(HISTORY, &[1], &[ValueRange, ValueTooHigh, LocalControl])
+}
+
+pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1015, 0);
+    dut.set(address, &[10, 0])?;
+    let is = dut.number(0x1015, 0)?;
+    ensure(is == 10, "10 in 1015h", format!("{is} was read"))
+}
+
+/// An error: a node that is watched falls silent.
+fn provoke(dut: &mut Dut<'_>) -> Checked<u8> {
+    let node = watch(dut, 100)?;
+    dut.nmt(Command::Start)?;
+    beat(dut, node)?;
+    Ok(node)
+}
+
+fn provoked(dut: &mut Dut<'_>) -> Checked<(u8, Frame)> {
+    let node = provoke(dut)?;
+    match emcy(dut, 0x8130, 1_000_000)? {
+        Some(frame) => Ok((node, frame)),
+        None => fail("EMCY 8130h within 1 s of the last heartbeat", "none came"),
+    }
+}
+
+pub(super) fn message(dut: &mut Dut<'_>) -> Checked {
+    let (_, frame) = provoked(dut)?;
+    let got = format!("{frame} came");
+    ensure(frame.dlc() == 8, "an EMCY message of 8 bytes", got.clone())?;
+    let register = frame.bytes()[2];
+    ensure(
+        register & 0x11 == 0x11,
+        "bits 0 and 4 in byte 2, the error register",
+        got,
+    )?;
+    let is = dut.number(0x1001, 0)?;
+    ensure(
+        is == u64::from(register),
+        format!("1001h = {register:02X}h, as in the message"),
+        format!("{is:02X}h was read"),
+    )
+}
+
+pub(super) fn logged(dut: &mut Dut<'_>) -> Checked {
+    provoked(dut)?;
+    let count = dut.number(0x1003, 0)?;
+    ensure(count > 0, "an entry in 1003h", "it has none")?;
+    let newest = dut.number(0x1003, 1)?;
+    ensure(
+        newest & 0xFFFF == 0x8130,
+        "8130h in 1003h:01, the newest error",
+        format!("{newest:08X}h was read"),
+    )
+}
+
+/// When the error is over there is EMCY 0000h, or one without the bits of the error.
+pub(super) fn reset(dut: &mut Dut<'_>) -> Checked {
+    let (node, _) = provoked(dut)?;
+    dut.drain()?;
+    for _ in 0..5 {
+        beat(dut, node)?;
+        let id = dut.id(0x80);
+        if let Some(heard) = dut.next(80_000, |frame| is_data(frame, id))? {
+            let frame = heard.frame;
+            return ensure(
+                frame.data().starts_with(&[0, 0]),
+                "EMCY 0000h when the heartbeat comes again",
+                format!("{frame} came"),
+            );
+        }
+    }
+    fail("EMCY 0000h when the heartbeat comes again", "none came")
+}
+
+pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1014, 0);
+    let raw = dut.number(0x1014, 0)? as u32;
+    dut.keep(address)?;
+    if let Err(code) = dut.download(address, &(raw | 1 << 31).to_le_bytes())? {
+        return super::super::end::lacks(format!(
+            "1014h cannot be switched off: {}",
+            abort_text(code)
+        ));
+    }
+    provoke(dut)?;
+    let id = CobId::new(raw).can_id();
+    match dut.next(500_000, |frame| frame.id() == id)? {
+        Some(heard) => fail(
+            "no EMCY while bit 31 of 1014h is set",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
+    provoke(dut)?;
+    dut.nmt(Command::Stop)?;
+    match emcy(dut, 0x8130, 500_000 + QUIET)? {
+        Some(frame) => fail("no EMCY in Stopped", format!("{frame} came")),
+        None => Ok(()),
+    }
+}
+
+/// 1029h:01 says what an error of communication does to the NMT state.
+fn behaviour(dut: &mut Dut<'_>, value: u8, state: u8) -> Checked {
+    dut.set(Address::new(0x1029, 1), &[value])?;
+    dut.follow_state()?;
+    let node = provoke(dut)?;
+    // The heartbeat of the test itself is not one of the node that is watched.
+    dut.wait(400_000)?;
+    let done = dut.is_in(state);
+    beat(dut, node)?;
+    done
+}
+
+pub(super) fn behaviour_pre_operational(dut: &mut Dut<'_>) -> Checked {
+    behaviour(dut, 0, 0x7F)
+}
+
+pub(super) fn behaviour_none(dut: &mut Dut<'_>) -> Checked {
+    behaviour(dut, 1, 5)
+}
+
+pub(super) fn behaviour_stopped(dut: &mut Dut<'_>) -> Checked {
+    behaviour(dut, 2, 4)
+}
+
+pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x1029, 1);
+    dut.keep(address)?;
+    dut.refuses_value(address, &[0x55], &[ValueRange, ValueTooHigh])
+}

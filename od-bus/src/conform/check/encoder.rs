@@ -1,0 +1,124 @@
+//! CiA 406: encoders.
+
+use od_model::{Address, values};
+use od_wire::AbortCode::{ValueRange, ValueTooHigh};
+
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, ensure, lacks};
+
+const PRESET: Address = Address::new(0x6003, 0);
+
+pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
+    for index in [0x6000, 0x6500] {
+        dut.read(Address::new(index, 0))?;
+    }
+    let has_position = dut.eds.has(0x6004) || dut.eds.has(0x6020);
+    ensure(
+        has_position,
+        "6004h or 6020h, a position value",
+        "the EDS has neither",
+    )
+}
+
+pub(super) fn position(dut: &mut Dut<'_>) -> Checked {
+    let range = dut.number(0x6002, 0)?;
+    let is = dut.number(0x6004, 0)?;
+    ensure(
+        range == 0 || is < range,
+        format!("a position below 6002h = {range}"),
+        format!("{is} was read"),
+    )
+}
+
+/// 6500h shows the bits of 6000h that are active.
+pub(super) fn status(dut: &mut Dut<'_>) -> Checked {
+    let wanted = dut.number(0x6000, 0)?;
+    let is = dut.number(0x6500, 0)?;
+    ensure(
+        (wanted ^ is) & 0b101 == 0,
+        format!("bits 0 and 2 of 6500h as in 6000h = {wanted:04X}h"),
+        format!("{is:04X}h was read"),
+    )
+}
+
+/// An alarm or warning that is shown is a supported one.
+fn supported(dut: &mut Dut<'_>, shown: u16, supported: u16) -> Checked {
+    let is = dut.number(shown, 0)?;
+    let can = dut.number(supported, 0)?;
+    ensure(
+        is & !can == 0,
+        format!("only bits of {supported:04X}h = {can:04X}h in {shown:04X}h"),
+        format!("{is:04X}h was read"),
+    )
+}
+
+pub(super) fn alarms(dut: &mut Dut<'_>) -> Checked {
+    supported(dut, 0x6503, 0x6504)
+}
+
+pub(super) fn warnings(dut: &mut Dut<'_>) -> Checked {
+    supported(dut, 0x6505, 0x6506)
+}
+
+pub(super) fn steps(dut: &mut Dut<'_>) -> Checked {
+    let most = dut.number(0x6501, 0)?;
+    let address = Address::new(0x6001, 0);
+    if most >= u64::from(u32::MAX) {
+        return lacks("6501h is the highest number that 6001h can hold");
+    }
+    dut.keep(address)?;
+    let more = (most as u32 + 1).to_le_bytes();
+    dut.refuses_value(address, &more, &[ValueRange, ValueTooHigh])
+}
+
+pub(super) fn serial(dut: &mut Dut<'_>) -> Checked {
+    let is = dut.number(0x650B, 0)?;
+    let wanted = dut.number(0x1018, 4)?;
+    ensure(
+        is == wanted,
+        format!("650Bh = {wanted}, as 1018h:04"),
+        format!("{is} was read"),
+    )
+}
+
+/// The position is the preset value at once; a reset brings back the parameters.
+pub(super) fn preset(dut: &mut Dut<'_>) -> Checked {
+    let before = dut.number(0x6004, 0)?;
+    let old = dut.read(PRESET)?;
+    let range = dut.number(0x6002, 0)?;
+    let value = if before > 200 || range <= 400 {
+        100
+    } else {
+        before as u32 + 100
+    };
+    dut.write(PRESET, &value.to_le_bytes())?;
+    let is = dut.number(0x6004, 0)?;
+    let off = is.abs_diff(value.into());
+    let off = off.min(range.wrapping_sub(off));
+    // Back by the way: the position as it was, then the preset value as it was, if it is so.
+    dut.write(PRESET, &(before as u32).to_le_bytes())?;
+    dut.notes.push(format!(
+        "the position is {before} again; 6003h was {} before",
+        values::hex(&old)
+    ));
+    ensure(
+        off <= 16,
+        format!("6004h = {value}, the preset value"),
+        format!("{is} was read"),
+    )
+}
+
+/// Bit 0 of 6000h reverses the code sequence: with a preset of 0 the position is mirrored.
+pub(super) fn code_sequence(dut: &mut Dut<'_>) -> Checked {
+    let address = Address::new(0x6000, 0);
+    let before = dut.keep(address)?;
+    let mut other = before.clone();
+    other[0] ^= 1;
+    dut.write(address, &other)?;
+    let is = dut.number(0x6500, 0)?;
+    ensure(
+        is as u8 & 1 == other[0] & 1,
+        format!("bit 0 of 6500h = {}", other[0] & 1),
+        format!("{is:04X}h was read"),
+    )
+}

@@ -1,0 +1,356 @@
+//! LSS, in Stopped, where every slave has it; others on the bus stay in the waiting state.
+
+use od_model::{Address, values};
+use od_wire::Frame;
+use od_wire::lss::{MASTER, Part, Request, SLAVE};
+use od_wire::nmt::Command;
+
+use crate::conform::dut::{Dut, QUIET, is_data};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::number;
+
+/// The four numbers of 1018h.
+fn address(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
+    let mut all = [0; 4];
+    for (sub, part) in (1..).zip(&mut all) {
+        if let Ok(bytes) = dut.upload(Address::new(0x1018, sub))? {
+            *part = number(&bytes) as u32;
+        }
+    }
+    Ok(all)
+}
+
+/// Sends a request; the answer, if one comes.
+fn ask(dut: &mut Dut<'_>, request: Request) -> Checked<Option<[u8; 8]>> {
+    raw(dut, request.emit())
+}
+
+fn raw(dut: &mut Dut<'_>, data: [u8; 8]) -> Checked<Option<[u8; 8]>> {
+    dut.drain()?;
+    dut.send(Frame::standard(MASTER, &data))?;
+    let heard = dut.next(QUIET, |frame| is_data(frame, SLAVE))?;
+    match heard {
+        Some(heard) if heard.frame.dlc() != 8 => fail(
+            "an LSS response of 8 bytes",
+            format!("{} came", heard.frame),
+        ),
+        heard => Ok(heard.map(|heard| *heard.frame.bytes())),
+    }
+}
+
+/// Fails unless the slave answers with these first bytes.
+fn answers(dut: &mut Dut<'_>, request: Request, wanted: &[u8]) -> Checked {
+    let shown = format!("LSS response {}", values::hex(wanted));
+    match ask(dut, request)? {
+        Some(answer) => {
+            let got = format!("{} came", values::hex(&answer));
+            ensure(answer.starts_with(wanted), shown, got)
+        }
+        None => fail(shown, "none came"),
+    }
+}
+
+fn stays_silent(dut: &mut Dut<'_>, data: [u8; 8], why: &str) -> Checked {
+    match raw(dut, data)? {
+        Some(answer) => fail(
+            format!("no LSS response to {}, {why}", values::hex(&data)),
+            format!("{} came", values::hex(&answer)),
+        ),
+        None => Ok(()),
+    }
+}
+
+fn waiting(dut: &mut Dut<'_>) -> Checked {
+    dut.send(Frame::standard(
+        MASTER,
+        &Request::SwitchGlobal {
+            configuration: false,
+        }
+        .emit(),
+    ))?;
+    dut.wait(20_000)
+}
+
+/// In Stopped with LSS waiting; returns the LSS address.
+fn begin(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
+    let all = address(dut)?;
+    dut.nmt(Command::Stop)?;
+    waiting(dut)?;
+    Ok(all)
+}
+
+/// Selects the node by its address; the answer to the last of the four frames.
+fn select(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked<Option<[u8; 8]>> {
+    let mut last = None;
+    for (part, value) in Part::ALL.into_iter().zip(all) {
+        if last.is_some() {
+            return fail("no LSS response before the fourth number", "one came");
+        }
+        last = ask(dut, Request::SwitchSelective { part, value })?;
+    }
+    Ok(last)
+}
+
+/// In the configuration state; returns the LSS address.
+fn configured(dut: &mut Dut<'_>) -> Checked<[u32; 4]> {
+    let all = begin(dut)?;
+    match select(dut, all)? {
+        Some([0x44, ..]) => Ok(all),
+        Some(other) => fail("LSS response 44", format!("{} came", values::hex(&other))),
+        None => fail("LSS response 44 to switch state selective", "none came"),
+    }
+}
+
+/// Does something in the configuration state, and leaves it.
+fn with(dut: &mut Dut<'_>, act: impl FnOnce(&mut Dut<'_>, [u32; 4]) -> Checked) -> Checked {
+    let all = configured(dut)?;
+    let done = act(dut, all);
+    waiting(dut)?;
+    done
+}
+
+pub(super) fn selective(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |_, _| Ok(()))
+}
+
+pub(super) fn selective_other(dut: &mut Dut<'_>) -> Checked {
+    let all = begin(dut)?;
+    for part in 0..4 {
+        let mut other = all;
+        other[part] ^= 1;
+        if let Some(answer) = select(dut, other)? {
+            waiting(dut)?;
+            return fail(
+                "no LSS response to another LSS address",
+                values::hex(&answer),
+            );
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn waiting_silent(dut: &mut Dut<'_>) -> Checked {
+    begin(dut)?;
+    let why = "as the node is in the waiting state";
+    for request in [
+        Request::InquireNodeId,
+        Request::Inquire { part: Part::Vendor },
+        Request::ConfigureNodeId {
+            node_id: dut.node.raw(),
+        },
+    ] {
+        stays_silent(dut, request.emit(), why)?;
+    }
+    Ok(())
+}
+
+pub(super) fn inquire_identity(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, all| {
+        for (part, value) in Part::ALL.into_iter().zip(all) {
+            let [a, b, c, d] = value.to_le_bytes();
+            answers(
+                dut,
+                Request::Inquire { part },
+                &[0x5A + part as u8, a, b, c, d],
+            )?;
+        }
+        Ok(())
+    })
+}
+
+pub(super) fn inquire_node_id(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        let node = dut.node.raw();
+        answers(dut, Request::InquireNodeId, &[0x5E, node])
+    })
+}
+
+pub(super) fn identify(dut: &mut Dut<'_>) -> Checked {
+    let [vendor, product, revision, serial] = begin(dut)?;
+    let right = [vendor, product, revision, revision, serial, serial];
+    let mut answer = None;
+    for (step, value) in (0..).zip(right) {
+        answer = ask(dut, Request::IdentifyRemote { step, value })?;
+    }
+    match answer {
+        Some([0x4F, ..]) => {}
+        Some(other) => return fail("LSS response 4F", values::hex(&other)),
+        None => return fail("LSS response 4F to identify remote slave", "none came"),
+    }
+    let mut wrong = right;
+    wrong[4] = serial.wrapping_add(1);
+    wrong[5] = serial.wrapping_add(2);
+    for (step, value) in (0..).zip(wrong) {
+        stays_silent(
+            dut,
+            Request::IdentifyRemote { step, value }.emit(),
+            "as its serial number is not in the range",
+        )?;
+    }
+    Ok(())
+}
+
+pub(super) fn identify_unconfigured(dut: &mut Dut<'_>) -> Checked {
+    begin(dut)?;
+    let request = Request::IdentifyNonConfigured.emit();
+    stays_silent(dut, request, "as the node has a node ID")
+}
+
+pub(super) fn fastscan_configured(dut: &mut Dut<'_>) -> Checked {
+    begin(dut)?;
+    let request = Request::Fastscan {
+        number: 0,
+        bit: 128,
+        part: 0,
+        next: 0,
+    };
+    stays_silent(dut, request.emit(), "as the node has a node ID")
+}
+
+pub(super) fn node_id_range(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        for node_id in [0, 128, 254] {
+            answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 1])?;
+        }
+        Ok(())
+    })
+}
+
+/// The node ID that the node has.
+pub(super) fn node_id(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        let node_id = dut.node.raw();
+        answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])
+    })
+}
+
+pub(super) fn bit_timing_range(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        let request = Request::ConfigureBitTiming {
+            table: 0,
+            index: 0x55,
+        };
+        answers(dut, request, &[0x13, 1])
+    })
+}
+
+pub(super) fn unknown(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        for command in [0x60, 0x02, 0x70] {
+            let data = [command, 0, 0, 0, 0, 0, 0, 0];
+            stays_silent(dut, data, "as there is no such command")?;
+        }
+        Ok(())
+    })
+}
+
+/// A configuration is stored, or the node says that it does not support it.
+pub(super) fn store(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, _| {
+        let node_id = dut.node.raw();
+        answers(dut, Request::ConfigureNodeId { node_id }, &[0x11, 0])?;
+        dut.drain()?;
+        dut.send(Frame::standard(MASTER, &Request::Store.emit()))?;
+        match dut.next(2_000_000, |frame| is_data(frame, SLAVE))? {
+            Some(heard) => match heard.frame.data() {
+                [0x17, 0, ..] => Ok(()),
+                [0x17, 1, ..] => lacks("the node does not store its configuration"),
+                _ => fail("LSS response 17 00", format!("{} came", heard.frame)),
+            },
+            None => fail("LSS response 17 00 within 2 s", "none came"),
+        }
+    })
+}
+
+/// A node without a node ID is found by fastscan, number by number, and gets its node ID again.
+pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
+    let all = configured(dut)?;
+    match ask(dut, Request::ConfigureNodeId { node_id: 255 })? {
+        Some([0x11, 0, ..]) => {}
+        _ => {
+            waiting(dut)?;
+            return lacks("the node cannot be without a node ID");
+        }
+    }
+    waiting(dut)?;
+    let node = dut.node.raw();
+    dut.send(Frame::standard(0, &[0x82, node]))?;
+    let id = dut.id(0x700);
+    let keeps = dut.next_of(id, 1_000_000)?.is_some();
+    let done = match keeps {
+        true => lacks("the node keeps its node ID"),
+        false => scan(dut, all),
+    };
+    // Whatever came of it, the node gets its node ID.
+    if keeps {
+        begin(dut)?;
+    }
+    let found = select(dut, all)?;
+    if found.is_none() {
+        ask(
+            dut,
+            Request::SwitchGlobal {
+                configuration: true,
+            },
+        )?;
+    }
+    ask(dut, Request::ConfigureNodeId { node_id: node })?;
+    let from = dut.now();
+    waiting(dut)?;
+    if !keeps {
+        if dut.next_of(id, 5_000_000)?.is_none() {
+            return done.and(fail(
+                "the boot-up message with the node ID from LSS",
+                "none came",
+            ));
+        }
+        dut.times.boots.push(dut.now().micros_since(from));
+    }
+    done
+}
+
+fn scan(dut: &mut Dut<'_>, all: [u32; 4]) -> Checked {
+    let start = Request::Fastscan {
+        number: 0,
+        bit: 128,
+        part: 0,
+        next: 0,
+    };
+    if ask(dut, start)?.is_none() {
+        return lacks("the node does not have fastscan");
+    }
+    for (part, number) in (0..).zip(all) {
+        for bit in (0..32u8).rev() {
+            // The bits so far right, this one 0: an answer if it is 0 in the node's number, too.
+            let known = u64::from(number) >> (bit + 1) << (bit + 1);
+            let request = Request::Fastscan {
+                number: known as u32,
+                bit,
+                part,
+                next: part,
+            };
+            let came = ask(dut, request)?;
+            let wanted = number >> bit & 1 == 0;
+            if came.is_some() != wanted {
+                let word = |yes| if yes { "a response" } else { "no response" };
+                return fail(
+                    format!("{} to bit {bit} of number {part}", word(wanted)),
+                    word(came.is_some()),
+                );
+            }
+        }
+        let next = if part == 3 { 0 } else { part + 1 };
+        answers(
+            dut,
+            Request::Fastscan {
+                number,
+                bit: 0,
+                part,
+                next,
+            },
+            &[0x4F],
+        )?;
+    }
+    // Now it is in the configuration state.
+    answers(dut, Request::Inquire { part: Part::Vendor }, &[0x5A])
+}

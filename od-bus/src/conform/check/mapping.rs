@@ -1,0 +1,198 @@
+//! PDO mapping: the procedure of CiA 301, and what is refused.
+
+use od_model::{Address, Entry};
+use od_wire::AbortCode::{
+    DeviceState, Incompatible, NoObject, NoSubIndex, NotMappable, PdoTooLong, SubZeroFirst,
+    UnsupportedAccess, ValueRange, ValueTooHigh,
+};
+
+use super::tpdo::{Tpdo, first, mapping};
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, ensure, lacks};
+
+/// The first TPDO, off and with an open mapping; afterwards [`close`].
+struct Open {
+    pdo: Tpdo,
+    entries: Vec<u32>,
+}
+
+fn variable(dut: &mut Dut<'_>) -> Checked<Tpdo> {
+    let pdo = first(dut)?;
+    if !dut.eds.writes(pdo.map(), 0) || !dut.eds.writes(pdo.map(), 1) {
+        return lacks("the mapping cannot be written");
+    }
+    Ok(pdo)
+}
+
+fn switch(dut: &mut Dut<'_>, pdo: &Tpdo, on: bool) -> Checked {
+    let bit = if on { 0 } else { 1 << 31 };
+    dut.write(pdo.address(1), &(pdo.cob_id | bit).to_le_bytes())
+}
+
+fn open(dut: &mut Dut<'_>) -> Checked<Open> {
+    let pdo = variable(dut)?;
+    let all = mapping(dut, pdo.map())?;
+    let raw = |mapped: &super::tpdo::Mapped| {
+        let Address { index, sub } = mapped.address;
+        u32::from(index) << 16 | u32::from(sub) << 8 | mapped.bits as u32
+    };
+    let entries = all.iter().map(raw).collect();
+    switch(dut, &pdo, false)?;
+    dut.write(Address::new(pdo.map(), 0), &[0])?;
+    Ok(Open { pdo, entries })
+}
+
+/// The mapping as it was, and the TPDO on again.
+fn close(dut: &mut Dut<'_>, open: &Open) -> Checked {
+    let map = open.pdo.map();
+    dut.write(Address::new(map, 0), &[0])?;
+    for (sub, entry) in (1..).zip(&open.entries) {
+        dut.write(Address::new(map, sub), &entry.to_le_bytes())?;
+    }
+    dut.write(Address::new(map, 0), &[open.entries.len() as u8])?;
+    switch(dut, &open.pdo, true)?;
+    dut.notes.push(format!("put back the mapping {map:04X}h"));
+    Ok(())
+}
+
+/// What is tried with an open mapping, which is closed again.
+fn with(dut: &mut Dut<'_>, test: impl FnOnce(&mut Dut<'_>, u16) -> Checked) -> Checked {
+    let open = open(dut)?;
+    let done = test(dut, open.pdo.map());
+    let closed = close(dut, &open);
+    done.and(closed)
+}
+
+pub(super) fn procedure(dut: &mut Dut<'_>) -> Checked {
+    let open = open(dut)?;
+    close(dut, &open)?;
+    let all = mapping(dut, open.pdo.map())?;
+    ensure(
+        all.len() == open.entries.len(),
+        format!("{} mapped objects", open.entries.len()),
+        format!("{} are mapped", all.len()),
+    )
+}
+
+pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
+    let pdo = variable(dut)?;
+    switch(dut, &pdo, false)?;
+    let map = pdo.map();
+    let entry = dut.read(Address::new(map, 1))?;
+    let codes = [
+        UnsupportedAccess,
+        NotMappable,
+        SubZeroFirst,
+        DeviceState,
+        Incompatible,
+    ];
+    let done = dut.refuses_value(Address::new(map, 1), &entry, &codes);
+    switch(dut, &pdo, true)?;
+    done
+}
+
+pub(super) fn while_on(dut: &mut Dut<'_>) -> Checked {
+    let pdo = variable(dut)?;
+    let count = dut.read(Address::new(pdo.map(), 0))?;
+    let codes = [UnsupportedAccess, NotMappable, DeviceState, Incompatible];
+    let zero = Address::new(pdo.map(), 0);
+    let done = dut.refuses_value(zero, &[0], &codes);
+    if done.is_err() {
+        dut.undo.push((zero, count));
+    }
+    done
+}
+
+pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
+    with(dut, |dut, map| {
+        let codes = [
+            PdoTooLong,
+            ValueRange,
+            ValueTooHigh,
+            NotMappable,
+            UnsupportedAccess,
+        ];
+        dut.refuses_value(Address::new(map, 0), &[65], &codes)
+    })
+}
+
+/// An object that the EDS lets a TPDO carry.
+fn mappable(dut: &Dut<'_>) -> Option<Entry> {
+    let mut entries = dut.eds.dictionary().entries();
+    entries
+        .find(|entry| entry.maps_to_tpdo() && entry.data_type.bits().is_some_and(|bits| bits >= 8))
+}
+
+fn raw(entry: &Entry) -> u32 {
+    let Address { index, sub } = entry.address;
+    let bits = entry.data_type.bits().unwrap_or(0);
+    u32::from(index) << 16 | u32::from(sub) << 8 | u32::from(bits)
+}
+
+pub(super) fn too_long(dut: &mut Dut<'_>) -> Checked {
+    let Some(entry) = mappable(dut) else {
+        return lacks("no object can be mapped");
+    };
+    let bits = entry.data_type.bits().unwrap_or(8);
+    let count = 64 / bits + 1;
+    let pdo = variable(dut)?;
+    if !dut.eds.writes(pdo.map(), count) {
+        return lacks("the mapping has no room for more than 64 bits of the first object");
+    }
+    with(dut, |dut, map| {
+        for sub in 1..=count {
+            let address = Address::new(map, sub);
+            // Some servers refuse the entry that is too much already.
+            match dut.download(address, &raw(&entry).to_le_bytes())? {
+                Ok(()) => {}
+                Err(code) if sub > 1 && code == PdoTooLong.code() => return Ok(()),
+                Err(_) => return lacks("the node does not map one object twice"),
+            }
+        }
+        dut.refuses_value(Address::new(map, 0), &[count], &[PdoTooLong])
+    })
+}
+
+pub(super) fn missing_object(dut: &mut Dut<'_>) -> Checked {
+    let Some(index) = dut.eds.absent(&[0x9FFF, 0x5FFF, 0x9FFE]) else {
+        return lacks("the EDS has every object that could be missing");
+    };
+    refused_entry(dut, u32::from(index) << 16 | 8)
+}
+
+pub(super) fn not_mappable(dut: &mut Dut<'_>) -> Checked {
+    let entry = dut.eds.entry(0x1000, 0).filter(|entry| !entry.mappable);
+    match entry {
+        Some(entry) => refused_entry(dut, raw(&entry)),
+        None => lacks("the EDS lets a TPDO carry 1000h"),
+    }
+}
+
+/// An entry that no TPDO may have, refused at once or with the number of entries.
+fn refused_entry(dut: &mut Dut<'_>, entry: u32) -> Checked {
+    with(dut, |dut, map| {
+        let codes = [NotMappable, NoObject, NoSubIndex];
+        let first = Address::new(map, 1);
+        match dut.download(first, &entry.to_le_bytes())? {
+            Ok(()) => dut.refuses_value(Address::new(map, 0), &[1], &codes),
+            Err(_) => dut.refuses_value(first, &entry.to_le_bytes(), &codes),
+        }
+    })
+}
+
+/// The objects of another mapping are in the TPDO.
+pub(super) fn new_mapping(dut: &mut Dut<'_>) -> Checked {
+    let Some(entry) = mappable(dut) else {
+        return lacks("no object can be mapped");
+    };
+    with(dut, |dut, map| {
+        dut.write(Address::new(map, 1), &raw(&entry).to_le_bytes())?;
+        dut.write(Address::new(map, 0), &[1])?;
+        let is = dut.number(map, 1)?;
+        ensure(
+            is == u64::from(raw(&entry)),
+            format!("{:08X}h in {map:04X}h:01", raw(&entry)),
+            format!("{is:08X}h was read"),
+        )
+    })
+}

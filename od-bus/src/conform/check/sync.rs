@@ -1,0 +1,151 @@
+//! SYNC, TIME: consumer and producer.
+
+use od_model::Address;
+use od_wire::CobId;
+use od_wire::nmt::Command;
+
+use super::tpdo::{learn_sync, sync, typed};
+use crate::conform::dut::{Dut, QUIET};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::link::Heard;
+
+const COB_ID: Address = Address::new(0x1005, 0);
+
+pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
+    let raw = dut.number(0x1005, 0)?;
+    ensure(
+        raw & 0x3FFF_F800 == 0 || raw & 0x2000_0000 != 0,
+        "an identifier of 11 bits, or bit 29, in 1005h",
+        format!("{raw:08X}h was read"),
+    )
+}
+
+/// TPDOs follow another identifier in 1005h.
+pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    let old = dut.sync_id;
+    let other = (old & !0x7FF) | 0x7F;
+    dut.keep(COB_ID)?;
+    if dut.download(COB_ID, &other.to_le_bytes())?.is_err() {
+        return lacks("the node does not take another identifier");
+    }
+    let id = CobId::new(pdo.cob_id).can_id();
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    sync(dut)?;
+    if let Some(heard) = dut.next(QUIET, |frame| frame.id() == id)? {
+        return fail("no TPDO with the old SYNC", format!("{} came", heard.frame));
+    }
+    dut.sync_id = other;
+    sync(dut)?;
+    let came = dut.next(QUIET, |frame| frame.id() == id)?;
+    dut.sync_id = old;
+    ensure(came.is_some(), "a TPDO with the new SYNC 07Fh", "none came")
+}
+
+/// The node's SYNC messages, when it produces them every 50 ms.
+fn produced(dut: &mut Dut<'_>, count: usize) -> Checked<Vec<Heard>> {
+    learn_sync(dut)?;
+    let raw = dut.number(0x1005, 0)? as u32;
+    dut.keep(COB_ID)?;
+    dut.set(Address::new(0x1006, 0), &50_000u32.to_le_bytes())?;
+    if dut
+        .download(COB_ID, &(raw | 1 << 30).to_le_bytes())?
+        .is_err()
+    {
+        return lacks("the node does not produce SYNC");
+    }
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    let id = CobId::new(raw).can_id();
+    let mut all = Vec::new();
+    for _ in 0..count {
+        match dut.next(200_000, |frame| frame.id() == id)? {
+            Some(heard) => all.push(heard),
+            None => return fail("a SYNC message every 50 ms", "none came for 200 ms"),
+        }
+    }
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(COB_ID, &raw.to_le_bytes())?;
+    Ok(all)
+}
+
+pub(super) fn producer(dut: &mut Dut<'_>) -> Checked {
+    let all = produced(dut, 6)?;
+    for pair in all.windows(2) {
+        let gap = pair[1].at.micros_since(pair[0].at);
+        ensure(
+            gap.abs_diff(50_000) <= 5_000 + dut.rig.slack(),
+            "a SYNC message every 50 ms, 10 % off at most",
+            format!("one came after {} us", gap),
+        )?;
+    }
+    let wrong = all.iter().find(|heard| heard.frame.dlc() != 0);
+    match wrong {
+        Some(heard) => fail(
+            "SYNC without data, as 1019h is 0",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn producer_off(dut: &mut Dut<'_>) -> Checked {
+    produced(dut, 1)?;
+    let id = CobId::new(dut.sync_id).can_id();
+    match dut.next(200_000, |frame| frame.id() == id)? {
+        Some(heard) => fail(
+            "no SYNC without bit 30 of 1005h",
+            format!("{} came", heard.frame),
+        ),
+        None => Ok(()),
+    }
+}
+
+/// With 1019h the messages count from 1 to its value.
+pub(super) fn counter(dut: &mut Dut<'_>) -> Checked {
+    dut.set(Address::new(0x1019, 0), &[4])?;
+    let all = produced(dut, 9)?;
+    let counts: Vec<u8> = all.iter().map(|heard| heard.frame.bytes()[0]).collect();
+    let follows = |pair: &[u8]| pair[1] == if pair[0] == 4 { 1 } else { pair[0] + 1 };
+    let is_right = all.iter().all(|heard| heard.frame.dlc() == 1)
+        && counts.iter().all(|count| (1..=4).contains(count))
+        && counts.windows(2).all(follows);
+    // 1019h can be put back only while 1006h is 0.
+    dut.write(Address::new(0x1006, 0), &[0; 4])?;
+    ensure(
+        is_right,
+        "SYNC with a counter from 1 to 4",
+        format!("{counts:?}"),
+    )
+}
+
+pub(super) fn counter_range(dut: &mut Dut<'_>) -> Checked {
+    use od_wire::AbortCode::{ValueRange, ValueTooHigh, ValueTooLow};
+    let address = Address::new(0x1019, 0);
+    dut.keep(address)?;
+    for value in [1, 241, 255] {
+        dut.refuses_value(address, &[value], &[ValueRange, ValueTooHigh, ValueTooLow])?;
+    }
+    Ok(())
+}
+
+pub(super) fn time_cob_id(dut: &mut Dut<'_>) -> Checked {
+    let raw = dut.number(0x1012, 0)?;
+    ensure(
+        raw & 0x1FFF_F800 == 0 || raw & 0x2000_0000 != 0,
+        "an identifier of 11 bits, or bit 29, in 1012h",
+        format!("{raw:08X}h was read"),
+    )
+}
+
+/// TIME messages, right and wrong, leave the node at work.
+pub(super) fn time(dut: &mut Dut<'_>) -> Checked {
+    let raw = dut.number(0x1012, 0)? as u16 & 0x7FF;
+    for data in [&[0, 0, 0, 0, 0x20, 0x40][..], &[], &[1, 2, 3]] {
+        dut.send_to(raw, data)?;
+        dut.wait(20_000)?;
+    }
+    dut.still_serves()
+}

@@ -1,0 +1,479 @@
+//! TPDOs: when they come, and what they carry.
+
+use od_model::{Address, values};
+use od_wire::AbortCode::{ValueRange, ValueTooHigh};
+use od_wire::nmt::Command;
+use od_wire::{CanId, CobId, Frame};
+
+use crate::conform::dut::{Dut, QUIET};
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::conform::sdo::number;
+use crate::link::Heard;
+
+/// A TPDO that is on.
+pub(super) struct Tpdo {
+    /// Index of the communication parameters, 1800h and up.
+    pub(super) com: u16,
+    /// The COB-ID as it was.
+    pub(super) cob_id: u32,
+}
+
+impl Tpdo {
+    pub(super) fn address(&self, sub: u8) -> Address {
+        Address::new(self.com, sub)
+    }
+
+    pub(super) fn map(&self) -> u16 {
+        self.com + 0x200
+    }
+
+    fn id(&self) -> CanId {
+        CobId::new(self.cob_id).can_id()
+    }
+
+    fn carries(&self, frame: &Frame) -> bool {
+        frame.id() == self.id() && !frame.is_remote()
+    }
+}
+
+/// One entry of a mapping.
+pub(super) struct Mapped {
+    pub(super) address: Address,
+    pub(super) bits: usize,
+}
+
+/// The mapping, as the node has it.
+pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
+    let count = dut.number(map, 0)?.min(64) as u8;
+    let mut all = Vec::new();
+    for sub in 1..=count {
+        let raw = dut.number(map, sub)?;
+        all.push(Mapped {
+            address: Address::new((raw >> 16) as u16, (raw >> 8) as u8),
+            bits: (raw & 0xFF) as usize,
+        });
+    }
+    Ok(all)
+}
+
+/// The first TPDO that is on.
+pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
+    for pdo in dut.eds.pdos(0x1800) {
+        let com = 0x1800 + pdo;
+        let cob_id = dut.number(com, 1)? as u32;
+        if CobId::new(cob_id).is_valid() && dut.number(com + 0x200, 0)? > 0 {
+            return Ok(Tpdo { com, cob_id });
+        }
+    }
+    lacks("no TPDO is on")
+}
+
+/// The first TPDO, sent by its event timer alone every so many milliseconds.
+pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
+    let pdo = first(dut)?;
+    if !dut.eds.writes(pdo.com, 5) {
+        return lacks(format!(
+            "{:04X}h:05, the event timer, cannot be written",
+            pdo.com
+        ));
+    }
+    event_driven(dut, &pdo)?;
+    dut.set(pdo.address(5), &millis.to_le_bytes())?;
+    Ok(pdo)
+}
+
+/// Transmission type 254 or 255.
+fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let now = dut.keep(pdo.address(2))?;
+    if matches!(now.first(), Some(254 | 255)) {
+        return Ok(());
+    }
+    for kind in [254, 255] {
+        if dut.download(pdo.address(2), &[kind])?.is_ok() {
+            return Ok(());
+        }
+    }
+    lacks("the TPDO cannot be event-driven")
+}
+
+/// The first TPDO with this transmission type, without an event timer.
+pub(super) fn typed(dut: &mut Dut<'_>, kind: u8) -> Checked<Tpdo> {
+    let pdo = first(dut)?;
+    dut.keep(pdo.address(2))?;
+    if dut.download(pdo.address(2), &[kind])?.is_err() {
+        return lacks(format!("the TPDO does not take transmission type {kind}"));
+    }
+    Ok(pdo)
+}
+
+fn next(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64) -> Checked<Option<Heard>> {
+    dut.next(micros, |frame| pdo.carries(frame))
+}
+
+fn none(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64, expected: &str) -> Checked {
+    match next(dut, pdo, micros)? {
+        Some(heard) => fail(expected, format!("{} came", heard.frame)),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn sync(dut: &mut Dut<'_>) -> Checked {
+    let raw = match dut.eds.has(0x1005) {
+        true => dut.sync_id,
+        false => 0x80,
+    };
+    let frame = Frame::new(CobId::new(raw).can_id(), &[]);
+    frame.map_or(Ok(()), |frame| dut.send(frame))
+}
+
+pub(super) fn objects(dut: &mut Dut<'_>) -> Checked {
+    for base in [0x1400, 0x1800] {
+        for pdo in dut.eds.pdos(base) {
+            for (index, sub) in [(base + pdo, 1), (base + pdo, 2), (base + 0x200 + pdo, 0)] {
+                dut.read(Address::new(index, sub))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The objects of the default mappings exist, have that length, and fit into a frame.
+pub(super) fn mapped_objects(dut: &mut Dut<'_>) -> Checked {
+    for base in [0x1600, 0x1A00] {
+        for pdo in dut.eds.pdos(base - 0x200) {
+            let map = base + pdo;
+            let all = mapping(dut, map)?;
+            for mapped in &all {
+                let Address { index, sub } = mapped.address;
+                if base == 0x1600 && index < 0x20 {
+                    continue;
+                }
+                let name = format!("{} of {map:04X}h", mapped.address);
+                let Some(entry) = dut.eds.entry(index, sub) else {
+                    return fail(format!("{name} in the EDS"), "it does not have it");
+                };
+                let bits = entry.data_type.bits().map_or(mapped.bits, usize::from);
+                ensure(
+                    bits == mapped.bits || bits.div_ceil(8) * 8 == mapped.bits,
+                    format!("{bits} bits of {name}"),
+                    format!("{} are mapped", mapped.bits),
+                )?;
+            }
+            let bits: usize = all.iter().map(|mapped| mapped.bits).sum();
+            ensure(
+                bits <= 64,
+                format!("64 bits in {map:04X}h at most"),
+                format!("{bits} are mapped"),
+            )?;
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn event_timer(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 100)?;
+    gaps(
+        dut,
+        &pdo,
+        5,
+        |gap, slack| gap.abs_diff(100_000) <= 10_000 + slack,
+        "every 100 ms",
+    )
+}
+
+/// The gaps between TPDOs in Operational; the one in the middle has to be right.
+fn gaps(
+    dut: &mut Dut<'_>,
+    pdo: &Tpdo,
+    count: usize,
+    is_right: impl Fn(u64, u64) -> bool,
+    shown: &str,
+) -> Checked {
+    dut.nmt(Command::Start)?;
+    let mut last = None;
+    let mut all = Vec::new();
+    // The first may be one that the start brings about.
+    for turn in 0..=count + 1 {
+        let Some(heard) = next(dut, pdo, 500_000)? else {
+            return fail(format!("a TPDO {shown}"), "none came within 500 ms");
+        };
+        let before = last.replace(heard.at);
+        if turn > 1
+            && let Some(before) = before
+        {
+            all.push(heard.at.micros_since(before));
+        }
+    }
+    all.sort_unstable();
+    let middle = all[all.len() / 2];
+    ensure(
+        is_right(middle, dut.rig.slack()),
+        format!("a TPDO {shown}"),
+        format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
+    )
+}
+
+pub(super) fn sync_every(dut: &mut Dut<'_>) -> Checked {
+    sync_each(dut, 1, 5)
+}
+
+pub(super) fn sync_third(dut: &mut Dut<'_>) -> Checked {
+    sync_each(dut, 3, 9)
+}
+
+/// One TPDO with every so-manieth SYNC, and none without.
+fn sync_each(dut: &mut Dut<'_>, kind: u8, count: u8) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, kind)?;
+    dut.nmt(Command::Start)?;
+    none(dut, &pdo, 200_000, "no TPDO without SYNC")?;
+    let mut came = Vec::new();
+    for turn in 0..count {
+        sync(dut)?;
+        let mut number = 0;
+        while next(dut, &pdo, 30_000)?.is_some() {
+            number += 1;
+            if number > 3 {
+                break;
+            }
+        }
+        if number > 0 {
+            came.push((turn, number));
+        }
+    }
+    let wanted = count / kind;
+    let is_even = came.windows(2).all(|pair| pair[1].0 - pair[0].0 == kind);
+    ensure(
+        came.len() == usize::from(wanted) && is_even && came.iter().all(|(_, number)| *number == 1),
+        format!("one TPDO with every {kind}. SYNC"),
+        format!("of {count} SYNCs these had some: {came:?}"),
+    )
+}
+
+/// Keeps the identifier of SYNC for [`sync`].
+pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
+    if dut.eds.has(0x1005) {
+        dut.sync_id = dut.number(0x1005, 0)? as u32 & 0x3FFF_FFFF;
+    }
+    Ok(())
+}
+
+pub(super) fn acyclic(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 0)?;
+    dut.nmt(Command::Start)?;
+    none(dut, &pdo, 300_000, "no TPDO without SYNC")
+}
+
+pub(super) fn rtr(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    if !CobId::new(pdo.cob_id).allows_rtr() {
+        return lacks("the COB-ID does not allow remote frames (bit 30)");
+    }
+    dut.nmt(Command::Start)?;
+    dut.drain()?;
+    let bits: usize = mapping(dut, pdo.map())?
+        .iter()
+        .map(|mapped| mapped.bits)
+        .sum();
+    dut.ask_for(pdo.id(), bits.div_ceil(8) as u8)?;
+    match next(dut, &pdo, QUIET)? {
+        Some(_) => Ok(()),
+        None => fail("a TPDO within 100 ms of the remote frame", "none came"),
+    }
+}
+
+pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = timed(dut, 50)?;
+    dut.drain()?;
+    quiet(dut, &pdo, "Pre-operational")
+}
+
+pub(super) fn not_in_stopped(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = timed(dut, 50)?;
+    dut.nmt(Command::Start)?;
+    dut.wait(QUIET)?;
+    dut.nmt(Command::Stop)?;
+    dut.drain()?;
+    quiet(dut, &pdo, "Stopped")
+}
+
+pub(super) fn sync_not_in_stopped(dut: &mut Dut<'_>) -> Checked {
+    learn_sync(dut)?;
+    let pdo = typed(dut, 1)?;
+    for (command, state) in [
+        (Command::EnterPreOperational, "Pre-operational"),
+        (Command::Stop, "Stopped"),
+    ] {
+        dut.nmt(command)?;
+        dut.drain()?;
+        quiet(dut, &pdo, state)?;
+    }
+    Ok(())
+}
+
+/// No TPDO by timer, SYNC or remote frame.
+fn quiet(dut: &mut Dut<'_>, pdo: &Tpdo, state: &str) -> Checked {
+    let expected = format!("no TPDO in {state}");
+    none(dut, pdo, 200_000, &expected)?;
+    sync(dut)?;
+    none(dut, pdo, 50_000, &expected)?;
+    if CobId::new(pdo.cob_id).allows_rtr() {
+        dut.ask_for(pdo.id(), 8)?;
+        none(dut, pdo, 50_000, &expected)?;
+    }
+    Ok(())
+}
+
+pub(super) fn length(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    let bits: usize = mapping(dut, pdo.map())?
+        .iter()
+        .map(|mapped| mapped.bits)
+        .sum();
+    dut.nmt(Command::Start)?;
+    let Some(heard) = next(dut, &pdo, 500_000)? else {
+        return fail("a TPDO every 50 ms", "none came");
+    };
+    let wanted = bits.div_ceil(8);
+    ensure(
+        usize::from(heard.frame.dlc()) == wanted,
+        format!("a TPDO of {wanted} bytes, as mapped"),
+        format!("{} came", heard.frame),
+    )
+}
+
+/// A value that does not change is the same by SDO and in the TPDO.
+pub(super) fn content(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    let all = mapping(dut, pdo.map())?;
+    dut.nmt(Command::Start)?;
+    let before = read(dut, &all)?;
+    let Some(heard) = next(dut, &pdo, 500_000)? else {
+        return fail("a TPDO every 50 ms", "none came");
+    };
+    let after = read(dut, &all)?;
+    let carried = number(heard.frame.data());
+    let mut shift = 0;
+    for (mapped, (before, after)) in all.iter().zip(before.iter().zip(&after)) {
+        let mask = if mapped.bits >= 64 {
+            u64::MAX
+        } else {
+            (1 << mapped.bits) - 1
+        };
+        let is = carried.checked_shr(shift).unwrap_or(0) & mask;
+        shift += mapped.bits as u32;
+        if let (Some(before), Some(after)) = (before, after)
+            && before == after
+        {
+            ensure(
+                is == before & mask,
+                format!("{before:X}h of {} in the TPDO", mapped.address),
+                format!("{is:X}h in {}", heard.frame),
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn read(dut: &mut Dut<'_>, all: &[Mapped]) -> Checked<Vec<Option<u64>>> {
+    let mut found = Vec::new();
+    for mapped in all {
+        let bytes = dut.upload(mapped.address)?;
+        found.push(bytes.ok().map(|bytes| number(&bytes)));
+    }
+    Ok(found)
+}
+
+/// Bit 31 of the COB-ID switches the TPDO off.
+pub(super) fn off(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    if !dut.eds.writes(pdo.com, 1) {
+        return lacks("the COB-ID cannot be written");
+    }
+    dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    dut.nmt(Command::Start)?;
+    none(
+        dut,
+        &pdo,
+        300_000,
+        "no TPDO while bit 31 of its COB-ID is set",
+    )?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    match next(dut, &pdo, 500_000)? {
+        Some(_) => Ok(()),
+        None => fail("the TPDO again without bit 31", "none came"),
+    }
+}
+
+/// A TPDO comes with the identifier that its COB-ID says.
+pub(super) fn cob_id(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 50)?;
+    if !dut.eds.writes(pdo.com, 1) {
+        return lacks("the COB-ID cannot be written");
+    }
+    let other = (pdo.cob_id & !0x3FFF_FFFF) | 0x4F1;
+    dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    for value in [other | 1 << 31, other] {
+        if dut.download(pdo.address(1), &value.to_le_bytes())?.is_err() {
+            return lacks("the node does not take another COB-ID");
+        }
+    }
+    dut.nmt(Command::Start)?;
+    let moved = Tpdo {
+        com: pdo.com,
+        cob_id: other,
+    };
+    let came = next(dut, &moved, 500_000)?;
+    ensure(
+        came.is_some(),
+        "the TPDO with the new CAN-ID 4F1h",
+        "none came",
+    )?;
+    none(dut, &pdo, QUIET, "no TPDO with the old CAN-ID")?;
+    // Off, so that the old one can come back.
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(pdo.address(1), &(other | 1 << 31).to_le_bytes())?;
+    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())
+}
+
+pub(super) fn reserved_types(dut: &mut Dut<'_>) -> Checked {
+    let pdo = first(dut)?;
+    if !dut.eds.writes(pdo.com, 2) {
+        return lacks("the transmission type cannot be written");
+    }
+    dut.keep(pdo.address(2))?;
+    for kind in [241, 251] {
+        dut.refuses_value(pdo.address(2), &[kind], &[ValueRange, ValueTooHigh])?;
+    }
+    Ok(())
+}
+
+pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {
+    let pdo = timed(dut, 20)?;
+    if !dut.eds.writes(pdo.com, 3) || !dut.eds.writes(pdo.com, 1) {
+        return lacks("the inhibit time cannot be written");
+    }
+    dut.set(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    let before = dut.read(pdo.address(3))?;
+    dut.write(pdo.address(3), &1000u16.to_le_bytes())?;
+    dut.write(pdo.address(1), &pdo.cob_id.to_le_bytes())?;
+    let done = gaps(
+        dut,
+        &pdo,
+        4,
+        |gap, slack| gap + slack + 5_000 >= 100_000,
+        "every 100 ms at most",
+    );
+    dut.nmt(Command::EnterPreOperational)?;
+    dut.write(pdo.address(1), &(pdo.cob_id | 1 << 31).to_le_bytes())?;
+    dut.write(pdo.address(3), &before)?;
+    dut.notes.push(format!(
+        "put back {} = {}",
+        pdo.address(3),
+        values::hex(&before)
+    ));
+    done
+}
