@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use od_devices::text::datasheet;
-use od_eds::convert::{c_header, canopennode, dcf, json, markdown};
+use od_eds::convert::{c_header, canopennode, dbc, dcf, json, markdown};
 use od_eds::{Description, Tables, xdd};
 use od_runtime::NodeId;
 
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::source::{self, Lost, Source};
 
-/// Convert a device description: EDS, DCF, XDD, Markdown, C header, CANopenNode, JSON
+/// Convert a device description: EDS, DCF, XDD, Markdown, C header, CANopenNode, DBC, JSON
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file
@@ -23,7 +23,7 @@ pub(crate) struct Args {
     /// Output file [default: standard output]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Node ID of the device (DCF; OD.c, if it is for one device)
+    /// Node ID of the device (DCF and DBC; OD.c, if it is for one device)
     #[arg(long, value_name = "ID", value_parser = source::node_id)]
     node_id: Option<NodeId>,
     /// Bit rate of the configured device in kbit/s (DCF only)
@@ -54,6 +54,8 @@ enum Form {
     /// OD.c and OD.h of CANopenNode 4; needs `-o OD.c`
     #[value(name = "canopennode")]
     CanopenNode,
+    /// Frames of a node for bus analysers: PDOs as mapped, EMCY, heartbeat, SDO, NMT
+    Dbc,
     /// Everything as JSON (docs/odkit-dictionary-2.schema.json)
     Json,
 }
@@ -68,6 +70,7 @@ impl Form {
             "xdd" | "xdc" => Some(Self::Xdd),
             "md" => Some(Self::Md),
             "h" => Some(Self::C),
+            "dbc" => Some(Self::Dbc),
             "json" => Some(Self::Json),
             _ => None,
         }
@@ -80,7 +83,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .or_else(|| Form::of(args.output.as_deref()?))
         .ok_or_else(|| {
             Failure::Usage(
-                "the target format is missing; add `--to eds`, dcf, xdd, md, c, canopennode or json".into(),
+                "the target format is missing; add `--to eds`, dcf, xdd, md, c, canopennode, dbc or json".into(),
             )
         })?;
     if form != Form::Dcf && (args.bit_rate.is_some() || !args.values.is_empty()) {
@@ -88,15 +91,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "`--bit-rate` and `--set` need `--to dcf`".into(),
         ));
     }
-    if !matches!(form, Form::Dcf | Form::CanopenNode) && args.node_id.is_some() {
+    if !matches!(form, Form::Dcf | Form::CanopenNode | Form::Dbc) && args.node_id.is_some() {
         return Err(Failure::Usage(
-            "`--node-id` needs `--to dcf` or `--to canopennode`".into(),
+            "`--node-id` needs `--to dcf`, dbc or canopennode".into(),
         ));
     }
     let source = Source::find(&args.input)?;
     // A datasheet and C variables need the type of each value.
     let typed = matches!(form, Form::Md | Form::CanopenNode);
-    let (mut description, lost) = source.complete(typed)?;
+    let (mut description, mut lost) = source.complete(typed)?;
     if form == Form::Dcf {
         configure(&mut description, args)?;
     }
@@ -117,6 +120,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
         // Written above: two files.
         Form::CanopenNode => return Ok(()),
+        Form::Dbc => {
+            let commissioned = description.commissioned_node_id();
+            let node_id = args.node_id.map(NodeId::raw).or(commissioned);
+            let (text, findings) = dbc::write(&description, node_id.unwrap_or(1));
+            lost = source.unexpressed(&description, findings, lost)?;
+            text
+        }
         Form::Json => json::write(&description, &args.input),
     };
     output::save(args.output.as_deref(), &text)?;

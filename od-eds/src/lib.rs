@@ -34,6 +34,7 @@ mod document;
 mod fact;
 mod finding;
 pub mod fix;
+pub mod identifiers;
 mod load;
 mod log;
 pub mod outline;

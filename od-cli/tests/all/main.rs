@@ -14,6 +14,7 @@ mod conform;
 #[cfg(unix)]
 mod control;
 mod convert;
+mod dbc;
 mod diff;
 mod eeprom;
 mod export;

@@ -157,7 +157,16 @@ fn faults_of_targets() -> Vec<Finding> {
     let one = description.objects[&0x2001].entries[&0].clone();
     let all = description.objects.get_mut(&0x2003);
     all.unwrap().entries.entry(255).or_insert(one);
-    crate::convert::canopennode::write(&description, "OD", "", None).findings
+    let mut found = crate::convert::canopennode::write(&description, "OD", "", None).findings;
+    let text = "[1800]\nObjectType=9\n[1801]\nObjectType=9\n[1801sub1]\nDataType=7\nDefaultValue=0x181\n\
+        [1802]\nObjectType=9\n[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n\
+        [1A00sub1]\nDataType=7\nDefaultValue=0x20000028\n[1A01]\nObjectType=9\n\
+        [1A01sub0]\nDataType=5\nDefaultValue=2\n[1A01sub1]\nDataType=7\nDefaultValue=0x20000028\n\
+        [1A01sub2]\nDataType=7\nDefaultValue=0x20000028\n[1A02]\nObjectType=9\n\
+        [1A02sub0]\nDataType=5\nDefaultValue=255\n[2000]\nDataType=9\n";
+    let description = crate::load::parse(text).description;
+    found.extend(crate::convert::dbc::write(&description, 1).1);
+    found
 }
 
 #[test]

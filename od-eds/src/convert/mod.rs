@@ -2,6 +2,7 @@
 
 pub mod c_header;
 pub mod canopennode;
+pub mod dbc;
 pub mod dcf;
 #[cfg(feature = "json")]
 pub mod json;
