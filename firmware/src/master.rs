@@ -1,6 +1,6 @@
 //! The master: it sends what every node has to answer, and measures what that takes.
 
-use odkit::{CanId, Device, Frame, Instant, Lent, Node};
+use odkit::{CanId, Device, Extras, Frame, Instant, Lent, Node};
 
 use crate::board;
 
@@ -21,15 +21,17 @@ pub const fn sdo(data: [u8; 8]) -> Step {
 }
 
 /// A node with its device and its time.
-struct Bench<'b, 'd, D, const PDO: usize, const SDO: usize> {
-    node: &'b mut Node<D, PDO, SDO>,
+struct Bench<'b, 'd, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
+    node: &'b mut Node<D, PDO, SDO, X>,
     device: &'b mut Lent<'d>,
     now: Instant,
     /// Frames that the node sent.
     sent: u32,
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Bench<'_, '_, D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
+    Bench<'_, '_, D, PDO, SDO, X>
+{
     fn drain(&mut self) {
         while let Some(frame) = self.node.poll_transmit(self.device, self.now) {
             self.sent += 1;
@@ -71,8 +73,8 @@ impl<D: Device, const PDO: usize, const SDO: usize> Bench<'_, '_, D, PDO, SDO> {
 /// Plays a script, reports what it took, and ends the program.
 ///
 /// `upload` is the request that is measured; `script` goes through all that the node can do.
-pub fn run<D: Device, const PDO: usize, const SDO: usize>(
-    node: &mut Node<D, PDO, SDO>,
+pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
+    node: &mut Node<D, PDO, SDO, X>,
     device: &mut Lent<'_>,
     upload: [u8; 8],
     script: &[Step],

@@ -3,7 +3,7 @@
 use std::prelude::v1::*;
 
 use od_model::Dictionary;
-use od_runtime::{Clocks, Device, Extras, Node, NodeId, SdoServer};
+use od_runtime::{Clocks, Device, Extras, FullRooms, Node, NodeId, SdoServer};
 
 use crate::slave::Slave;
 
@@ -29,6 +29,7 @@ struct Room {
 }
 
 impl Extras<Loaded, LONGEST> for Room {
+    type Rooms = FullRooms;
     const NEW: Self = Self {
         servers: Vec::new(),
         clocks: Clocks::new(),

@@ -19,7 +19,15 @@ use crate::owner::Owner;
 ///
 /// Inputs and outputs are the functions of [`Owner`].
 #[derive(Debug)]
-pub struct Board<D, A, S, const PDO: usize, const SDO: usize, const LEN: usize, X = ()> {
+pub struct Board<
+    D,
+    A,
+    S,
+    const PDO: usize,
+    const SDO: usize,
+    const LEN: usize,
+    X: Extras<D, SDO> = (),
+> {
     node: Node<D, PDO, SDO, X>,
     values: [u8; LEN],
     /// Behaviour of the device. After a change call [`handle_change`](Owner::handle_change), or use

@@ -60,7 +60,7 @@ fn root(input: &Input) -> String {
         Some(path) => quote!(#path).to_string(),
         None => String::from("::odkit"),
     };
-    format!("{odkit}::__private3")
+    format!("{odkit}::__private4")
 }
 
 fn about(source: &Source, family: &Family) -> String {
@@ -235,9 +235,10 @@ fn node(out: &mut String, root: &str, tables: &Tables, services: &str, extras: O
     if dictionary.has_streams() {
         bytes = bytes.max(BLOCK);
     }
-    let extras = extras.map_or(String::new(), |servers| {
-        format!(", {root}::Extra<Device, {bytes}, {servers}>")
-    });
+    let extras = match extras {
+        Some(servers) => format!("{root}::Extra<Device, {bytes}, {servers}, Rooms>"),
+        None => format!("{root}::Only<Rooms>"),
+    };
     let _ = write!(
         out,
         "#[doc = \"The device of [`DICTIONARY`], as a type.\"]
@@ -247,12 +248,14 @@ impl {root}::Device for Device {{
 const DICTIONARY: ::core::option::Option<{root}::Dictionary<'static>> =
 ::core::option::Option::Some(DICTIONARY);
 {services}}}
+#[doc = \"Room for what a node of this device remembers.\"]
+pub type Rooms = {root}::rooms!(Device);
 #[doc = \"A node for [`DICTIONARY`]: as many PDOs each way and as long an SDO buffer as it needs \
 ({pdos}, and {bytes} bytes).\"]
-pub type Node = {root}::Node<Device, {pdos}, {bytes}{extras}>;
+pub type Node = {root}::Node<Device, {pdos}, {bytes}, {extras}>;
 #[doc = \"A node for [`DICTIONARY`] with all that it needs: values, an application, a storage.\"]
 pub type Board<A = {root}::NoApplication, S = {root}::NoStorage> =
-{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN{extras}>;
+{root}::Board<Device, A, S, {pdos}, {bytes}, STORE_LEN, {extras}>;
 "
     );
 }

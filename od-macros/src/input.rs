@@ -172,6 +172,12 @@ impl Input {
                 self.services.behaves(body)?;
                 semicolon(body, key.span(), report)?;
             }
+            "errors" => {
+                let key = Ident::parse_any(body)?;
+                body.parse::<Token![=]>()?;
+                self.services.errors(body, key.span(), report)?;
+                semicolon(body, key.span(), report)?;
+            }
             "variant" => {
                 Ident::parse_any(body)?;
                 let name: Ident = body.parse()?;
@@ -214,10 +220,11 @@ fn overlay(body: ParseStream) -> syn::Result<Option<LitStr>> {
     Ok(Some(path))
 }
 
-const STATEMENTS: [&str; 10] = [
-    "add", "modify", "remove", "rename", "variant", "eds", "profile", "without", "behaves", "crate",
+const STATEMENTS: [&str; 11] = [
+    "add", "modify", "remove", "rename", "variant", "eds", "profile", "without", "behaves",
+    "errors", "crate",
 ];
-const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
+const IN_MODULE: &str = "`eds`, `profile`, `without`, `behaves`, `errors`, `crate`, `add`, `modify`, `remove`, `rename` or `variant`";
 const IN_VARIANT: &str = "`add`, `modify`, `remove` or `rename`";
 
 fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Result<Statement> {
@@ -247,7 +254,7 @@ fn statement(body: ParseStream, allowed: &str, report: &mut Report) -> syn::Resu
             semicolon(body, name.span(), report)?;
             return Ok(Statement::Rename { target, name });
         }
-        "eds" | "profile" | "without" | "behaves" | "crate" | "variant" => {
+        "eds" | "profile" | "without" | "behaves" | "errors" | "crate" | "variant" => {
             return Err(syn::Error::new(
                 word.span(),
                 format!(
@@ -347,7 +354,7 @@ fn starts_statement(body: ParseStream) -> bool {
     };
     match word.to_string().as_str() {
         "add" | "modify" | "remove" | "rename" => ahead.peek(LitInt),
-        "eds" | "profile" | "behaves" => ahead.peek(Token![=]),
+        "eds" | "profile" | "behaves" | "errors" => ahead.peek(Token![=]),
         "variant" | "without" => ahead.peek(syn::Ident),
         _ => false,
     }

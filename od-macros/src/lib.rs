@@ -44,6 +44,8 @@
 //!                        changes), guarding, consumer (heartbeat), storage, behaviour (1029h), events,
 //!                        servers (SDO servers past the first), sync_producer, time
 //!           | "behaves" "=" path ";"               the device's `Profile`, known to the compiler
+//!           | "errors" "=" 4 ";"                   so many EMCY errors can be active at once, and come or
+//!                                                  go in one call; 32 unless given
 //!           | { attribute } "variant" name "{" { statement } "}"
 //!           | statement
 //! statement = "add" target "{" fields "}"          what is not there yet
@@ -168,14 +170,14 @@ mod tests {
         let (_, base) = made.split_once("pubmoddevice").unwrap();
         let (base, variant) = base.split_once("pubmodblind").unwrap();
         for part in [
-            "pub const DICTIONARY: ::odkit::__private3::Dictionary<'static> =",
+            "pub const DICTIONARY: ::odkit::__private4::Dictionary<'static> =",
             "static ROWS: [Row; 5] = rows(b\"1\\0\\0\\x10",
             "static NAMES: [[Range; 2]; 5] = names(b\"",
             "pub const ERROR_REGISTER: Var<u8, Ro, Pdo> = __v(0x1001, 0, 4, 1, 8);",
             "pub mod identity {",
             "pub const VENDOR_ID: Var<u32, Const> = __v(0x1018, 1, 0, 0, 32);",
             "pub const STORE_LEN: usize = DICTIONARY.store_len();",
-            "pub type Node = ::odkit::__private3::Node<Device, 0, 4>;",
+            "pub type Node =\n::odkit::__private4::Node<Device, 0, 4, ::odkit::__private4::Only<Rooms>>;",
         ] {
             assert!(base.contains(&tight(part)), "{part}\n\n{base}");
         }

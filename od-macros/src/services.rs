@@ -1,11 +1,12 @@
-//! `without lss, block;` and `behaves = PROFILE;`: what the node of the device has code for.
+//! `without lss, block;`, `behaves = PROFILE;` and `errors = 4;`: what the node of the device has code
+//! and room for.
 
 use std::fmt::Write;
 
 use proc_macro2::{Ident, Span};
 use quote::ToTokens;
 use syn::parse::ParseStream;
-use syn::{Path, Token};
+use syn::{LitInt, Path, Token};
 
 use crate::report::Report;
 use crate::words;
@@ -34,6 +35,8 @@ pub(crate) struct Services {
     off: Vec<&'static str>,
     /// Path of the profile, as seen from the call.
     profile: Option<Path>,
+    /// Errors that the node has room for.
+    errors: Option<u8>,
 }
 
 impl Services {
@@ -75,6 +78,34 @@ impl Services {
         Ok(())
     }
 
+    /// The number behind `errors =`.
+    pub(crate) fn errors(
+        &mut self,
+        body: ParseStream,
+        key: Span,
+        report: &mut Report,
+    ) -> syn::Result<()> {
+        let help =
+            "`errors = 4;`, 1 to 128: so many can be active at once, and come or go in one call";
+        let number: LitInt = body.parse().map_err(|e| {
+            syn::Error::new(
+                e.span(),
+                format!("expected a number of errors\nhelp: {help}"),
+            )
+        })?;
+        if self.errors.is_some() {
+            report.at(key, "`errors` is given twice");
+        }
+        match number.base10_parse() {
+            Ok(errors @ 1..=128) => self.errors = Some(errors),
+            _ => report.at(
+                number.span(),
+                format!("`{number}` is not a number of errors\nhelp: {help}"),
+            ),
+        }
+        Ok(())
+    }
+
     /// Whether a constant of `Device` is `false`.
     pub(crate) fn lacks(&self, constant: &str) -> bool {
         self.off.contains(&constant)
@@ -89,6 +120,9 @@ impl Services {
     pub(crate) fn constants(&self, out: &mut String, root: &str, depth: usize) {
         for constant in &self.off {
             let _ = writeln!(out, "const {constant}: bool = false;");
+        }
+        if let Some(errors) = self.errors {
+            let _ = writeln!(out, "const ERRORS: usize = {errors};");
         }
         let Some(path) = &self.profile else { return };
         let first = path

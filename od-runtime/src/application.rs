@@ -2,7 +2,7 @@
 
 use od_model::Address;
 
-use crate::emcy;
+use crate::change::Change;
 use crate::fifo::Fifo;
 use crate::store::Store;
 use od_wire::emcy::Emcy;
@@ -31,16 +31,21 @@ pub struct Context<'c, 'a> {
     /// Time of the call.
     pub now: Instant,
     /// Requests to the node, carried out when the call is over.
-    pub signals: &'c mut Signals,
+    pub signals: &'c mut Signals<[Change]>,
 }
 
+/// Changes that [`Signals::new`] has room for.
+const CHANGES: usize = 32;
+
 /// Requests of an application to its node, carried out when the call is over.
+///
+/// `Q` is room for the errors that come and go in a call.
 #[derive(Debug)]
-pub struct Signals {
-    /// Errors that came or went, in order.
-    pub(crate) errors: emcy::Changes,
+pub struct Signals<Q: ?Sized = [Change; CHANGES]> {
     /// The constants of the type, one bit each.
     requests: u8,
+    /// Errors that came or went, in order.
+    pub(crate) errors: Fifo<Q>,
 }
 
 impl Default for Signals {
@@ -59,14 +64,23 @@ impl Signals {
     /// A TIME message is to be sent.
     pub(crate) const SEND_TIME: u8 = 8;
 
-    /// No requests.
+    /// No requests, and room for 32 errors.
     pub const fn new() -> Self {
+        Self::with_room([Change::NONE; CHANGES])
+    }
+}
+
+impl<Q> Signals<Q> {
+    /// No requests.
+    pub(crate) const fn with_room(room: Q) -> Self {
         Self {
-            errors: Fifo::new(emcy::NO_CHANGE),
             requests: 0,
+            errors: Fifo::new(room),
         }
     }
+}
 
+impl<Q: ?Sized> Signals<Q> {
     /// Whether there is nothing to carry out.
     #[inline]
     pub(crate) const fn is_idle(&self) -> bool {
@@ -80,17 +94,42 @@ impl Signals {
         found
     }
 
+    /// Reports that the application changed communication objects (1000h–1FFFh); the services
+    /// read them again.
+    pub fn reconfigure(&mut self) {
+        self.requests |= Signals::RECONFIGURE;
+    }
+
+    /// Requests a save of the operating records (hours, counters) only. A failed save is not
+    /// repeated until the next request.
+    pub fn keep(&mut self) {
+        self.requests |= Signals::KEEP;
+    }
+
+    /// Requests a TIME message with the time of [`Application::time`]. It goes out if bit 30 of 1012h
+    /// is set and the NMT state is Pre-operational or Operational.
+    pub fn send_time(&mut self) {
+        self.requests |= Signals::SEND_TIME;
+    }
+
+    /// Requests a call of [`Application::tick`], whose deadline may have changed.
+    pub fn wake(&mut self) {
+        self.requests |= Signals::TICK;
+    }
+}
+
+impl Signals<[Change]> {
     /// Reports an error: the node sends an EMCY message and updates 1001h and 1003h.
     ///
     /// An active error with the same code and the same bits of 1001h is not reported again.
     pub fn raise(&mut self, error: Emcy) {
-        self.errors.push(emcy::Change::Raised(error));
+        self.errors.push(Change::Raised(error));
     }
 
     /// Reports the end of an error: the node updates 1001h and sends an EMCY message with code
     /// 0000h (error reset) and this manufacturer-specific information.
     pub fn clear(&mut self, code: u16, info: [u8; 5]) {
-        self.errors.push(emcy::Change::Cleared {
+        self.errors.push(Change::Cleared {
             code,
             register: None,
             info,
@@ -100,34 +139,11 @@ impl Signals {
     /// As [`clear`](Self::clear), if several errors share a code: ends the one that set these bits
     /// of 1001h.
     pub fn clear_one(&mut self, code: u16, register: u8, info: [u8; 5]) {
-        self.errors.push(emcy::Change::Cleared {
+        self.errors.push(Change::Cleared {
             code,
             register: Some(register),
             info,
         });
-    }
-
-    /// Reports that the application changed communication objects (1000h–1FFFh); the services
-    /// read them again.
-    pub fn reconfigure(&mut self) {
-        self.requests |= Self::RECONFIGURE;
-    }
-
-    /// Requests a save of the operating records (hours, counters) only. A failed save is not
-    /// repeated until the next request.
-    pub fn keep(&mut self) {
-        self.requests |= Self::KEEP;
-    }
-
-    /// Requests a TIME message with the time of [`Application::time`]. It goes out if bit 30 of 1012h
-    /// is set and the NMT state is Pre-operational or Operational.
-    pub fn send_time(&mut self) {
-        self.requests |= Self::SEND_TIME;
-    }
-
-    /// Requests a call of [`Application::tick`], whose deadline may have changed.
-    pub fn wake(&mut self) {
-        self.requests |= Self::TICK;
     }
 }
 

@@ -2,10 +2,17 @@
 
 use od_wire::Instant;
 
+use crate::rooms::Blank;
+
 /// When something is due. Never is all zeros, so that a static node takes no flash; the end of time
 /// is never, too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(Rust, packed(4))] // as `Instant`
 pub(crate) struct Deadline(u64);
+
+impl Blank for Deadline {
+    const BLANK: Self = Self::NEVER;
+}
 
 impl Deadline {
     /// Nothing is due.

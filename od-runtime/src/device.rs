@@ -60,6 +60,9 @@ pub trait Device {
         Some(dictionary) => dictionary.has(0x1012),
         None => false,
     };
+    /// Errors that can be active at once, and that can come or go in one call, 1–128. 16 EMCY messages can
+    /// wait, or as many if they are fewer.
+    const ERRORS: usize = 32;
     /// Values that the application streams ([`Application::stream`](crate::Application::stream)): on
     /// where the dictionary has one, or is known at run time.
     const STREAMS: bool = match &Self::DICTIONARY {

@@ -1,50 +1,30 @@
 //! Emergency producer and the error objects 1001h, 1003h, 1014h, 1015h (CiA 301, chapter 7.2.7).
 
+pub(crate) use crate::change::Change;
 use crate::deadline::Deadline;
 use crate::fifo::Fifo;
 use crate::profile::ErrorReset;
+use crate::rooms::{Blank, Room, Rooms};
 use crate::store::Store;
 use od_model::Address;
 
 use od_wire::emcy::Emcy;
 use od_wire::{CobId, Frame, Instant};
 
-/// Most errors that can be active at once, that can come or go in one call, and that can wait
-/// to be sent.
-const ACTIVE: usize = 32;
-const CHANGES: usize = 32;
-const QUEUE: usize = 16;
-
 /// Emergency error code of an RPDO that is shorter than its mapping (CiA 301, table 26).
 pub(crate) const PDO_LENGTH: u16 = 0x8210;
 
-/// An error came or went.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) enum Change {
-    /// It came.
-    Raised(Emcy),
-    /// The one with this code went; `info` goes into the frame that says so.
-    Cleared {
-        /// Emergency error code.
-        code: u16,
-        /// The bits of 1001h that it set, where several errors have this code.
-        register: Option<u8>,
-        /// Manufacturer-specific bytes 3–7 of the frame.
-        info: [u8; 5],
-    },
+impl Blank for Emcy {
+    const BLANK: Self = Self {
+        code: 0,
+        register: 0,
+        info: [0; 5],
+    };
 }
 
-/// Changes on their way from the application to the node.
-pub(crate) type Changes = Fifo<Change, CHANGES>;
-
-/// Content of an empty place.
-pub(crate) const NO_CHANGE: Change = Change::Raised(NO_ERROR);
-
-const NO_ERROR: Emcy = Emcy {
-    code: 0,
-    register: 0,
-    info: [0; 5],
-};
+impl Blank for Change {
+    const BLANK: Self = Self::NONE;
+}
 
 /// Nothing came or went.
 const NO_NEWS: Outcome = Outcome {
@@ -55,9 +35,9 @@ const NO_NEWS: Outcome = Outcome {
 
 /// The emergency producer.
 #[derive(Debug)]
-pub(crate) struct Producer {
-    active: Fifo<Emcy, ACTIVE>,
-    waiting: Fifo<Emcy, QUEUE>,
+pub(crate) struct Producer<R: Rooms> {
+    active: Fifo<R::Errors<Emcy>>,
+    waiting: Fifo<R::Messages<Emcy>>,
     blocked_until: Instant,
     /// Bits of 1001h without an EMCY message.
     silent: u8,
@@ -74,11 +54,11 @@ pub(crate) struct Outcome {
     pub(crate) is_dropped: bool,
 }
 
-impl Producer {
+impl<R: Rooms> Producer<R> {
     pub(crate) const fn new() -> Self {
         Self {
-            active: Fifo::new(NO_ERROR),
-            waiting: Fifo::new(NO_ERROR),
+            active: Fifo::new(Room::BLANK),
+            waiting: Fifo::new(Room::BLANK),
             blocked_until: Instant::ZERO,
             silent: 0,
         }
@@ -86,7 +66,18 @@ impl Producer {
 
     /// Forgets everything: the device starts without errors.
     pub(crate) fn reset(&mut self) {
-        *self = Self::new();
+        self.active.clear();
+        self.waiting.clear();
+        self.blocked_until = Instant::ZERO;
+        self.silent = 0;
+    }
+
+    fn active(&self) -> &Fifo<[Emcy]> {
+        Room::queue(&self.active)
+    }
+
+    fn active_mut(&mut self) -> &mut Fifo<[Emcy]> {
+        Room::queue_mut(&mut self.active)
     }
 
     /// Takes a change over into 1001h and 1003h.
@@ -107,10 +98,10 @@ impl Producer {
                 // Sources that share a code differ in their bits of 1001h.
                 let same =
                     |known: Emcy| known.code == error.code && known.register == error.register;
-                if self.active.iter().any(same) {
+                if self.active().iter().any(same) {
                     return NO_NEWS;
                 }
-                self.active.push(error);
+                self.active_mut().push(error);
                 log(store, error.code);
                 (error.code, error.info)
             }
@@ -122,7 +113,7 @@ impl Producer {
                 let is_it = |known: &Emcy| {
                     known.code == code && register.is_none_or(|bits| bits == known.register)
                 };
-                if !self.active.remove(is_it) {
+                if !self.active_mut().remove(is_it) {
                     return NO_NEWS;
                 }
                 (0, info)
@@ -139,13 +130,13 @@ impl Producer {
         Outcome {
             is_news: true,
             set: register & !before,
-            is_dropped: is_due && !self.waiting.push(message),
+            is_dropped: is_due && !Room::queue_mut(&mut self.waiting).push(message),
         }
     }
 
     /// Whether an error with this code and these bits of 1001h lasts.
     pub(crate) fn is_active(&self, error: Emcy) -> bool {
-        let mut active = self.active.iter();
+        let mut active = self.active().iter();
         active.any(|known| known.code == error.code && known.register == error.register)
     }
 
@@ -158,14 +149,14 @@ impl Producer {
 
     /// Ends errors without an EMCY message, as a reset of the communication does.
     pub(crate) fn forget(&mut self, store: &mut Store<'_>, which: impl Fn(u16) -> bool) {
-        while self.active.remove(|error| which(error.code)) {}
+        while self.active_mut().remove(|error| which(error.code)) {}
         self.silent = 0;
         self.show(store);
     }
 
     /// 1001h.
     pub(crate) fn register(&self) -> u8 {
-        let bits = self.active.iter().map(|error| error.register);
+        let bits = self.active().iter().map(|error| error.register);
         bits.fold(self.silent, |all, bits| all | bits)
     }
 
@@ -181,7 +172,7 @@ impl Producer {
             return None;
         }
         let cob_id = cob_id(store);
-        let emcy = self.waiting.pop()?;
+        let emcy = Room::queue_mut(&mut self.waiting).pop()?;
         let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
         self.blocked_until = now.plus_micros(inhibit);
         cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))

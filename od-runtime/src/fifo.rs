@@ -1,38 +1,59 @@
 //! A queue of fixed room.
 
-/// First in, first out, `N` at most. When full, the newest is not taken: what
+/// First in, first out, as many as `items` has room for. When full, the newest is not taken: what
 /// happened first explains the rest.
+///
+/// Its functions are those of `Fifo<[T]>`, so that they exist once, whatever the room.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fifo<T, const N: usize> {
-    items: [T; N],
-    head: usize,
-    len: usize,
+pub struct Fifo<Q: ?Sized> {
+    head: u8,
+    len: u8,
+    items: Q,
 }
 
-impl<T: Copy, const N: usize> Fifo<T, N> {
-    /// An empty queue; `fill` is the content of empty places.
-    pub(crate) const fn new(fill: T) -> Self {
+impl<Q> Fifo<Q> {
+    /// An empty queue; `items` is the content of empty places, 255 at most.
+    pub(crate) const fn new(items: Q) -> Self {
         Self {
-            items: [fill; N],
             head: 0,
             len: 0,
+            items,
         }
     }
+}
 
+impl<Q: ?Sized> Fifo<Q> {
     #[inline]
     pub(crate) const fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Answers whether there was room.
+    pub(crate) const fn clear(&mut self) {
+        self.head = 0;
+        self.len = 0;
+    }
+}
+
+impl<T: Copy> Fifo<[T]> {
+    /// The place of the item that is `at` behind the first one.
     #[inline]
+    fn place(&self, at: u8) -> usize {
+        let at = usize::from(self.head) + usize::from(at);
+        match at.checked_sub(self.items.len()) {
+            Some(wrapped) => wrapped,
+            None => at,
+        }
+    }
+
+    /// Answers whether there was room.
     pub(crate) fn push(&mut self, item: T) -> bool {
-        let room = self.len < N;
-        if room {
-            self.items[(self.head + self.len) % N] = item;
+        let has_room = usize::from(self.len) < self.items.len();
+        let place = self.place(self.len);
+        if has_room && let Some(to) = self.items.get_mut(place) {
+            *to = item;
             self.len += 1;
         }
-        room
+        has_room
     }
 
     #[inline]
@@ -40,19 +61,14 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
         if self.len == 0 {
             return None;
         }
-        let item = self.items[self.head % N];
-        self.head = (self.head + 1) % N;
+        let item = self.items.get(usize::from(self.head)).copied();
+        self.head = self.place(1) as u8;
         self.len -= 1;
-        Some(item)
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.head = 0;
-        self.len = 0;
+        item
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = T> + '_ {
-        (0..self.len).map(|i| self.items[(self.head + i) % N])
+        (0..self.len).filter_map(|at| self.items.get(self.place(at)).copied())
     }
 
     /// Takes the first item out that `which` names; answers whether there was one.
@@ -70,12 +86,20 @@ impl<T: Copy, const N: usize> Fifo<T, N> {
 }
 
 #[cfg(test)]
+impl<T: Copy, const N: usize> Fifo<[T; N]> {
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        let queue: &mut Fifo<[T]> = self;
+        queue.pop()
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn keeps_order_and_refuses_when_full() {
-        let mut fifo: Fifo<u8, 3> = Fifo::new(0);
+        let fifo: &mut Fifo<[u8]> = &mut Fifo::new([0; 3]);
         for round in 0..5 {
             assert!(fifo.push(round) && fifo.push(round + 1) && fifo.push(round + 2));
             assert!(!fifo.push(99));
@@ -86,5 +110,12 @@ mod tests {
             assert_eq!(fifo.pop(), None);
             assert!(fifo.is_empty());
         }
+    }
+
+    #[test]
+    fn without_room_it_takes_nothing() {
+        let fifo: &mut Fifo<[u8]> = &mut Fifo::new([]);
+        assert!(!fifo.push(1));
+        assert_eq!((fifo.pop(), fifo.iter().next()), (None, None));
     }
 }

@@ -7,7 +7,8 @@ use od_wire::{Instant, NodeId};
 
 use crate::application::Application;
 use crate::device::Device;
-use crate::objects::{Objects, Outbox};
+use crate::objects::Objects;
+use crate::objects::outbox::{Outbox, Saving};
 use crate::profile::Profile;
 use crate::storage::Storage;
 use crate::store::Store;
@@ -38,6 +39,7 @@ impl Lent<'_> {
         node_id: NodeId,
         now: Instant,
         outbox: &'c mut Outbox,
+        saving: Option<&'c mut Option<Saving>>,
     ) -> Option<Objects<'c, D>> {
         Some(Objects {
             store: Store::new(&self.dictionary, self.values, node_id).ok()?,
@@ -47,6 +49,7 @@ impl Lent<'_> {
             device: PhantomData,
             now,
             outbox,
+            saving,
         })
     }
 }

@@ -71,6 +71,7 @@
 extern crate std;
 
 mod application;
+mod change;
 mod deadline;
 mod device;
 mod emcy;
@@ -88,6 +89,7 @@ mod pdo;
 mod profile;
 pub mod program;
 mod real;
+mod rooms;
 mod sdo;
 pub mod storage;
 mod store;
@@ -102,7 +104,7 @@ pub use application::{
     Application, Chunk, Context, Halt, NoApplication, Reset, Signals, Stream, StreamEnd,
 };
 pub use device::{AnyDevice, Device};
-pub use extras::{Clocks, Extra, Extras};
+pub use extras::{Clocks, Extra, Extras, Only};
 pub use kind::DeviceKind;
 pub use lent::Lent;
 pub use node::{BusEvent, Event, Node, Unfit};
@@ -111,5 +113,8 @@ pub use profile::{
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,
     StoreProfile,
 };
+#[doc(hidden)]
+pub use rooms::{Blank, Fit, Room, room};
+pub use rooms::{FullRooms, Rooms};
 pub use sdo::SdoServer;
 pub use store::{Store, StoreTooSmall, TextTooLong};

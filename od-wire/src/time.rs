@@ -8,7 +8,9 @@ pub use core::time::Duration;
 /// A moment, in microseconds since an origin of the caller's choice (power-on, say).
 ///
 /// Nothing below the host reads a clock; a moment comes in as an argument.
+// Packed: whatever has a moment would have gaps of four bytes on a microcontroller otherwise.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[repr(Rust, packed(4))]
 pub struct Instant(u64);
 
 impl Instant {

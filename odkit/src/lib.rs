@@ -56,20 +56,21 @@ pub use od_model::{
 pub use od_runtime::{
     AbortCode, AnyDevice, Application, BusEvent, BusOffProfile, CanId, Chunk, Clocks, CobId,
     CommunicationReset, Context, CutSave, Device, DeviceKind, Duration, Emcy, ErrorProfile,
-    ErrorReset, Event, Extra, Extras, Frame, Halt, Instant, LengthRule, Lent, LssProfile,
-    NmtProfile, NoApplication, Node, NodeId, Notice, PdoProfile, Profile, Reset, Restore,
-    SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile, StoreTooSmall,
-    Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, program, storage,
+    ErrorReset, Event, Extra, Extras, Frame, FullRooms, Halt, Instant, LengthRule, Lent,
+    LssProfile, NmtProfile, NoApplication, Node, NodeId, Notice, Only, PdoProfile, Profile, Reset,
+    Restore, Rooms, SaveAnswer, SavedCobIds, SdoProfile, SdoServer, Signals, Store, StoreProfile,
+    StoreTooSmall, Stream, StreamEnd, TextTooLong, TimeOfDay, Unfit, encoder, program, rooms,
+    storage,
 };
 pub use od_wire::{emcy, lss, nmt, sdo};
 
 /// The paths that [`object_dictionary!`] emits; not an API. The number changes with the shape of
 /// what is emitted, so that a macro and a crate that do not belong together fail at this name.
 #[doc(hidden)]
-pub mod __private3 {
+pub mod __private4 {
     pub use od_board::Board;
     pub use od_model::Dictionary;
     pub use od_model::typed::emit::*;
     pub use od_runtime::storage::NoStorage;
-    pub use od_runtime::{Device, Extra, NoApplication, Node, Profile};
+    pub use od_runtime::{Device, Extra, NoApplication, Node, Only, Profile, rooms};
 }

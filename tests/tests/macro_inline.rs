@@ -121,7 +121,8 @@ fn a_capacity_is_room_in_the_store_and_0_is_a_stream() {
     assert!(log.is_streamed() && logger::DICTIONARY.has_streams());
     assert!(!bench::DICTIONARY.has_streams(), "a `const` text is none");
     // A block of 127 segments, where the longest value of the store has 300 bytes.
-    let _: logger::Node = odkit::Node::<logger::Device, 0, 889>::new(odkit::NodeId::ONE);
+    type Rooms = odkit::Only<odkit::rooms!(logger::Device)>;
+    let _: logger::Node = odkit::Node::<logger::Device, 0, 889, Rooms>::new(odkit::NodeId::ONE);
     const { assert!(<logger::Device as odkit::Device>::STREAMS) }
     const { assert!(!<bench::Device as odkit::Device>::STREAMS) }
 }

@@ -39,6 +39,16 @@ macro_rules! device {
 device!(full,);
 device!(lean, without lss, segmented, block, events; behaves = PROFILE;);
 
+device!(few, errors = 2;);
+
+#[test]
+fn a_service_that_is_off_takes_no_ram() {
+    use core::mem::size_of;
+    // An error takes 8 bytes while it is active, and 10 until the node knows of it.
+    assert!(size_of::<full::Node>() - size_of::<few::Node>() >= 30 * 18);
+    assert!(size_of::<full::Node>() - size_of::<lean::Node>() > 150);
+}
+
 /// What a node answers to each request, and whether it had something to tell its host.
 macro_rules! answers {
     ($module:path, $requests:expr) => {{

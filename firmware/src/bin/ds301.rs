@@ -14,6 +14,7 @@ odkit::object_dictionary! {
         eds = "../../eds/ds301.eds";
         without lss;
         behaves = PROFILE;
+        errors = 8;
     }
 }
 

@@ -5,7 +5,7 @@
 use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
 use odkit::encoder::{Angle, Encoder, Sampled};
 use odkit::storage::Memory;
-use odkit::{Device, Dictionary, Duration, Lent, Node, NodeId, Profile};
+use odkit::{Device, Dictionary, Duration, Lent, Node, NodeId, Only, Profile, rooms};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, sdo};
 
@@ -21,12 +21,15 @@ impl Device for Gxmm {
     const BLOCK: bool = false;
     const RPDOS: bool = false;
     const CHANGES: bool = false;
+    /// Five of the encoder, five of the services (81xxh, 82xxh).
+    const ERRORS: usize = 10;
 }
 
 const PDOS: usize = gxmm::DICTIONARY.tpdos();
 const LONGEST: usize = gxmm::DICTIONARY.longest();
 
-static NODE: Once<Node<Gxmm, PDOS, LONGEST>> = Once::new(Node::new(NodeId::ONE));
+static NODE: Once<Node<Gxmm, PDOS, LONGEST, Only<rooms!(Gxmm)>>> =
+    Once::new(Node::new(NodeId::ONE));
 static VALUES: Once<[u8; gxmm::STORE_LEN]> = Once::new([0; gxmm::STORE_LEN]);
 static SHAFT: Once<Shaft> = Once::new(Encoder::new(
     &ENCODER,

@@ -12,6 +12,7 @@ odkit::object_dictionary! {
     mod thermometer {
         without lss, segmented, block, rpdos, changes, guarding, consumer, storage, behaviour, events;
         behaves = PROFILE;
+        errors = 4;
 
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; mappable = true }

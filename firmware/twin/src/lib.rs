@@ -16,7 +16,7 @@ macro_rules! twin {
     ($dictionary:path, $profile:path, $encoder:path) => {
         use odkit::encoder::EncoderProfile;
         use odkit::storage::image;
-        use odkit::{Device, Dictionary, Node, NodeId, Profile};
+        use odkit::{Device, Dictionary, Node, NodeId, Only, Profile, rooms};
         use odkit_firmware::board::Once;
 
         struct Own;
@@ -35,7 +35,7 @@ macro_rules! twin {
             const CHANGES: bool = DEVICE.pdo.event_on_change;
         }
 
-        type Slave = Node<Own, { DICTIONARY.tpdos() }, { DICTIONARY.longest() }>;
+        type Slave = Node<Own, { DICTIONARY.tpdos() }, { DICTIONARY.longest() }, Only<rooms!(Own)>>;
 
         static NODE: Once<Slave> = Once::new(Node::new(NodeId::ONE));
         static VALUES: Once<[u8; DICTIONARY.store_len()]> = Once::new([0; DICTIONARY.store_len()]);

@@ -24,8 +24,8 @@
 use odkit::encoder::{Angle, Encoder, EncoderProfile, Fault, Motion, Sampled, Switches};
 use odkit::storage::Memory;
 use odkit::{
-    Address, Application, BusEvent, CanId, Context, Device, Dictionary, Duration, Emcy, Frame,
-    Instant, Lent, Node, NodeId, Profile, Signals, Store,
+    Address, Application, BusEvent, CanId, Context, Device, Dictionary, Duration, Emcy, Extras,
+    Frame, Instant, Lent, Node, NodeId, Profile, Signals, Store,
 };
 use odkit_firmware::board;
 
@@ -58,8 +58,8 @@ impl core::fmt::Write for Hash {
 }
 
 /// A device and its surroundings.
-struct Twin<'b, D, const PDO: usize, const SDO: usize> {
-    node: &'b mut Node<D, PDO, SDO>,
+struct Twin<'b, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
+    node: &'b mut Node<D, PDO, SDO, X>,
     dictionary: Dictionary<'static>,
     values: &'b mut [u8],
     encoder: Encoder<Shaft>,
@@ -74,8 +74,8 @@ struct Twin<'b, D, const PDO: usize, const SDO: usize> {
 }
 
 /// Plays the calls to their end.
-pub fn run<D: Device, const PDO: usize, const SDO: usize>(
-    node: &mut Node<D, PDO, SDO>,
+pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
+    node: &mut Node<D, PDO, SDO, X>,
     dictionary: Dictionary<'static>,
     values: &mut [u8],
     eeprom: &mut [u8],
@@ -129,7 +129,7 @@ fn since(before: u32) -> u32 {
     before.wrapping_sub(board::clock()) & 0xFF_FFFF
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize> Twin<'_, D, PDO, SDO> {
+impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Twin<'_, D, PDO, SDO, X> {
     /// Handles a call; `None` where it makes no sense.
     fn call(&mut self, call: u8) -> Option<()> {
         let now = Instant::from_micros(u64::from_le_bytes(self.calls.array()?));
@@ -243,7 +243,11 @@ impl<D: Device, const PDO: usize, const SDO: usize> Twin<'_, D, PDO, SDO> {
     }
 
     /// Makes a call of the node, takes what it sends, and writes the answer.
-    fn answer(&mut self, now: Instant, call: impl FnOnce(&mut Node<D, PDO, SDO>, &mut Lent<'_>)) {
+    fn answer(
+        &mut self,
+        now: Instant,
+        call: impl FnOnce(&mut Node<D, PDO, SDO, X>, &mut Lent<'_>),
+    ) {
         let mut device = Lent {
             dictionary: self.dictionary,
             values: self.values,

@@ -1,39 +1,39 @@
 //! Heartbeat consumer (CiA 301, chapter 7.2.8.2.2; object 1016h).
 
 use crate::deadline::Deadline;
+use crate::rooms::{Blank, Room, Rooms};
 use crate::store::Store;
 use od_wire::{Instant, NodeId};
 
-/// Number of nodes that can be watched; entries of 1016h beyond it are ignored.
-const WATCHED: usize = 8;
-
 /// One entry of 1016h. Watching begins with the first heartbeat that is heard.
 #[derive(Clone, Copy, PartialEq, Debug)]
-struct Watch {
+pub(crate) struct Watch {
     node: u8,
     lost: bool,
     period_ms: u16,
     deadline: Deadline,
 }
 
-const NOBODY: Watch = Watch {
-    node: 0,
-    lost: false,
-    period_ms: 0,
-    deadline: Deadline::NEVER,
-};
+impl Blank for Watch {
+    const BLANK: Self = Self {
+        node: 0,
+        lost: false,
+        period_ms: 0,
+        deadline: Deadline::NEVER,
+    };
+}
 
 /// The nodes that are watched.
 #[derive(Debug)]
-pub(super) struct Consumer {
-    watches: [Watch; WATCHED],
-    count: usize,
+pub(super) struct Consumer<R: Rooms> {
+    watches: R::Watches<Watch>,
+    count: u8,
 }
 
-impl Consumer {
+impl<R: Rooms> Consumer<R> {
     pub(super) const fn new() -> Self {
         Self {
-            watches: [NOBODY; WATCHED],
+            watches: Room::BLANK,
             count: 0,
         }
     }
@@ -42,7 +42,7 @@ impl Consumer {
     /// not change goes on. Without `enabled` nobody is watched.
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
         self.count = 0;
-        for (sub, watch) in (1..).zip(&mut self.watches) {
+        for (sub, watch) in (1..).zip(self.watches.all_mut()) {
             let Some(raw) = store.try_unsigned(0x1016, sub) else {
                 break;
             };
@@ -53,7 +53,7 @@ impl Consumer {
                 *watch = Watch {
                     node,
                     period_ms,
-                    ..NOBODY
+                    ..Watch::BLANK
                 };
             }
             self.count += 1;
@@ -62,13 +62,17 @@ impl Consumer {
 
     /// The nodes that are watched; 0: none.
     pub(super) fn nodes(&self) -> impl Iterator<Item = u8> + '_ {
-        self.watches.iter().take(self.count).map(|watch| watch.node)
+        self.watches
+            .all()
+            .iter()
+            .take(self.count.into())
+            .map(|watch| watch.node)
     }
 
     fn watches(&mut self) -> impl Iterator<Item = &mut Watch> {
-        self.watches
-            .iter_mut()
-            .take(self.count)
+        let watches = self.watches.all_mut().iter_mut();
+        watches
+            .take(self.count.into())
             .filter(|watch| watch.period_ms > 0)
     }
 
@@ -91,12 +95,16 @@ impl Consumer {
 
     #[inline]
     pub(super) fn is_lost(&self) -> bool {
-        self.watches.iter().take(self.count).any(|watch| watch.lost)
+        self.watches
+            .all()
+            .iter()
+            .take(self.count.into())
+            .any(|watch| watch.lost)
     }
 
     #[inline]
     pub(super) fn deadline(&self) -> Deadline {
-        let watches = self.watches.iter().take(self.count);
+        let watches = self.watches.all().iter().take(self.count.into());
         watches.fold(Deadline::NEVER, |first, watch| first.or(watch.deadline))
     }
 }

@@ -1,13 +1,14 @@
 //! Node and life guarding (CiA 301, chapter 7.2.8.2.1; objects 100Ch and 100Dh).
 
 use crate::deadline::Deadline;
+use crate::rooms::Blank;
 use crate::store::Store;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
 /// The slave's side: a toggling answer to each remote frame, and the life time of the master.
 #[derive(Debug)]
-pub(super) struct Guard {
+pub(crate) struct Guard {
     enabled: bool,
     toggle: bool,
     /// Guard time × life time factor; 0: the master is not watched.
@@ -17,17 +18,17 @@ pub(super) struct Guard {
     lost: bool,
 }
 
-impl Guard {
-    pub(super) const fn new() -> Self {
-        Self {
-            enabled: false,
-            toggle: false,
-            life_ms: 0,
-            deadline: Deadline::NEVER,
-            lost: false,
-        }
-    }
+impl Blank for Guard {
+    const BLANK: Self = Self {
+        enabled: false,
+        toggle: false,
+        life_ms: 0,
+        deadline: Deadline::NEVER,
+        lost: false,
+    };
+}
 
+impl Guard {
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {
         let life_ms = (store.unsigned(0x100C, 0) * store.unsigned(0x100D, 0)) as u32;
         if !enabled || life_ms == 0 {

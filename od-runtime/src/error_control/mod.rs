@@ -13,6 +13,7 @@ pub(crate) use heartbeat::Producer;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::Profile;
+use crate::rooms::{Room, Rooms};
 use crate::store::Store;
 use od_wire::nmt::State;
 use od_wire::{CanId, Instant, NodeId};
@@ -40,17 +41,17 @@ pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
 
 /// Monitor of the other side: life guarding and heartbeat consumer.
 #[derive(Debug)]
-pub(crate) struct Monitor {
-    guard: guarding::Guard,
-    consumer: consumer::Consumer,
+pub(crate) struct Monitor<R: Rooms> {
+    guards: R::Guards<guarding::Guard>,
+    consumer: consumer::Consumer<R>,
     /// Result of the last [`poll`](Self::poll).
     lost: bool,
 }
 
-impl Monitor {
+impl<R: Rooms> Monitor<R> {
     pub(crate) const fn new() -> Self {
         Self {
-            guard: guarding::Guard::new(),
+            guards: Room::BLANK,
             consumer: consumer::Consumer::new(),
             lost: false,
         }
@@ -64,8 +65,8 @@ impl Monitor {
     /// Reads 100Ch, 100Dh and 1016h again.
     pub(crate) fn configure<D: Device>(&mut self, store: &Store<'_>, profile: &Profile) {
         let guards = guards::<D>(store, profile);
-        if D::GUARDING {
-            self.guard.configure(store, guards);
+        for guard in self.guards.all_mut() {
+            guard.configure(store, guards);
         }
         if D::CONSUMER {
             let switched_off = profile.guarding_switch.is_some() && guards;
@@ -75,7 +76,7 @@ impl Monitor {
 
     /// A master guards this node: the byte of the answer, if guarding is in force.
     pub(crate) fn guard(&mut self, state: State, now: Instant) -> Option<u8> {
-        self.guard.request(state, now)
+        self.guards.all_mut().first_mut()?.request(state, now)
     }
 
     /// A heartbeat, or boot-up message, of another node.
@@ -92,8 +93,8 @@ impl Monitor {
     /// Time has passed.
     #[inline]
     pub(crate) fn handle_timeout<D: Device>(&mut self, now: Instant) {
-        if D::GUARDING {
-            self.guard.handle_timeout(now);
+        for guard in self.guards.all_mut() {
+            guard.handle_timeout(now);
         }
         if D::CONSUMER {
             self.consumer.handle_timeout(now);
@@ -104,7 +105,8 @@ impl Monitor {
     /// everybody is back.
     #[inline]
     pub(crate) fn poll<D: Device>(&mut self) -> Option<bool> {
-        let lost = D::GUARDING && self.guard.is_lost() || D::CONSUMER && self.consumer.is_lost();
+        let mut guards = self.guards.all().iter();
+        let lost = guards.any(guarding::Guard::is_lost) || D::CONSUMER && self.consumer.is_lost();
         let changed = lost != self.lost;
         self.lost = lost;
         changed.then_some(lost)
@@ -118,11 +120,8 @@ impl Monitor {
     /// When somebody is lost unless heard of.
     #[inline]
     pub(crate) fn deadline<D: Device>(&self) -> Deadline {
-        match (D::GUARDING, D::CONSUMER) {
-            (true, true) => self.guard.deadline().or(self.consumer.deadline()),
-            (true, false) => self.guard.deadline(),
-            (false, true) => self.consumer.deadline(),
-            (false, false) => Deadline::NEVER,
-        }
+        let guards = self.guards.all().iter().map(guarding::Guard::deadline);
+        let consumer = D::CONSUMER.then(|| self.consumer.deadline());
+        guards.chain(consumer).fold(Deadline::NEVER, Deadline::or)
     }
 }

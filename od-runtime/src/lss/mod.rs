@@ -7,6 +7,7 @@ use od_model::row::Row;
 use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
+use crate::rooms::Blank;
 use crate::storage::image;
 use od_wire::lss::{Part, Request, Response};
 
@@ -49,18 +50,18 @@ pub(crate) struct Slave {
     bit_rate: Option<u8>,
 }
 
-impl Slave {
-    pub(crate) const fn new() -> Self {
-        Self {
-            configuration: false,
-            selective: identify::Sequence::new(),
-            remote: identify::Sequence::new(),
-            fastscan: identify::Fastscan::new(),
-            node_id: None,
-            bit_rate: None,
-        }
-    }
+impl Blank for Slave {
+    const BLANK: Self = Self {
+        configuration: false,
+        selective: identify::Sequence::new(),
+        remote: identify::Sequence::new(),
+        fastscan: identify::Fastscan::new(),
+        node_id: None,
+        bit_rate: None,
+    };
+}
 
+impl Slave {
     /// Back to waiting, as leaving Stopped does on devices that have LSS there alone. What
     /// was configured and not stored stays pending until a reset.
     pub(crate) fn leave(&mut self) {
@@ -68,7 +69,7 @@ impl Slave {
         *self = Self {
             node_id,
             bit_rate,
-            ..Self::new()
+            ..Self::BLANK
         };
     }
 

@@ -13,6 +13,7 @@ use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::profile::{CommunicationReset, LssProfile};
+use crate::rooms::Room;
 use crate::storage::image::{self, Loaded};
 use crate::store::StoreTooSmall;
 use crate::{lss, pdo};
@@ -45,7 +46,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     ) -> Result<(), StoreTooSmall> {
         let needed = device.dictionary.store_len();
         let node = &mut self.machines;
-        let objects = device.objects(node.node_id, now, &mut self.outbox);
+        let (outbox, saving) = (
+            Room::outbox(&mut self.outbox),
+            self.saves.all_mut().first_mut(),
+        );
+        let objects = device.objects(node.node_id, now, outbox, saving);
         let mut objects = objects.ok_or(StoreTooSmall { needed })?;
         node.now = now;
         node.next = Instant::ZERO;
@@ -70,10 +75,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
     /// Power goes: silence until [`power_on`](Self::power_on).
     pub fn power_off(&mut self) {
-        self.outbox.saving = None;
+        self.saves = Room::BLANK;
         let node = &mut self.machines;
         node.powered = false;
-        node.save_at = Deadline::NEVER;
+        node.save_at = Room::BLANK;
         node.next = Instant::ZERO;
         node.ear = Ear::DEAF;
         node.discard_frames();
@@ -100,7 +105,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.stop_pdos();
         self.heartbeat.stop();
         self.monitor.reset();
-        let pending = core::mem::replace(&mut self.lss, lss::Slave::new()).node_id;
+        let pending = self.lss.all().first().and_then(|lss| lss.node_id);
+        self.lss = Room::BLANK;
         if self.is_bus_off() {
             self.event(Event::BusOn);
         }
@@ -120,8 +126,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             self.forget_bus_errors(objects);
         } else {
             // A save that was not complete will not be; `load` finds out.
-            objects.outbox.saving = None;
-            self.save_at = Deadline::NEVER;
+            objects.forget_save();
+            self.save_at = Room::BLANK;
             if reset == Reset::Communication {
                 self.forget_bus_errors(objects);
             } else {
@@ -261,20 +267,31 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.wanted_changed = true;
         self.sync_id = CobId::new(objects.store.word(0x1005, 0, 0x80)).can_id();
         let dictionary = objects.store.dictionary();
-        self.tpdo_count = dictionary.tpdos().min(PDO);
-        self.rpdo_count = dictionary.rpdos().min(PDO);
-        for (number, tpdo) in self.tpdo.iter_mut().take(self.tpdo_count).enumerate() {
+        self.tpdo_count = dictionary.tpdos().min(PDO) as u16;
+        self.rpdo_count = dictionary.rpdos().min(Self::RPDOS) as u16;
+        for (number, tpdo) in self
+            .tpdo
+            .iter_mut()
+            .take(self.tpdo_count.into())
+            .enumerate()
+        {
             if tpdo.configure(objects, number as u16) && self.state == State::Operational {
                 tpdo.start(objects);
             }
         }
         if D::CHANGES && objects.profile().pdo.event_on_change {
-            let mut tpdos = self.tpdo.iter().take(self.tpdo_count);
+            let mut tpdos = self.tpdo.iter().take(self.tpdo_count.into());
             self.watches_changes = tpdos.clone().any(pdo::Tpdo::watches_changes);
             self.watches_live = tpdos.any(pdo::Tpdo::watches_live);
         }
         if D::RPDOS {
-            for (number, rpdo) in self.rpdo.iter_mut().take(self.rpdo_count).enumerate() {
+            for (number, rpdo) in self
+                .rpdo
+                .all_mut()
+                .iter_mut()
+                .take(self.rpdo_count.into())
+                .enumerate()
+            {
                 rpdo.configure(objects, number as u16);
             }
         }

@@ -68,7 +68,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.mute.is_some() {
             return;
         }
-        self.out.push(match counter {
+        self.push(match counter {
             Some(counter) => Frame::of(self.sync_id, &[counter]),
             None => Frame::of(self.sync_id, &[]),
         });
@@ -98,6 +98,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             return false;
         }
         let time = objects.application(|application, context| application.time(context));
-        time.is_some_and(|time| self.out.push(Frame::of(cob_id.can_id(), &time.emit())))
+        time.is_some_and(|time| self.push(Frame::of(cob_id.can_id(), &time.emit())))
     }
 }

@@ -1,5 +1,6 @@
 //! Effects of a call: services read changed objects again, saves end, errors go out.
 
+use od_model::Address;
 use od_wire::Instant;
 use od_wire::nmt::State;
 
@@ -10,7 +11,9 @@ use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::error_control;
 use crate::extras::Extras;
-use crate::objects::{Effect, Objects};
+use crate::objects::Objects;
+use crate::objects::outbox::Effect;
+use crate::rooms::Room;
 use crate::storage::image;
 
 /// Sub-index of 1010h, were it one, under which the device saves its own record.
@@ -56,7 +59,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         // A save that goes on has the record in it.
         let keep = objects.outbox.signals.take(Signals::KEEP);
-        if D::STORAGE && keep && objects.outbox.saving.is_none() {
+        if D::STORAGE && keep && !objects.is_saving() {
             objects.refresh_life_record();
             let profile = &objects.profile().store;
             if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
@@ -73,7 +76,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// A save that took its time is complete: its request is answered, and the one behind it.
     #[cold]
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
-        self.save_at = Deadline::NEVER;
+        self.save_at = Room::BLANK;
         let Some(done) = objects.complete_save() else {
             return;
         };
@@ -98,9 +101,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let mut communication = objects.outbox.signals.take(Signals::RECONFIGURE) || overflow;
         let mut heartbeat = overflow;
         let mut monitor = overflow;
-        while let Some(effect) = objects.outbox.effects.pop() {
+        while let Some(effect) = objects.outbox.effects().pop() {
             self.event(match effect {
-                Effect::Written(address) => {
+                Effect::Written { index, sub } => {
+                    let address = Address::new(index, sub);
                     heartbeat |= address.index == 0x1017 || switches(objects, address.index);
                     monitor |= error_control::is_configuration(address.index, objects.profile());
                     communication |= is_configuration(objects, address.index);
@@ -110,7 +114,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 Effect::Saved(sub) => Event::Saved(sub),
                 Effect::NotSaved => Event::NotSaved,
                 Effect::Saving => {
-                    self.save_at = Deadline::of(objects.outbox.saving.map(|saving| saving.due));
+                    self.save_at.all_mut().fill(objects.save_due());
                     continue;
                 }
                 Effect::Restored(sub) => {

@@ -2,8 +2,9 @@
 //! 1029h).
 
 use super::{Event, Machines};
+use crate::change::Change;
 use crate::device::Device;
-use crate::emcy::{self, Change};
+use crate::emcy;
 use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::profile::Notice;
@@ -81,7 +82,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         if gravest >= Behaviour::Stopped && self.sends_emcy() {
             while let Some(frame) = self.emcy.poll(&objects.store, objects.now) {
-                self.out.push(frame);
+                self.push(frame);
             }
         }
         match gravest {

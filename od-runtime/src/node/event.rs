@@ -3,10 +3,15 @@
 use od_model::Address;
 
 use crate::application::Reset;
+use crate::rooms::Blank;
 use crate::storage::image::Loaded;
 use od_wire::NodeId;
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
+
+impl Blank for Event {
+    const BLANK: Self = Self::State(State::Initialising);
+}
 
 /// Something happened in the node.
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -5,7 +5,7 @@ use core::fmt;
 use od_model::Dictionary;
 use od_wire::CobId;
 
-use super::Node;
+use super::{Machines, Node};
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::store::StoreTooSmall;
@@ -114,8 +114,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             let (needed, room) = (tpdos, PDO);
             return Err(Unfit::Tpdos { needed, room });
         }
-        if rpdos > PDO {
-            let (needed, room) = (rpdos, PDO);
+        let room = if D::RPDOS {
+            Machines::<D, PDO, SDO, X>::RPDOS
+        } else {
+            PDO
+        };
+        if rpdos > room {
+            let needed = rpdos;
             return Err(Unfit::Rpdos { needed, room });
         }
         let longest = dictionary.longest();

@@ -16,6 +16,7 @@ use crate::lent::Lent;
 use crate::lss::{self, Action};
 use crate::objects::Objects;
 use crate::pdo::{self, Received};
+use crate::rooms::Room;
 use crate::store::little_endian;
 
 /// The CAN-ID of NMT commands.
@@ -149,7 +150,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.monitor.handle_timeout::<D>(now);
             node.poll_monitor(&mut objects);
         }
-        if D::STORAGE && node.save_at.is_due(now) {
+        if node.save_at.all().iter().any(|at| at.is_due(now)) {
             node.end_save(&mut objects);
         }
         if node.tick_at.is_due(now) {
@@ -226,11 +227,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             true => lss::UNCONFIGURED,
             false => self.node_id.raw(),
         };
-        match self.lss.handle(objects, &profile, active, frame.data()) {
+        let Some(slave) = self.lss.all_mut().first_mut() else {
+            return;
+        };
+        match slave.handle(objects, &profile, active, frame.data()) {
             Action::Answer(None) => {}
             Action::Answer(Some(answer)) => {
                 let id = CanId::standard(od_wire::lss::SLAVE);
-                self.out.push(Frame::full(id, answer.emit()));
+                self.push(Frame::full(id, answer.emit()));
             }
             Action::Activate { delay_ms, bit_rate } => {
                 let silence_ms = if profile.second_delay { delay_ms } else { 0 };
@@ -243,7 +247,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         self.finish(objects);
-        if self.unconfigured && self.lss.is_ready() {
+        if self.unconfigured && self.lss.all().iter().any(lss::Slave::is_ready) {
             self.reset(objects, Reset::Communication);
         }
     }
@@ -277,10 +281,13 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.state != State::Operational {
             return;
         }
-        let pdos = self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default();
+        let pdos = self
+            .tpdo
+            .get_mut(..self.tpdo_count.into())
+            .unwrap_or_default();
         for pdo in pdos.iter_mut().filter(|pdo| pdo.answers(frame.id())) {
             if let Some(answer) = pdo.request(objects) {
-                self.out.push(answer);
+                Room::queue_mut(&mut self.out).push(answer);
             }
             self.pdo_pending |= pdo.is_pending();
         }
@@ -293,9 +300,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let only_counts = frame.dlc() <= 1
             && tpdos
                 .iter()
-                .take(self.tpdo_count)
+                .take(self.tpdo_count.into())
                 .all(pdo::Tpdo::only_counts)
-            && !(D::RPDOS && rpdos.iter().any(pdo::Rpdo::is_waiting));
+            && !(D::RPDOS && rpdos.all().iter().any(pdo::Rpdo::is_waiting));
         if only_counts {
             let mut pending = self.pdo_pending;
             for pdo in self.tpdos() {

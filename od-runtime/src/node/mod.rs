@@ -27,12 +27,15 @@ mod wanted;
 use od_wire::nmt::State;
 use od_wire::{CanId, Frame, Instant, NodeId};
 
+use crate::change::Change;
 use crate::deadline::Deadline;
 use crate::device::{AnyDevice, Device};
 use crate::extras::Extras;
 use crate::fifo::Fifo;
 use crate::lent::Lent;
-use crate::objects::{Objects, Outbox};
+use crate::objects::Objects;
+use crate::objects::outbox::{Outbox, Saving};
+use crate::rooms::{Room, Rooms};
 use crate::{emcy, error_control, lss, pdo, sdo};
 
 pub use controller::BusEvent;
@@ -50,15 +53,17 @@ pub use fits::Unfit;
 ///
 /// The node has no lifetime: each call borrows the device as a [`Lent`].
 #[derive(Debug)]
-pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X = ()> {
-    /// [`Objects`] holds it while a call has the device, so it is not one of the machines.
-    outbox: Outbox,
+pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: Extras<D, SDO> = ()>
+{
+    /// [`Objects`] holds both while a call has the device, so they are not among the machines.
+    outbox: Outbox<<X::Rooms as Rooms>::Changes<Change>>,
+    saves: <X::Rooms as Rooms>::Saves<Option<Saving>>,
     machines: Machines<D, PDO, SDO, X>,
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Debug)]
-struct Machines<D, const PDO: usize, const SDO: usize, X> {
+struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
     made_with: NodeId,
@@ -78,15 +83,15 @@ struct Machines<D, const PDO: usize, const SDO: usize, X> {
     next: Instant,
     sync_id: CanId,
     ear: ear::Ear,
-    out: Fifo<Frame, 8>,
-    /// The frame before those of `out`, if it is an SDO response: its data as one word. Most
+    out: Fifo<<X::Rooms as Rooms>::Frames<Frame>>,
+    /// The frame before those of `out`, if it is an SDO response: its data as words. Most
     /// frames are, and this way they do not go through memory in pieces.
-    answer: Option<u64>,
-    events: Fifo<Event, 16>,
-    sdo: sdo::Server<D, SDO>,
+    answer: Option<[u32; 2]>,
+    events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
+    sdo: sdo::Server<D, SDO, X::Rooms>,
     heartbeat: error_control::Producer,
-    monitor: error_control::Monitor,
-    lss: lss::Slave,
+    monitor: error_control::Monitor<X::Rooms>,
+    lss: <X::Rooms as Rooms>::Lss<lss::Slave>,
     /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
     mute: Option<controller::Mute>,
     /// Last report of the CAN controller, except overruns.
@@ -96,12 +101,12 @@ struct Machines<D, const PDO: usize, const SDO: usize, X> {
     /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
     lost: bool,
     /// A save is complete then.
-    save_at: Deadline,
-    emcy: emcy::Producer,
-    tpdo: [pdo::Tpdo; PDO],
-    tpdo_count: usize,
-    rpdo: [pdo::Rpdo; PDO],
-    rpdo_count: usize,
+    save_at: <X::Rooms as Rooms>::Saves<Deadline>,
+    emcy: emcy::Producer<X::Rooms>,
+    tpdo: [pdo::Tpdo<X::Rooms>; PDO],
+    tpdo_count: u16,
+    rpdo: <X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO>,
+    rpdo_count: u16,
     /// There is a TPDO that is sent when a mapped value changes.
     watches_changes: bool,
     /// Such a value may change without a word to the node.
@@ -126,7 +131,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     pub const fn with_extras(node_id: NodeId, extras: X) -> Self {
         const { Self::assert_fits() };
         Self {
-            outbox: Outbox::new(),
+            outbox: Outbox::new(Room::BLANK),
+            saves: Room::BLANK,
             machines: Machines::new(node_id, extras),
         }
     }
@@ -187,7 +193,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         machines.now = machines.now.max(now);
         machines.next = Instant::ZERO;
-        let objects = device.objects(machines.node_id, machines.now, &mut self.outbox)?;
+        let (outbox, saving) = (
+            Room::outbox(&mut self.outbox),
+            self.saves.all_mut().first_mut(),
+        );
+        let objects = device.objects(machines.node_id, machines.now, outbox, saving)?;
         Some((machines, objects))
     }
 }
@@ -207,22 +217,22 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             next: Instant::ZERO,
             sync_id: CanId::standard(0),
             ear: ear::Ear::DEAF,
-            out: Fifo::new(Frame::standard(0, &[])),
+            out: Fifo::new(Room::BLANK),
             answer: None,
-            events: Fifo::new(Event::State(State::Initialising)),
+            events: Fifo::new(Room::BLANK),
             sdo: sdo::Server::idle(),
             heartbeat: error_control::Producer::new(),
             monitor: error_control::Monitor::new(),
-            lss: lss::Slave::new(),
+            lss: Room::BLANK,
             mute: None,
             bus: BusEvent::Active,
             reset_due: false,
             lost: false,
-            save_at: Deadline::NEVER,
+            save_at: Room::BLANK,
             emcy: emcy::Producer::new(),
-            tpdo: [pdo::Tpdo::NONE; PDO],
+            tpdo: [const { pdo::Tpdo::NONE }; PDO],
             tpdo_count: 0,
-            rpdo: [pdo::Rpdo::NONE; PDO],
+            rpdo: Room::BLANK,
             rpdo_count: 0,
             watches_changes: false,
             watches_live: false,
@@ -232,14 +242,23 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
+    /// RPDOs that there is room for.
+    const RPDOS: usize =
+        <<X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO> as Room<pdo::Rpdo<X::Rooms>>>::LEN;
+
     /// There is somebody to watch: a master that guards, or a node that sends heartbeats.
     const HAS_MONITOR: bool = D::GUARDING || D::CONSUMER;
+
+    /// Queues a frame, if there is room.
+    fn push(&mut self, frame: Frame) -> bool {
+        Room::queue_mut(&mut self.out).push(frame)
+    }
 
     /// Something for the host to know.
     #[inline]
     fn event(&mut self, event: Event) {
         if D::EVENTS {
-            self.events.push(event);
+            Room::queue_mut(&mut self.events).push(event);
         }
     }
 
@@ -250,14 +269,19 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// The TPDOs that the dictionary has.
     #[inline]
-    fn tpdos(&mut self) -> &mut [pdo::Tpdo] {
-        self.tpdo.get_mut(..self.tpdo_count).unwrap_or_default()
+    fn tpdos(&mut self) -> &mut [pdo::Tpdo<X::Rooms>] {
+        self.tpdo
+            .get_mut(..self.tpdo_count.into())
+            .unwrap_or_default()
     }
 
     /// The RPDOs that the dictionary has.
     #[inline]
-    fn rpdos(&mut self) -> &mut [pdo::Rpdo] {
-        self.rpdo.get_mut(..self.rpdo_count).unwrap_or_default()
+    fn rpdos(&mut self) -> &mut [pdo::Rpdo<X::Rooms>] {
+        self.rpdo
+            .all_mut()
+            .get_mut(..self.rpdo_count.into())
+            .unwrap_or_default()
     }
 
     fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
@@ -268,7 +292,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             && self.state == State::Stopped
             && objects.profile().lss.is_some_and(|lss| lss.stopped_only)
         {
-            self.lss.leave();
+            self.lss.all_mut().iter_mut().for_each(lss::Slave::leave);
         }
         self.state = state;
         self.event(Event::State(state));
@@ -306,7 +330,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Does something with each TPDO, after which it may be waiting to be sent.
     #[inline]
-    fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo)) {
+    fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo<X::Rooms>)) {
         let mut pending = self.pdo_pending;
         for pdo in self.tpdos() {
             act(pdo);

@@ -11,6 +11,7 @@ use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
 use crate::pdo;
+use crate::rooms::Room;
 use crate::store::Store;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
@@ -24,9 +25,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return None;
         }
         if let Some(answer) = node.answer.take() {
-            return Some(node.response(answer.to_le_bytes()));
+            return Some(node.response(bytes(answer)));
         }
-        if let Some(frame) = node.out.pop() {
+        if let Some(frame) = Room::queue_mut(&mut node.out).pop() {
             return Some(frame);
         }
         if node.pdo_pending
@@ -50,14 +51,18 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node = &mut self.machines;
         let now = now.max(node.now);
         let node_id = node.node_id;
-        let pdos = node.tpdo.get_mut(..node.tpdo_count)?;
+        let pdos = node.tpdo.get_mut(..node.tpdo_count.into())?;
         // One that the inhibit time holds back stays pending.
         let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready(now)) else {
             node.pdo_pending = pdos.iter().any(pdo::Tpdo::is_pending);
             return None;
         };
         if pdo.is_live() {
-            let mut objects: Objects<'_, D> = device.objects(node_id, now, &mut self.outbox)?;
+            let (outbox, saving) = (
+                Room::outbox(&mut self.outbox),
+                self.saves.all_mut().first_mut(),
+            );
+            let mut objects: Objects<'_, D> = device.objects(node_id, now, outbox, saving)?;
             pdo.refresh(&mut objects);
             if !objects.outbox.is_empty() {
                 // What the application has to say of the values comes with the next call.
@@ -76,7 +81,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     fn poll_services(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let now = now.max(node.now);
-        let mut objects: Objects<'_, D> = device.objects(node.node_id, now, &mut self.outbox)?;
+        let (outbox, saving) = (
+            Room::outbox(&mut self.outbox),
+            self.saves.all_mut().first_mut(),
+        );
+        let mut objects: Objects<'_, D> = device.objects(node.node_id, now, outbox, saving)?;
         if node.sends_emcy() {
             let frame = node.emcy.poll(&objects.store, now);
             if frame.is_some() {
@@ -105,7 +114,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// Returns the oldest pending event. The queue holds 16; while it is full, new events are
     /// dropped.
     pub fn poll_event(&mut self) -> Option<Event> {
-        self.machines.events.pop()
+        Room::queue_mut(&mut self.machines.events).pop()
     }
 }
 
@@ -114,10 +123,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[inline]
     pub(super) fn answer(&mut self, answer: [u8; 8]) {
         if self.answer.is_none() && self.out.is_empty() {
-            self.answer = Some(u64::from_le_bytes(answer));
+            self.answer = Some(words(answer));
         } else {
             let response = self.response(answer);
-            self.out.push(response);
+            self.push(response);
         }
     }
 
@@ -128,7 +137,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Boot-up message, heartbeat and answer to guarding: one byte under 700h + node ID.
     pub(super) fn push_error_control(&mut self, byte: u8) {
-        self.out.push(Frame::of(self.node_id.plus(0x700), &[byte]));
+        self.push(Frame::of(self.node_id.plus(0x700), &[byte]));
     }
 
     /// Discards the frames that wait.
@@ -155,7 +164,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             first = first.or(self.emcy.deadline());
         }
         if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
+            for pdo in self.tpdo.get(..self.tpdo_count.into()).unwrap_or_default() {
                 first = first.or(pdo.ready_at());
             }
         }
@@ -182,14 +191,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::SERVERS {
             first = first.or(self.servers_deadline());
         }
-        if D::STORAGE {
-            first = first.or(self.save_at);
+        for at in self.save_at.all() {
+            first = first.or(*at);
         }
         if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdo.get(..self.tpdo_count).unwrap_or_default() {
+            for pdo in self.tpdo.get(..self.tpdo_count.into()).unwrap_or_default() {
                 first = first.or(pdo.deadline());
             }
         }
         first
     }
+}
+
+/// The data of a frame as two words, and back.
+#[inline(always)]
+fn words(data: [u8; 8]) -> [u32; 2] {
+    let data = u64::from_le_bytes(data);
+    [data as u32, (data >> 32) as u32]
+}
+
+#[inline(always)]
+fn bytes([low, high]: [u32; 2]) -> [u8; 8] {
+    (u64::from(high) << 32 | u64::from(low)).to_le_bytes()
 }

@@ -194,7 +194,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     fn send(&mut self, frame: Option<Frame>) {
         if let Some(frame) = frame {
-            self.out.push(frame);
+            self.push(frame);
         }
     }
 }

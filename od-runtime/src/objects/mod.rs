@@ -1,7 +1,7 @@
 //! The one way to read and write an object: SDO server and RPDOs come through here.
 
 mod communication;
-mod outbox;
+pub(crate) mod outbox;
 
 use core::marker::PhantomData;
 
@@ -9,6 +9,7 @@ use od_model::Address;
 use od_model::row::Row;
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
+use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::limits::{self, Outside};
 use crate::profile::{Profile, SaveAnswer};
@@ -16,10 +17,9 @@ use crate::storage::{Storage, image};
 use crate::store::Store;
 use od_wire::{AbortCode, Instant};
 
-use outbox::{RESTORE, Saving, live_bit};
+use outbox::{Effect, Outbox, RESTORE, Saving, live_bit};
 
 pub(crate) use communication::check_mapped;
-pub(crate) use outbox::{Effect, Outbox};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
 const ASK_AGAIN_US: u64 = 2_000;
@@ -48,6 +48,8 @@ pub(crate) struct Objects<'c, D> {
     pub(crate) lent_profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
+    /// A save that is not complete, which outlasts the call; a device without storage has no room for one.
+    pub(crate) saving: Option<&'c mut Option<Saving>>,
 }
 
 impl<'c, D: Device> Objects<'c, D> {
@@ -138,7 +140,7 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// A stream took all of a value.
     pub(crate) fn streamed(&mut self, address: Address) {
-        self.outbox.effect(Effect::Written(address));
+        self.outbox.written(address);
     }
 
     /// Asks the application which values are live. The communication area is the services' own;
@@ -233,7 +235,7 @@ impl<'c, D: Device> Objects<'c, D> {
             crate::emcy::clear_log(&mut self.store);
         }
         self.application(|application, context| application.written(context, address));
-        self.outbox.effect(Effect::Written(address));
+        self.outbox.written(address);
         Ok(())
     }
 
@@ -292,7 +294,7 @@ impl<'c, D: Device> Objects<'c, D> {
             self.outbox.effect(Effect::NotSaved);
             return Err(profile.failed);
         };
-        self.outbox.saving = Some(Saving {
+        self.begin_save(Saving {
             pending,
             sub,
             due: self.now.plus_micros(profile.duration_us.into()),
@@ -313,7 +315,7 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
     /// memory is still writing.
     pub(crate) fn complete_save(&mut self) -> Option<bool> {
-        let Some(Saving { pending, sub, .. }) = self.outbox.saving.take() else {
+        let Some(Saving { pending, sub, .. }) = self.forget_save() else {
             return Some(true);
         };
         let is_written = !pending.is_some() || image::commit(self.storage, pending).is_ok();
@@ -335,12 +337,36 @@ impl<'c, D: Device> Objects<'c, D> {
 
     /// All is written, and on its way to the memory that keeps it.
     fn await_memory(&mut self, sub: u8) {
-        self.outbox.saving = Some(Saving {
+        self.begin_save(Saving {
             pending: image::Pending::NONE,
             sub,
             due: self.now.plus_micros(ASK_AGAIN_US),
         });
         self.outbox.effect(Effect::Saving);
+    }
+
+    fn begin_save(&mut self, saving: Saving) {
+        if let Some(room) = &mut self.saving {
+            **room = Some(saving);
+        }
+    }
+
+    /// Whether a save goes on.
+    pub(crate) fn is_saving(&self) -> bool {
+        matches!(&self.saving, Some(Some(_)))
+    }
+
+    /// When the save that goes on is complete.
+    pub(crate) fn save_due(&self) -> Deadline {
+        match &self.saving {
+            Some(Some(saving)) => Deadline::at(saving.due),
+            _ => Deadline::NEVER,
+        }
+    }
+
+    /// The save that is not complete is no more.
+    pub(crate) fn forget_save(&mut self) -> Option<Saving> {
+        self.saving.as_mut().and_then(|saving| saving.take())
     }
 
     /// The application may report the end of an error that it found at the start.

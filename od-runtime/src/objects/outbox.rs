@@ -4,14 +4,20 @@ use od_model::Address;
 use od_wire::Instant;
 
 use crate::application::Signals;
+use crate::change::Change;
 use crate::fifo::Fifo;
 use crate::storage::image;
 
 /// Effect of a write on the services.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Effect {
-    /// The object at this address has a new value.
-    Written(Address),
+    /// The object at this address has a new value. Not an `Address`, for the sake of two bytes.
+    Written {
+        /// Index.
+        index: u16,
+        /// Sub-index.
+        sub: u8,
+    },
     /// 1010h: these groups were saved (sub-index).
     Saved(u8),
     /// 1010h: a save goes on in the background.
@@ -25,19 +31,17 @@ pub(crate) enum Effect {
 /// The node's part of [`Objects`](super::Objects): filled while a call has the device, emptied
 /// before it returns.
 #[derive(Debug)]
-pub(crate) struct Outbox {
-    /// The application's requests.
-    pub(crate) signals: Signals,
+pub struct Outbox<Q: ?Sized = [Change]> {
     /// Objects that were written: one by an SDO, up to 64 by an RPDO.
-    pub(crate) effects: Fifo<Effect, 8>,
+    pub(crate) effects: Fifo<[Effect; 8]>,
     /// More was written than `effects` could hold.
     pub(crate) overflow: bool,
-    /// A save that is not complete; it outlasts the call.
-    pub(crate) saving: Option<Saving>,
     /// The request that began it is answered when it is complete.
     pub(crate) answer_later: bool,
     /// A set of live values that may name a few others, too: bits by [`live_bit`].
     pub(super) live: u32,
+    /// The application's requests.
+    pub(crate) signals: Signals<Q>,
 }
 
 /// An address as one of 32 bits.
@@ -61,30 +65,42 @@ pub(crate) struct Saving {
 /// No sub-index of 1010h that saves.
 pub(super) const RESTORE: u8 = u8::MAX;
 
-impl Outbox {
-    pub(crate) const fn new() -> Self {
+impl<Q> Outbox<Q> {
+    pub(crate) const fn new(room: Q) -> Self {
         Self {
-            signals: Signals::new(),
-            effects: Fifo::new(Effect::Written(Address::new(0, 0))),
+            effects: Fifo::new([Effect::Written { index: 0, sub: 0 }; 8]),
             overflow: false,
-            saving: None,
             answer_later: false,
             live: 0,
+            signals: Signals::with_room(room),
         }
     }
+}
 
+impl Outbox {
     #[inline]
     pub(crate) const fn is_empty(&self) -> bool {
         self.effects.is_empty() && self.signals.is_idle()
     }
 
+    /// The objects that were written, and what else has effects.
+    pub(crate) fn effects(&mut self) -> &mut Fifo<[Effect]> {
+        &mut self.effects
+    }
+
+    pub(super) fn written(&mut self, Address { index, sub }: Address) {
+        self.effect(Effect::Written { index, sub });
+    }
+
+    pub(super) fn effect(&mut self, effect: Effect) {
+        self.overflow |= !self.effects().push(effect);
+    }
+}
+
+impl<Q: ?Sized> Outbox<Q> {
     /// Whether the application may have to bring the value at an address up to date.
     #[inline(always)]
     pub(crate) const fn is_live(&self, address: Address) -> bool {
         self.live & live_bit(address) != 0 && address.index >= 0x2000
-    }
-
-    pub(super) fn effect(&mut self, effect: Effect) {
-        self.overflow |= !self.effects.push(effect);
     }
 }

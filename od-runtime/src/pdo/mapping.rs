@@ -5,34 +5,32 @@ use od_model::typed::MapEntry;
 
 use crate::device::Device;
 use crate::objects::{Objects, check_mapped};
+use crate::rooms::{Room, Rooms};
 use crate::store::{Store, little_endian};
-
-/// Entries that are kept; more (BOOLEANs, say) are read from the mapping object each time.
-const KEPT: usize = 8;
 
 /// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nobody
 /// reads, and above them its length in bits.
 type Mapped = u32;
 
 /// The mapping of one PDO.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Mapping {
+#[derive(Debug)]
+pub(super) struct Mapping<R: Rooms> {
     object: u16,
     count: u8,
     /// Length of the frame in bytes.
     len: u8,
-    kept: [Mapped; KEPT],
+    kept: R::Kept<Mapped>,
     /// The application brings one of the values up to date.
     is_live: bool,
 }
 
-impl Mapping {
+impl<R: Rooms> Mapping<R> {
     /// Nothing is mapped.
     pub(super) const NONE: Self = Self {
         object: 0,
         count: 0,
         len: 0,
-        kept: [0; KEPT],
+        kept: Room::BLANK,
         is_live: false,
     };
 
@@ -53,7 +51,7 @@ impl Mapping {
             };
             self.is_live |= objects.is_live(address);
             bits += raw & 0xFF;
-            if let Some(kept) = self.kept.get_mut(usize::from(sub) - 1) {
+            if let Some(kept) = self.kept.all_mut().get_mut(usize::from(sub) - 1) {
                 let mapped = mapped(store, raw);
                 changed |= *kept != mapped;
                 *kept = mapped;
@@ -85,7 +83,7 @@ impl Mapping {
     /// The row of a mapped value, if it has one, and its bits.
     #[inline(always)]
     fn value<'a>(&self, store: &Store<'a>, at: u8) -> (Option<&'a Row>, u32) {
-        let mapped = match self.kept.get(usize::from(at)) {
+        let mapped = match self.kept.all().get(usize::from(at)) {
             Some(mapped) => *mapped,
             // The object has not changed since `load`, so the entry is still there.
             None => mapped(store, store.word(self.object, at + 1, 0)),

@@ -3,15 +3,16 @@
 use super::mapping::Mapping;
 use crate::device::Device;
 use crate::objects::Objects;
+use crate::rooms::{Blank, Rooms};
 use od_wire::{CanId, CobId, Frame};
 
 /// An RPDO with what its objects say, and a frame that waits for SYNC.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Rpdo {
+#[derive(Debug)]
+pub(crate) struct Rpdo<R: Rooms> {
     valid: bool,
     cob_id: CobId,
     synchronous: bool,
-    mapping: Mapping,
+    mapping: Mapping<R>,
     waiting: Option<[u8; 8]>,
 }
 
@@ -24,16 +25,17 @@ pub(crate) enum Received {
     TooShort,
 }
 
-impl Rpdo {
-    /// One that does not exist.
-    pub(crate) const NONE: Self = Self {
+impl<R: Rooms> Blank for Rpdo<R> {
+    const BLANK: Self = Self {
         valid: false,
         cob_id: CobId::new(0),
         synchronous: false,
         mapping: Mapping::NONE,
         waiting: None,
     };
+}
 
+impl<R: Rooms> Rpdo<R> {
     /// Reads the objects of RPDO `number` again; a frame that waits for SYNC stays where
     /// they say what they said.
     pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) {

@@ -4,6 +4,7 @@ use super::mapping::Mapping;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::Objects;
+use crate::rooms::Rooms;
 use crate::store::Store;
 use od_wire::{CanId, CobId, Frame, Instant};
 
@@ -31,10 +32,10 @@ struct Config {
 }
 
 /// TPDO: its configuration and its state.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tpdo {
+#[derive(Debug)]
+pub(crate) struct Tpdo<R: Rooms> {
     config: Config,
-    mapping: Mapping,
+    mapping: Mapping<R>,
     /// The next tick of the event timer.
     event_at: Deadline,
     inhibited_until: Instant,
@@ -92,7 +93,7 @@ impl Config {
     }
 }
 
-impl Tpdo {
+impl<R: Rooms> Tpdo<R> {
     /// One that does not exist.
     pub(crate) const NONE: Self = Self {
         config: Config::NONE,

@@ -6,13 +6,14 @@ use od_wire::{AbortCode, CanId, CobId, Frame};
 use super::{Server, Transfer};
 use crate::device::Device;
 use crate::objects::Objects;
+use crate::rooms::{FullRooms, Rooms};
 use crate::store::Store;
 
 /// SDO server of one of the objects 1201h to 127Fh, with a transfer of its own. `N` is the room for
 /// its buffer in bytes, as that of the default server.
 #[derive(Debug)]
-pub struct SdoServer<D, const N: usize> {
-    pub(crate) server: Server<D, N>,
+pub struct SdoServer<D, const N: usize, R: Rooms = FullRooms> {
+    pub(crate) server: Server<D, N, R>,
     /// The two COB-IDs, while both are valid.
     channel: Option<Channel>,
 }
@@ -24,7 +25,7 @@ struct Channel {
     response: CanId,
 }
 
-impl<D, const N: usize> SdoServer<D, N> {
+impl<D, const N: usize, R: Rooms> SdoServer<D, N, R> {
     /// A server before power-on.
     pub const fn new() -> Self {
         Self {
@@ -64,14 +65,14 @@ impl<D, const N: usize> SdoServer<D, N> {
     }
 }
 
-impl<D, const N: usize> Default for SdoServer<D, N> {
+impl<D, const N: usize, R: Rooms> Default for SdoServer<D, N, R> {
     fn default() -> Self {
         Self::new()
     }
 }
 
 /// What one of several servers tells the others.
-impl<D: Device, const N: usize> Server<D, N> {
+impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// Refuses a request that begins a transfer.
     #[cold]
     pub(crate) fn refuse(
@@ -93,12 +94,12 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// Whether the next frame is data, whatever it looks like, or waits.
     pub(crate) fn takes_anything(&self) -> bool {
-        self.late.is_awaited()
-            || matches!(&self.transfer, Transfer::BlockDownload(block) if block.wants_segments())
+        self.late().is_awaited()
+            || matches!(self.transfer(), Transfer::BlockDownload(block) if block.wants_segments())
     }
 
     /// Whether a client waits for the end of a save.
     pub(crate) fn awaits_save(&self) -> bool {
-        self.late.is_awaited() && !self.late.awaits_stream()
+        self.late().is_awaited() && !self.late().awaits_stream()
     }
 }

@@ -1,6 +1,8 @@
 //! An answer that waits until the device has stored (1010h) or a stream can go on, and the request
 //! that waits for it.
 
+use crate::rooms::Blank;
+
 /// The answer that waits, and what came since.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Late {
@@ -22,13 +24,15 @@ enum Awaited {
 /// A request: its bytes and its DLC.
 pub(crate) type Held = ([u8; 8], u8);
 
-impl Late {
-    pub(super) const NONE: Self = Self {
+impl Blank for Late {
+    const BLANK: Self = Self {
         awaited: Awaited::Nothing,
         answer: None,
         held: None,
     };
+}
 
+impl Late {
     pub(super) const fn new(answer: [u8; 8]) -> Self {
         Self {
             awaited: Awaited::Storing,

@@ -21,6 +21,7 @@ use crate::application::{Halt, StreamEnd};
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::{Objects, Unread};
+use crate::rooms::{Blank, FullRooms, Room, Rooms};
 use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
 use od_wire::{AbortCode, Frame, Instant};
@@ -54,11 +55,15 @@ enum Transfer {
     BlockDownload(BlockDownload),
 }
 
+impl Blank for Transfer {
+    const BLANK: Self = Self::None;
+}
+
 /// The server: one transfer at a time, `N` bytes of it.
 #[derive(Debug)]
-pub(crate) struct Server<D, const N: usize> {
+pub(crate) struct Server<D, const N: usize, R: Rooms = FullRooms> {
     device: PhantomData<D>,
-    transfer: Transfer,
+    transfers: R::Transfers<Transfer>,
     address: Address,
     window: Window<N>,
     /// The application streams the value of the transfer.
@@ -67,33 +72,33 @@ pub(crate) struct Server<D, const N: usize> {
     /// A frame needs a closer look: a block transfer is under way, whose segments may look like requests,
     /// the frame has to wait, or it ends a stream.
     is_busy: bool,
-    late: Late,
+    late: R::Late<Late>,
 }
 
 /// Response of the server, if there is one, or the reason why it does not come.
 type Answer = Result<Option<[u8; 8]>, Halt>;
 
-impl<D, const N: usize> Server<D, N> {
+impl<D, const N: usize, R: Rooms> Server<D, N, R> {
     pub(crate) const fn idle() -> Self {
         Self {
             device: PhantomData,
-            transfer: Transfer::None,
+            transfers: Room::BLANK,
             address: Address::new(0, 0),
             window: Window::new(),
             is_streaming: false,
             deadline: Deadline::NEVER,
             is_busy: false,
-            late: Late::NONE,
+            late: Room::BLANK,
         }
     }
 }
 
-impl<D: Device, const N: usize> Server<D, N> {
+impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// Forgets everything without a word, as the end of power does.
     pub(crate) fn forget(&mut self) {
         self.reset();
         self.is_streaming = false;
-        self.late = Late::NONE;
+        self.set_late(Late::BLANK);
         self.is_busy = false;
     }
 
@@ -106,8 +111,34 @@ impl<D: Device, const N: usize> Server<D, N> {
     /// The transfer is over.
     #[inline]
     fn reset(&mut self) {
-        self.transfer = Transfer::None;
+        self.set_transfer(Transfer::None);
         self.deadline = Deadline::NEVER;
+    }
+
+    /// The transfer under way; a server without room for one has none.
+    #[inline]
+    fn transfer(&self) -> &Transfer {
+        self.transfers.all().first().unwrap_or(&Transfer::None)
+    }
+
+    #[inline]
+    fn set_transfer(&mut self, transfer: Transfer) {
+        if let Some(to) = self.transfers.all_mut().first_mut() {
+            *to = transfer;
+        }
+    }
+
+    /// The response that waits.
+    #[inline]
+    fn late(&self) -> &Late {
+        self.late.all().first().unwrap_or(&Late::BLANK)
+    }
+
+    #[inline]
+    fn set_late(&mut self, late: Late) {
+        if let Some(to) = self.late.all_mut().first_mut() {
+            *to = late;
+        }
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.
@@ -168,16 +199,18 @@ impl<D: Device, const N: usize> Server<D, N> {
         if dlc < objects.profile().sdo.min_dlc {
             return None;
         }
-        if (D::STORAGE || D::STREAMS) && self.late.is_awaited() {
-            self.late.hold(data, dlc);
-            if D::STREAMS && data[0] == ABORT && self.late.awaits_stream() {
+        if (D::STORAGE || D::STREAMS) && self.late().is_awaited() {
+            for late in self.late.all_mut() {
+                late.hold(data, dlc);
+            }
+            if D::STREAMS && data[0] == ABORT && self.late().awaits_stream() {
                 let answer = self.request(objects, Request::parse(data), data, dlc);
-                self.late = Late::NONE;
+                self.set_late(Late::BLANK);
                 self.settle(objects, answer, data, dlc);
             }
             return None;
         }
-        let answer = match &self.transfer {
+        let answer = match self.transfer() {
             Transfer::BlockDownload(block)
                 if D::BLOCK && block.wants_segments() && data[0] != ABORT =>
             {
@@ -205,7 +238,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         let is_late = D::STORAGE && core::mem::take(&mut objects.outbox.answer_later);
         let answer = match answer {
             Ok(Some(response)) if is_late => {
-                self.late = Late::new(response);
+                self.set_late(Late::new(response));
                 None
             }
             Ok(response) => response,
@@ -224,7 +257,7 @@ impl<D: Device, const N: usize> Server<D, N> {
     /// From now on a block transfer waits for its client.
     fn await_client(&mut self, now: Instant) {
         let is_block = matches!(
-            self.transfer,
+            self.transfer(),
             Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
         );
         self.deadline = match is_block {
@@ -239,7 +272,7 @@ impl<D: Device, const N: usize> Server<D, N> {
             || self.streams()
             || D::BLOCK
                 && matches!(
-                    self.transfer,
+                    self.transfer(),
                     Transfer::BlockDownload(_) | Transfer::BlockUpload(_)
                 );
     }
@@ -280,7 +313,7 @@ impl<D: Device, const N: usize> Server<D, N> {
     #[inline(never)]
     fn begin_upload(&mut self, address: Address, bytes: &[u8]) -> Result<[u8; 8], Unread> {
         let len = self.window.load(bytes)?;
-        self.transfer = Transfer::Upload(Upload::new(len));
+        self.set_transfer(Transfer::Upload(Upload::new(len)));
         Ok(Response::InitiateUpload {
             address,
             size: Some(len as u32),
@@ -317,20 +350,21 @@ impl<D: Device, const N: usize> Server<D, N> {
     /// Whether [`poll`](Self::poll) may have a segment.
     #[inline]
     pub(crate) fn is_sending(&self) -> bool {
-        matches!(self.transfer, Transfer::BlockUpload(_))
+        matches!(self.transfer(), Transfer::BlockUpload(_))
     }
 
     /// The next segment of a block upload, if one is due, or an abort.
     pub(crate) fn poll(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        let Transfer::BlockUpload(block) = &self.transfer else {
+        let Transfer::BlockUpload(block) = self.transfer() else {
             return None;
         };
         let (at, len) = (block.due()?, block.len());
-        if self.late.is_awaited() {
+        if self.late().is_awaited() {
             return None;
         }
-        let answer = match (self.fetch(objects, at, len), &mut self.transfer) {
-            (Ok(()), Transfer::BlockUpload(block)) => Some(block.segment(self.window.from(at))),
+        let fetched = self.fetch(objects, at, len);
+        let answer = match (fetched, self.transfers.all_mut()) {
+            (Ok(()), [Transfer::BlockUpload(block)]) => Some(block.segment(self.window.from(at))),
             (Err(Halt::Abort(code)), _) => Some(self.abort(objects, code)),
             (Err(Halt::Until(at)), _) if D::STREAMS => {
                 self.await_stream(at, None);
@@ -348,7 +382,8 @@ impl<D: Device, const N: usize> Server<D, N> {
         objects: &mut Objects<'_, D>,
         failed: Option<AbortCode>,
     ) -> (Option<[u8; 8]>, Option<Held>) {
-        let Late { answer, held, .. } = core::mem::replace(&mut self.late, Late::NONE);
+        let Late { answer, held, .. } = *self.late();
+        self.set_late(Late::BLANK);
         self.look();
         let answer = match (answer, failed) {
             (Some(_), Some(code)) => Some(self.abort(objects, code)),
@@ -368,7 +403,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         if !self.deadline.is_due(objects.now) {
             return None;
         }
-        if D::STREAMS && self.late.awaits_stream() {
+        if D::STREAMS && self.late().awaits_stream() {
             return self.ask_again(objects);
         }
         let abort = self.abort(objects, AbortCode::Timeout);

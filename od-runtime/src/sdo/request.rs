@@ -11,8 +11,9 @@ use super::{Answer, Server, Transfer, expedited};
 use crate::application::{Halt, StreamEnd};
 use crate::device::Device;
 use crate::objects::{Objects, Unread};
+use crate::rooms::{Room, Rooms};
 
-impl<D: Device, const N: usize> Server<D, N> {
+impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     pub(super) fn request(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -21,7 +22,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         dlc: u8,
     ) -> Answer {
         let profile = objects.profile().sdo;
-        match (request, &mut self.transfer) {
+        match (request, self.transfers.all_mut()) {
             (
                 Request::InitiateDownload {
                     address,
@@ -36,14 +37,14 @@ impl<D: Device, const N: usize> Server<D, N> {
                     return Err(AbortCode::InvalidCommand.into());
                 }
                 self.open_download(objects, size)?;
-                self.transfer = Transfer::Download(Download::new(size));
+                self.set_transfer(Transfer::Download(Download::new(size)));
                 Ok(Some(Response::InitiateDownload { address }.emit()))
             }
-            (Request::UploadSegment { toggle }, Transfer::Upload(upload)) if D::SEGMENTED => {
+            (Request::UploadSegment { toggle }, [Transfer::Upload(upload)]) if D::SEGMENTED => {
                 upload.check(toggle)?;
                 let (at, len) = (upload.sent(), upload.len());
                 self.fetch(objects, at, len)?;
-                let Transfer::Upload(upload) = &mut self.transfer else {
+                let [Transfer::Upload(upload)] = self.transfers.all_mut() else {
                     return Ok(None);
                 };
                 let segment = upload.segment(self.window.from(at));
@@ -52,7 +53,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 }
                 Ok(Some(segment.emit()))
             }
-            (Request::DownloadSegment(segment), Transfer::Download(download)) if D::SEGMENTED => {
+            (Request::DownloadSegment(segment), [Transfer::Download(download)]) if D::SEGMENTED => {
                 let mut download = *download;
                 let bytes = segment.bytes();
                 download.check(&segment, self.window.end() + bytes.len())?;
@@ -66,7 +67,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 } else {
                     self.window.len = len;
                     download.go_on();
-                    self.transfer = Transfer::Download(download);
+                    self.set_transfer(Transfer::Download(download));
                 }
                 let toggle = segment.toggle;
                 Ok(Some(Response::DownloadSegment { toggle }.emit()))
@@ -87,7 +88,9 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.replace(objects, address);
                 block_upload::check(block_size)?;
                 let len = self.open_upload(objects)?;
-                self.transfer = Transfer::BlockUpload(BlockUpload::new(len, crc, block_size));
+                self.set_transfer(Transfer::BlockUpload(BlockUpload::new(
+                    len, crc, block_size,
+                )));
                 Ok(Some(
                     Response::InitiateBlockUpload {
                         address,
@@ -97,16 +100,16 @@ impl<D: Device, const N: usize> Server<D, N> {
                     .emit(),
                 ))
             }
-            (Request::StartBlockUpload, Transfer::BlockUpload(block)) if D::BLOCK => {
+            (Request::StartBlockUpload, [Transfer::BlockUpload(block)]) if D::BLOCK => {
                 block.start()?;
                 Ok(None)
             }
-            (Request::BlockUploadResponse { ack, block_size }, Transfer::BlockUpload(block))
+            (Request::BlockUploadResponse { ack, block_size }, [Transfer::BlockUpload(block)])
                 if D::BLOCK =>
             {
                 Ok(block.acknowledged(ack, block_size)?.map(Response::emit))
             }
-            (Request::EndBlockUpload, Transfer::BlockUpload(block))
+            (Request::EndBlockUpload, [Transfer::BlockUpload(block)])
                 if D::BLOCK && block.is_complete() =>
             {
                 self.close(objects, StreamEnd::Complete);
@@ -118,7 +121,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 self.replace(objects, address);
                 self.open_download(objects, size)?;
                 let block = BlockDownload::new(N, crc, size);
-                self.transfer = Transfer::BlockDownload(block);
+                self.set_transfer(Transfer::BlockDownload(block));
                 Ok(Some(
                     Response::InitiateBlockDownload {
                         address,
@@ -128,7 +131,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                     .emit(),
                 ))
             }
-            (Request::EndBlockDownload { unused, crc }, Transfer::BlockDownload(block))
+            (Request::EndBlockDownload { unused, crc }, [Transfer::BlockDownload(block)])
                 if D::BLOCK =>
             {
                 let len = block.end(&self.window, unused, crc)?;
@@ -136,7 +139,7 @@ impl<D: Device, const N: usize> Server<D, N> {
                 Ok(Some(Response::EndBlockDownload.emit()))
             }
             (_, transfer) => {
-                if matches!(transfer, Transfer::None) {
+                if matches!(transfer, [] | [Transfer::None]) {
                     let [_, low, high, sub, ..] = *data;
                     self.address = Address::new(u16::from_le_bytes([low, high]), sub);
                 }
@@ -153,9 +156,9 @@ impl<D: Device, const N: usize> Server<D, N> {
         bytes: [u8; 4],
         dlc: u8,
     ) -> Answer {
-        let had_begun = match self.transfer {
+        let had_begun = match self.transfer() {
             Transfer::Expedited(len) if D::STREAMS && address == self.address => {
-                Some(usize::from(len))
+                Some(usize::from(*len))
             }
             _ => None,
         };
@@ -172,7 +175,7 @@ impl<D: Device, const N: usize> Server<D, N> {
             if had_begun != Some(len) {
                 self.close(objects, StreamEnd::Replaced);
                 self.open_download(objects, Some(len as u32))?;
-                self.transfer = Transfer::Expedited(len as u8);
+                self.set_transfer(Transfer::Expedited(len as u8));
             }
             self.window.clear();
             self.window.put(bytes)?;
@@ -219,7 +222,7 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// A segment of a block download.
     pub(super) fn block_segment(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
-        let Transfer::BlockDownload(block) = &mut self.transfer else {
+        let [Transfer::BlockDownload(block)] = self.transfers.all_mut() else {
             return Ok(None);
         };
         if !block.segment(&mut self.window, data)? {
@@ -231,9 +234,9 @@ impl<D: Device, const N: usize> Server<D, N> {
             block.check_size(&self.window)?;
             block.crc_before = crc16_after(block.crc_before, self.window.first(self.window.len));
             self.pass_on(objects)?;
-            self.transfer = Transfer::BlockDownload(block);
+            self.set_transfer(Transfer::BlockDownload(block));
         }
-        let Transfer::BlockDownload(block) = &mut self.transfer else {
+        let [Transfer::BlockDownload(block)] = self.transfers.all_mut() else {
             return Ok(None);
         };
         Ok(Some(block.confirm(self.window.room()).emit()))

@@ -10,9 +10,10 @@ use crate::application::{Chunk, Halt, StreamEnd};
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::objects::Objects;
+use crate::rooms::{Blank, Rooms};
 use crate::store::little_endian;
 
-impl<D: Device, const N: usize> Server<D, N> {
+impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// Whether the application streams the value of the transfer.
     pub(super) fn streams(&self) -> bool {
         D::STREAMS && self.is_streaming
@@ -50,7 +51,7 @@ impl<D: Device, const N: usize> Server<D, N> {
         if expedited.is_some() {
             self.close(objects, StreamEnd::Complete);
         } else if segmented {
-            self.transfer = Transfer::Upload(Upload::new(len));
+            self.set_transfer(Transfer::Upload(Upload::new(len)));
         } else {
             return Err(AbortCode::UnsupportedAccess.into());
         }
@@ -134,13 +135,14 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// The stream cannot serve this request, or the next segment, before this moment.
     pub(super) fn await_stream(&mut self, at: Instant, held: Option<Held>) {
-        self.late = Late::stream(held);
+        self.set_late(Late::stream(held));
         self.deadline = Deadline::at(at);
     }
 
     /// The stream is asked again.
     pub(super) fn ask_again(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        let held = core::mem::replace(&mut self.late, Late::NONE).held;
+        let held = self.late().held;
+        self.set_late(Late::BLANK);
         self.await_client(objects.now);
         self.look();
         let (data, dlc) = held?;
@@ -149,7 +151,7 @@ impl<D: Device, const N: usize> Server<D, N> {
 
     /// Something outside the bus changed: a stream that could not go on may be able to.
     pub(crate) fn handle_change(&mut self, objects: &mut Objects<'_, D>) -> Option<[u8; 8]> {
-        if !D::STREAMS || !self.late.awaits_stream() {
+        if !D::STREAMS || !self.late().awaits_stream() {
             return None;
         }
         self.ask_again(objects)
