@@ -48,7 +48,7 @@ pub(crate) struct Args {
     /// Command that switches the power of the node; `on` or `off` is appended
     #[arg(long, value_name = "COMMAND")]
     power: Option<String>,
-    /// Write a report; .txt and .json select the format; may be repeated
+    /// Write a report: .txt, .json, .xml (JUnit), .md or .html; may be repeated
     #[arg(long, value_name = "FILE")]
     report: Vec<PathBuf>,
     /// Format of the output
@@ -171,7 +171,10 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     if let Some(simulated) = simulated {
         let mut rig = bench(simulated, args.node_id)?;
         let node = rig.0.devices()[0].node_id();
+        let source = Source::find(simulated)?;
+        let fresh = || source.device(args.node_id);
         let mut session = Session::new(&mut rig, &parsed, node, Leave::ALL);
+        session.simulates(simulated, &fresh);
         let records = all(&mut session, cases, false);
         return Ok(report("simulated, virtual time", node, (records, &session)));
     }

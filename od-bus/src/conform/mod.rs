@@ -30,9 +30,11 @@
 //! | `rig` | a link that may also switch the power |
 //! | `dut`, `sdo` | the node under test, and strict transfers with it |
 //! | `check/` | the steps that are written in Rust, a file for each service |
+//! | `play`, `aside` | the steps that are lines of a script: on any link, or on a bench of their own |
 //! | `session` | one case after the other, and what each changed put back |
 //! | `report/` | the records as text, JSON, JUnit, Markdown, HTML |
 
+pub mod aside;
 pub mod case;
 mod case_files;
 mod check;
@@ -40,6 +42,7 @@ mod deviations;
 pub mod dut;
 pub mod eds;
 mod end;
+mod play;
 pub mod record;
 pub mod report;
 pub mod rig;

@@ -3,12 +3,14 @@
 use od_wire::NodeId;
 use od_wire::nmt::Command;
 
+use super::aside::{self, Fresh};
 use super::case::{Case, Step};
 use super::check;
 use super::deviations::Deviations;
 use super::dut::Dut;
 use super::eds::Eds;
 use super::end::{Checked, End, skip};
+use super::play::play;
 use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
 
@@ -38,6 +40,7 @@ pub struct Session<'s> {
     deviations: Deviations,
     times: Times,
     lost: Option<String>,
+    simulated: Option<(&'s str, Fresh<'s>)>,
 }
 
 impl<'s> Session<'s> {
@@ -51,7 +54,13 @@ impl<'s> Session<'s> {
             deviations: Deviations::built_in(),
             times: Times::default(),
             lost: None,
+            simulated: None,
         }
+    }
+
+    /// The device is a simulated one of this name: a case for it alone gets one of its own.
+    pub fn simulates(&mut self, name: &'s str, fresh: Fresh<'s>) {
+        self.simulated = Some((name, fresh));
     }
 
     /// The times that the node took so far.
@@ -80,8 +89,16 @@ impl<'s> Session<'s> {
         };
         let mut result = match &self.lost {
             Some(why) => skip(why),
-            None => may(case, self.leave, &self.deviations, &dut).and_then(|()| {
-                let done = steps(case, &mut dut);
+            None => may(case, self.leave, &self.deviations, &dut, self.simulated).and_then(|()| {
+                let own = self.simulated.filter(|_| !case.devices.is_empty());
+                let done = match (own, &case.steps[..]) {
+                    (Some((_, fresh)), [Step::Script(line, text)]) => {
+                        let (done, frames) = aside::play(fresh, *line, text);
+                        dut.frames = frames;
+                        return done;
+                    }
+                    _ => steps(case, &mut dut),
+                };
                 let back = dut.put_back();
                 match (done, back) {
                     (done, Err(End::Lost(fault))) if !matches!(done, Err(End::Lost(_))) => {
@@ -125,7 +142,20 @@ impl<'s> Session<'s> {
 }
 
 /// May the case be run, and is it about this node?
-fn may(case: &Case, leave: Leave, deviations: &Deviations, dut: &Dut<'_>) -> Checked {
+fn may(
+    case: &Case,
+    leave: Leave,
+    deviations: &Deviations,
+    dut: &Dut<'_>,
+    simulated: Option<(&str, Fresh<'_>)>,
+) -> Checked {
+    let is_named = |name: &&str| case.devices.iter().any(|device| device == name);
+    if !case.devices.is_empty() && simulated.is_none_or(|(name, _)| !is_named(&name)) {
+        let names = case.devices.join(", ");
+        return Err(End::NotApplicable(format!(
+            "the case is about {names}, simulated"
+        )));
+    }
     for condition in &case.applies {
         match dut.eds.meets(condition) {
             Some(true) => {}
@@ -163,7 +193,7 @@ fn steps(case: &Case, dut: &mut Dut<'_>) -> Checked {
                 Some((_, check)) => check(dut)?,
                 None => return skip(format!("check `{name}` does not exist")),
             },
-            Step::Script(..) => return skip("scripts are not played on this link"),
+            Step::Script(_, text) => play(dut, text)?,
         }
     }
     Ok(())

@@ -30,6 +30,100 @@ fn a_simulated_device_passes_and_is_reported() {
 }
 
 #[test]
+fn every_report_has_every_case() {
+    let names = ["txt", "json", "xml", "md", "html"].map(|extension| {
+        let name = format!("conform-all.{extension}");
+        file(&name, "").display().to_string()
+    });
+    let mut args = vec!["conform", "en580c", "--only", "NMT", "--format", "json"];
+    for name in &names {
+        args.extend(["--report", name]);
+    }
+    let done = odkit(&args, "");
+    assert_eq!(done.code, 0, "{}{}", done.out, done.err);
+    for name in &names {
+        let text = std::fs::read_to_string(name).expect("a report");
+        assert!(text.contains("nmt-boot-up-first"), "{name}: {text}");
+        // Every frame is behind its case, but in what is a line a case.
+        let has_frames = text.contains("000#8101");
+        assert_eq!(
+            has_frames,
+            !name.ends_with(".txt") && !name.ends_with(".md"),
+            "{name}"
+        );
+    }
+    let page = std::fs::read_to_string(&names[4]).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.ends_with("</html>\n"));
+    for outside in ["http", "src=", "<link", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    let junit = std::fs::read_to_string(&names[2]).expect("JUnit");
+    assert!(junit.contains("<testsuite name=\"NMT\""), "{junit}");
+}
+
+#[test]
+fn the_scripts_of_the_official_cases_are_cases() {
+    let folder = repository("tests/conformance/cia");
+    let done = odkit(
+        &[
+            "conform", "gxmm", "--cases", &folder, "--only", "*-0?", "--only", "*-0?-*",
+        ],
+        "",
+    );
+    assert_eq!(done.code, 0, "{}{}", done.out, done.err);
+    assert!(done.out.contains("  pass     sdo-01 "), "{}", done.out);
+    assert!(done.out.contains("  n/a      sdo-08 "), "{}", done.out);
+    // It has its battery to be low, which only a bench can do.
+    assert!(
+        done.out.contains("  pass     emergency-04 "),
+        "{}",
+        done.out
+    );
+}
+
+/// A folder with one case.
+fn cases(folder: &str, name: &str, text: &str) -> String {
+    let folder = file(folder, "").with_extension("d");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join(name), text).expect("a case");
+    folder.display().to_string()
+}
+
+#[test]
+fn a_case_of_a_vendor_is_a_file() {
+    let case = "# Vendor 1.2: The node tells its name.\n# Group: own\n# Applies: 1008h\n\
+        sdo read 1008h = \"GXMM\"\n$600#40 08 10 00 00 00 00 00\nexpect $580#43 08 10 00 47 58 *\n";
+    let folder = cases("own-cases", "name.script", case);
+    let args = [
+        "conform",
+        "--link",
+        "bench:gxmm",
+        "--node-id",
+        "7",
+        "--cases",
+        &folder,
+        "--only",
+        "own",
+    ];
+    let done = odkit(&args, "");
+    assert_eq!(done.code, 0, "{}{}", done.out, done.err);
+    assert!(done.out.contains("1 case: 1 passed"), "{}", done.out);
+    file(
+        "wrong-cases/x.script",
+        "# Vendor 1.2: A title.\ncheck nosuch\n",
+    );
+    let wrong = folder.replace("own-cases", "wrong-cases");
+    let done = odkit(&["conform", "gxmm", "--cases", &wrong], "");
+    assert_eq!(done.code, 2, "{}", done.err);
+    assert!(
+        done.err
+            .contains("x.script:2: check `nosuch` does not exist"),
+        "{}",
+        done.err
+    );
+}
+
+#[test]
 fn a_device_that_is_not_as_its_eds_fails() {
     let text = std::fs::read_to_string(repository("devices/eds/GXMM.eds")).expect("an EDS");
     let wrong = text.replacen("DefaultValue=0x20196", "DefaultValue=0x20197", 1);

@@ -1,7 +1,7 @@
 //! EMCY: message, register, history.
 
 use od_model::{Address, values};
-use od_wire::AbortCode::{LocalControl, NoData, NoSubIndex, ValueRange, ValueTooHigh};
+use od_wire::AbortCode::{NoData, NoSubIndex, ValueRange, ValueTooHigh};
 use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
@@ -64,10 +64,6 @@ pub(super) fn history_clear(dut: &mut Dut<'_>) -> Checked {
         "no entry after 0 was written to 1003h:00",
         format!("{count} entries"),
     )
-}
-
-pub(super) fn history_refuses(dut: &mut Dut<'_>) -> Checked {
-    dut.refuses_value(HISTORY, &[1], &[ValueRange, ValueTooHigh, LocalControl])
 }
 
 pub(super) fn inhibit(dut: &mut Dut<'_>) -> Checked {

@@ -10,19 +10,6 @@ use crate::conform::end::{Checked, ensure, fail, lacks};
 const PRODUCER: Address = Address::new(0x1017, 0);
 const CONSUMER: Address = Address::new(0x1016, 1);
 
-pub(super) fn write(dut: &mut Dut<'_>) -> Checked {
-    for millis in [1000u16, 0] {
-        dut.set(PRODUCER, &millis.to_le_bytes())?;
-        let is = dut.number(0x1017, 0)?;
-        ensure(
-            is == u64::from(millis),
-            format!("1017h = {millis}"),
-            format!("{is} was read"),
-        )?;
-    }
-    Ok(())
-}
-
 pub(super) fn period(dut: &mut Dut<'_>) -> Checked {
     every(dut, 100, 10)
 }
@@ -90,20 +77,6 @@ pub(super) fn states(dut: &mut Dut<'_>) -> Checked {
         dut.is_in(state)?;
     }
     Ok(())
-}
-
-/// The boot-up message has no heartbeat before it, and heartbeats have one byte.
-pub(super) fn length(dut: &mut Dut<'_>) -> Checked {
-    dut.set(PRODUCER, &[50, 0])?;
-    let id = dut.id(0x700);
-    match dut.next_of(id, 200_000)? {
-        Some(heard) => ensure(
-            heard.frame.dlc() == 1,
-            "a heartbeat of one byte",
-            format!("{} came", heard.frame),
-        ),
-        None => fail("a heartbeat every 50 ms", "none came"),
-    }
 }
 
 /// A node that no other has, to be watched by the node under test.
@@ -196,16 +169,6 @@ fn guarded(dut: &mut Dut<'_>) -> Checked<u8> {
         Some(state) => Ok(state),
         None => fail("a response to node guarding within 100 ms", "none came"),
     }
-}
-
-pub(super) fn guarding(dut: &mut Dut<'_>) -> Checked {
-    without_heartbeat(dut)?;
-    let state = guarded(dut)?;
-    ensure(
-        state & 0x7F == 0x7F,
-        "the state Pre-operational, 7Fh",
-        format!("{:02X}h came", state & 0x7F),
-    )
 }
 
 /// Heartbeat and guarding exclude each other, and the heartbeat wins.

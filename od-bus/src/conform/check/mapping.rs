@@ -6,7 +6,7 @@ use od_wire::AbortCode::{
     UnsupportedAccess, ValueRange, ValueTooHigh,
 };
 
-use super::tpdo::{Tpdo, first, mapping};
+use super::transmit::{Tpdo, first, mapping};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, lacks};
 
@@ -32,7 +32,7 @@ fn switch(dut: &mut Dut<'_>, pdo: &Tpdo, on: bool) -> Checked {
 fn open(dut: &mut Dut<'_>) -> Checked<Open> {
     let pdo = variable(dut)?;
     let all = mapping(dut, pdo.map())?;
-    let raw = |mapped: &super::tpdo::Mapped| {
+    let raw = |mapped: &super::transmit::Mapped| {
         let Address { index, sub } = mapped.address;
         u32::from(index) << 16 | u32::from(sub) << 8 | mapped.bits as u32
     };

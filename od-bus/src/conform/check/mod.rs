@@ -15,6 +15,7 @@ mod store;
 mod sync;
 mod tpdo;
 mod transfer;
+mod transmit;
 
 use super::dut::Dut;
 use super::end::Checked;
@@ -24,14 +25,13 @@ pub(super) type Check = fn(&mut Dut<'_>) -> Checked;
 
 /// Every step by its name, which is that of the case about it.
 #[rustfmt::skip]
-pub(super) const NAMES: [(&str, Check); 185] = [
+pub(super) const NAMES: [(&str, Check); 179] = [
     ("eds-no-errors", file::no_errors),
     ("eds-mandatory", file::mandatory),
     ("eds-device-type", file::device_type),
     ("eds-identity", file::identity),
     ("eds-device-info", file::device_info),
     ("eds-pdo-count", file::pdo_count),
-    ("sdo-upload-expedited", transfer::upload),
     ("sdo-upload-sizes", transfer::upload_sizes),
     ("sdo-one-answer", transfer::one_answer),
     ("sdo-in-a-row", transfer::in_a_row),
@@ -39,7 +39,6 @@ pub(super) const NAMES: [(&str, Check); 185] = [
     ("sdo-write-holds", transfer::write_holds),
     ("sdo-write-read-only", transfer::write_read_only),
     ("sdo-read-write-only", transfer::read_write_only),
-    ("sdo-read-no-sub-index", transfer::read_no_sub_index),
     ("sdo-write-no-sub-index", transfer::write_no_sub_index),
     ("sdo-read-no-object", transfer::read_no_object),
     ("sdo-write-no-object", transfer::write_no_object),
@@ -97,17 +96,14 @@ pub(super) const NAMES: [(&str, Check); 185] = [
     ("nmt-reset-communication-values", nmt::reset_communication_values),
     ("nmt-reset-node-values", nmt::reset_node_values),
     ("nmt-reset-application", nmt::reset_application),
-    ("heartbeat-write", heartbeat::write),
     ("heartbeat-period", heartbeat::period),
     ("heartbeat-other-period", heartbeat::other_period),
     ("heartbeat-off", heartbeat::off),
     ("heartbeat-states", heartbeat::states),
-    ("heartbeat-length", heartbeat::length),
     ("heartbeat-consumer-in-time", heartbeat::consumer_in_time),
     ("heartbeat-consumer-too-late", heartbeat::consumer_too_late),
     ("heartbeat-consumer-waits", heartbeat::consumer_waits),
     ("heartbeat-consumer-twice", heartbeat::consumer_twice),
-    ("guarding-answer", heartbeat::guarding),
     ("guarding-toggle", heartbeat::guarding_toggle),
     ("guarding-after-reset", heartbeat::guarding_after_reset),
     ("guarding-states", heartbeat::guarding_states),
@@ -153,7 +149,6 @@ pub(super) const NAMES: [(&str, Check); 185] = [
     ("emcy-register", emergency::register),
     ("emcy-history", emergency::history),
     ("emcy-history-clear", emergency::history_clear),
-    ("emcy-history-refuses", emergency::history_refuses),
     ("emcy-inhibit", emergency::inhibit),
     ("emcy-message", emergency::message),
     ("emcy-logged", emergency::logged),

@@ -5,7 +5,7 @@ use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
 use super::heartbeat::emcy;
-use super::tpdo::{Mapped, learn_sync, mapping, sync};
+use super::transmit::{Mapped, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 

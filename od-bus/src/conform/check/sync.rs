@@ -4,7 +4,7 @@ use od_model::Address;
 use od_wire::CobId;
 use od_wire::nmt::Command;
 
-use super::tpdo::{learn_sync, sync, typed};
+use super::transmit::{learn_sync, sync, typed};
 use crate::conform::dut::{Dut, QUIET};
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::link::Heard;

@@ -19,13 +19,6 @@ const RARE: [u16; 8] = [
     0x1004, 0x1024, 0x1FFF, 0x1F7E, 0x5FFF, 0x9FFF, 0x103F, 0x1EFF,
 ];
 
-pub(super) fn upload(dut: &mut Dut<'_>) -> Checked {
-    let answer = dut.answer(request(0x40, TYPE, [0; 4]))?;
-    let got = format!("{} came", values::hex(&answer));
-    let is_right = matches!(answer[0], 0x42 | 0x43) && answer[1..4] == [0, 0x10, 0];
-    ensure(is_right, "43 00 10 00 and the four bytes of 1000h", got)
-}
-
 /// Entries of one, two, three and four bytes: the command byte says how many there are.
 pub(super) fn upload_sizes(dut: &mut Dut<'_>) -> Checked {
     for size in 1..=4 {
@@ -134,13 +127,6 @@ pub(super) fn read_write_only(dut: &mut Dut<'_>) -> Checked {
     dut.refuses(
         request(0x40, entry.address, [0; 4]),
         &[UnsupportedAccess, WriteOnly],
-    )
-}
-
-pub(super) fn read_no_sub_index(dut: &mut Dut<'_>) -> Checked {
-    dut.refuses(
-        request(0x40, Address::new(0x1000, 1), [0; 4]),
-        &[NoSubIndex],
     )
 }
 

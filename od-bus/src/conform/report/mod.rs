@@ -1,9 +1,12 @@
 //! The records of a run as a report: text, JSON, JUnit, Markdown, HTML.
 
+mod html;
 mod json;
+mod junit;
+mod markdown;
 mod text;
 
-use super::record::{Record, Times, Verdict, percentile};
+use super::record::{Record, Times, Traced, Verdict, percentile};
 
 /// The formats, by the extension of a file.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -12,11 +15,23 @@ pub enum Format {
     Text,
     /// One JSON object.
     Json,
+    /// JUnit XML, for a build server.
+    JUnit,
+    /// Tables.
+    Markdown,
+    /// One page that needs no other file, with every frame.
+    Html,
 }
 
 impl Format {
     /// The extensions and their formats.
-    pub const ALL: [(&str, Self); 2] = [("txt", Self::Text), ("json", Self::Json)];
+    pub const ALL: [(&str, Self); 5] = [
+        ("txt", Self::Text),
+        ("json", Self::Json),
+        ("xml", Self::JUnit),
+        ("md", Self::Markdown),
+        ("html", Self::Html),
+    ];
 
     /// The format of a file with this extension.
     pub fn of_extension(extension: &str) -> Option<Self> {
@@ -83,6 +98,9 @@ impl Report {
         match format {
             Format::Text => text::render(self),
             Format::Json => json::render(self),
+            Format::JUnit => junit::render(self),
+            Format::Markdown => markdown::render(self),
+            Format::Html => html::render(self),
         }
     }
 
@@ -95,8 +113,9 @@ impl Report {
             not_applicable,
         } = self.counts();
         let all = self.records.len();
+        let cases = if all == 1 { "case" } else { "cases" };
         format!(
-            "{all} cases: {pass} passed, {fail} failed, {skipped} skipped, {not_applicable} not applicable"
+            "{all} {cases}: {pass} passed, {fail} failed, {skipped} skipped, {not_applicable} not applicable"
         )
     }
 
@@ -117,4 +136,22 @@ impl Report {
 /// Microseconds as milliseconds.
 fn millis(micros: u64) -> String {
     format!("{}.{:03} ms", micros / 1000, micros % 1000)
+}
+
+/// A frame as a line: when, whose, what.
+fn frame(traced: &Traced) -> String {
+    let mark = if traced.ours { "->" } else { "<-" };
+    format!("{:?} {mark} {}", traced.at, traced.frame)
+}
+
+/// The groups in order, each with its cases.
+fn groups(report: &Report) -> Vec<(&str, Vec<&Record>)> {
+    let mut all: Vec<(&str, Vec<&Record>)> = Vec::new();
+    for record in &report.records {
+        match all.iter_mut().find(|(group, _)| *group == record.group) {
+            Some((_, records)) => records.push(record),
+            None => all.push((&record.group, vec![record])),
+        }
+    }
+    all
 }

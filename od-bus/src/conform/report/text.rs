@@ -52,11 +52,7 @@ fn details(record: &Record, lines: &mut Vec<String>) {
             lines.push(format!("             but       {got}"));
             let from = record.frames.len().saturating_sub(SHOWN);
             for traced in &record.frames[from..] {
-                let mark = if traced.ours { "->" } else { "<-" };
-                lines.push(format!(
-                    "             {:?} {mark} {}",
-                    traced.at, traced.frame
-                ));
+                lines.push(format!("             {}", super::frame(traced)));
             }
             for note in &record.notes {
                 lines.push(format!("             {note}"));

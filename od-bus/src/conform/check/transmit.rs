@@ -1,0 +1,165 @@
+//! The TPDO that the cases are about: found, set up, waited for.
+
+use od_model::Address;
+use od_wire::nmt::Command;
+use od_wire::{CanId, CobId, Frame};
+
+use crate::conform::dut::Dut;
+use crate::conform::end::{Checked, ensure, fail, lacks};
+use crate::link::Heard;
+
+/// A TPDO that is on.
+pub(super) struct Tpdo {
+    /// Index of the communication parameters, 1800h and up.
+    pub(super) com: u16,
+    /// The COB-ID as it was.
+    pub(super) cob_id: u32,
+}
+
+impl Tpdo {
+    pub(super) fn address(&self, sub: u8) -> Address {
+        Address::new(self.com, sub)
+    }
+
+    pub(super) fn map(&self) -> u16 {
+        self.com + 0x200
+    }
+
+    pub(super) fn id(&self) -> CanId {
+        CobId::new(self.cob_id).can_id()
+    }
+
+    fn carries(&self, frame: &Frame) -> bool {
+        frame.id() == self.id() && !frame.is_remote()
+    }
+}
+
+/// One entry of a mapping.
+pub(super) struct Mapped {
+    pub(super) address: Address,
+    pub(super) bits: usize,
+}
+
+/// The mapping, as the node has it.
+pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
+    let count = dut.number(map, 0)?.min(64) as u8;
+    let mut all = Vec::new();
+    for sub in 1..=count {
+        let raw = dut.number(map, sub)?;
+        all.push(Mapped {
+            address: Address::new((raw >> 16) as u16, (raw >> 8) as u8),
+            bits: (raw & 0xFF) as usize,
+        });
+    }
+    Ok(all)
+}
+
+/// The first TPDO that is on.
+pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
+    for pdo in dut.eds.pdos(0x1800) {
+        let com = 0x1800 + pdo;
+        let cob_id = dut.number(com, 1)? as u32;
+        if CobId::new(cob_id).is_valid() && dut.number(com + 0x200, 0)? > 0 {
+            return Ok(Tpdo { com, cob_id });
+        }
+    }
+    lacks("no TPDO is on")
+}
+
+/// The first TPDO, sent by its event timer alone every so many milliseconds.
+pub(super) fn timed(dut: &mut Dut<'_>, millis: u16) -> Checked<Tpdo> {
+    let pdo = first(dut)?;
+    if !dut.eds.writes(pdo.com, 5) {
+        return lacks(format!(
+            "{:04X}h:05, the event timer, cannot be written",
+            pdo.com
+        ));
+    }
+    event_driven(dut, &pdo)?;
+    dut.set(pdo.address(5), &millis.to_le_bytes())?;
+    Ok(pdo)
+}
+
+/// Transmission type 254 or 255.
+fn event_driven(dut: &mut Dut<'_>, pdo: &Tpdo) -> Checked {
+    let now = dut.keep(pdo.address(2))?;
+    if matches!(now.first(), Some(254 | 255)) {
+        return Ok(());
+    }
+    for kind in [254, 255] {
+        if dut.download(pdo.address(2), &[kind])?.is_ok() {
+            return Ok(());
+        }
+    }
+    lacks("the TPDO cannot be event-driven")
+}
+
+/// The first TPDO with this transmission type, without an event timer.
+pub(super) fn typed(dut: &mut Dut<'_>, kind: u8) -> Checked<Tpdo> {
+    let pdo = first(dut)?;
+    dut.keep(pdo.address(2))?;
+    if dut.download(pdo.address(2), &[kind])?.is_err() {
+        return lacks(format!("the TPDO does not take transmission type {kind}"));
+    }
+    Ok(pdo)
+}
+
+pub(super) fn next(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64) -> Checked<Option<Heard>> {
+    dut.next(micros, |frame| pdo.carries(frame))
+}
+
+pub(super) fn none(dut: &mut Dut<'_>, pdo: &Tpdo, micros: u64, expected: &str) -> Checked {
+    match next(dut, pdo, micros)? {
+        Some(heard) => fail(expected, format!("{} came", heard.frame)),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn sync(dut: &mut Dut<'_>) -> Checked {
+    let raw = match dut.eds.has(0x1005) {
+        true => dut.sync_id,
+        false => 0x80,
+    };
+    let frame = Frame::new(CobId::new(raw).can_id(), &[]);
+    frame.map_or(Ok(()), |frame| dut.send(frame))
+}
+
+/// Keeps the identifier of SYNC for [`sync`].
+pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
+    if dut.eds.has(0x1005) {
+        dut.sync_id = dut.number(0x1005, 0)? as u32 & 0x3FFF_FFFF;
+    }
+    Ok(())
+}
+
+/// The gaps between TPDOs in Operational; the one in the middle has to be right.
+pub(super) fn gaps(
+    dut: &mut Dut<'_>,
+    pdo: &Tpdo,
+    count: usize,
+    is_right: impl Fn(u64, u64) -> bool,
+    shown: &str,
+) -> Checked {
+    dut.nmt(Command::Start)?;
+    let mut last = None;
+    let mut all = Vec::new();
+    // The first may be one that the start brings about.
+    for turn in 0..=count + 1 {
+        let Some(heard) = next(dut, pdo, 500_000)? else {
+            return fail(format!("a TPDO {shown}"), "none came within 500 ms");
+        };
+        let before = last.replace(heard.at);
+        if turn > 1
+            && let Some(before) = before
+        {
+            all.push(heard.at.micros_since(before));
+        }
+    }
+    all.sort_unstable();
+    let middle = all[all.len() / 2];
+    ensure(
+        is_right(middle, dut.rig.slack()),
+        format!("a TPDO {shown}"),
+        format!("they came every {}.{:03} ms", middle / 1000, middle % 1000),
+    )
+}
