@@ -2,6 +2,7 @@
 //!
 //! ```toml
 //! strict = true               # warnings count as errors
+//! tools = ["python-canopen"]  # as `odkit check --for python-canopen`
 //!
 //! [rules]
 //! W0311 = "off"               # or "on", "error", "warning", "remark"
@@ -17,6 +18,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use od_eds::check::parse_allow;
+use od_eds::tools::{self, TOOLS};
 use od_eds::{Finding, Severity};
 use serde::Deserialize;
 
@@ -42,6 +44,8 @@ pub(crate) struct Config {
     pub(crate) strict: bool,
     /// Are remarks shown?
     pub(crate) remarks: bool,
+    /// The tools that are to read the files, as `--for` takes them.
+    pub(crate) tools: Vec<String>,
     rules: BTreeMap<String, Setting>,
     files: Vec<Files>,
     /// Folder from which patterns are read.
@@ -95,6 +99,15 @@ impl Config {
         let files = config.files.iter().flat_map(|files| files.rules.keys());
         for code in config.rules.keys().chain(files) {
             parse_allow(code).map_err(&wrong)?;
+        }
+        let unknown = config.tools.iter();
+        let mut unknown = unknown.filter(|name| *name != "all" && tools::tool(name).is_none());
+        if let Some(name) = unknown.next() {
+            let known: Vec<&str> = TOOLS.iter().map(|tool| tool.name).collect();
+            let known = known.join(", ");
+            return Err(wrong(format!(
+                "`{name}` is not a tool that odkit knows; it knows {known}, and `all`"
+            )));
         }
         let folder = std::path::absolute(path).unwrap_or_else(|_| path.into());
         config.root = folder.parent().unwrap_or(Path::new("")).into();

@@ -1,7 +1,8 @@
 //! `odkit explain`: the meaning of a rule, with an example and its fix.
 
 use od_eds::Severity;
-use od_eds::check::{Fixability, RULES, Rule, pair, rule};
+use od_eds::check::{Fixability, Rule, all, pair, rule};
+use od_eds::tools::tool_of;
 
 use crate::failure::Failure;
 use crate::output;
@@ -21,7 +22,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.list {
-        return output::print(&RULES.iter().map(|rule| row(rule)).collect::<String>());
+        return output::print(&all().map(row).collect::<String>());
     }
     let page = |code: &String| rule(code).map(text).ok_or_else(|| unknown(code));
     let pages: Result<Vec<String>, Failure> = args.codes.iter().map(page).collect();
@@ -44,9 +45,9 @@ const fn word(severity: Severity) -> &'static str {
 }
 
 fn unknown(code: &str) -> Failure {
-    // The digits identify a rule; only the letter may be wrong.
+    // The digits identify a rule of odkit; only the letter may be wrong.
     let digits = code.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-    let near = RULES.iter().find(|rule| &rule.code[1..] == digits);
+    let near = all().find(|rule| &rule.code[1..] == digits);
     Failure::Usage(match near {
         Some(near) => format!("rule `{code}` does not exist; did you mean {}?", near.code),
         None => format!("rule `{code}` does not exist; `odkit explain --list` lists all rules"),
@@ -77,7 +78,19 @@ fn text(rule: &Rule) -> String {
         Fixability::Either => "`odkit check --fix`, or `--unsafe-fixes` if content is lost",
     };
     text.push_str(&format!("\nFix:    {fix}\nSource: {}\n", rule.source));
-    if !matches!(&rule.code[1..3], "07" | "08" | "11" | "12") {
+    let tool = tool_of(rule.code);
+    if let Some(tool) = tool {
+        let tried = if tool.tried {
+            "held against the tool itself"
+        } else {
+            "not tried"
+        };
+        text.push_str(&format!(
+            "Tool:   {} {} ({tried}); `odkit check --for {}`\n",
+            tool.name, tool.version, tool.name
+        ));
+    }
+    if tool.is_some() || !matches!(&rule.code[1..3], "07" | "08" | "11" | "12") {
         text.push_str(&format!(
             "Allow:  `;odkit-allow={} reason` in the file, or `--allow {}`\n",
             rule.code, rule.code
@@ -111,7 +124,7 @@ mod tests {
 
     #[test]
     fn every_rule_has_a_page() {
-        for rule in RULES {
+        for rule in all() {
             let page = text(rule);
             assert!(
                 page.starts_with(rule.code) && page.contains(rule.source),

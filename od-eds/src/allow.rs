@@ -116,7 +116,9 @@ impl Allows {
     /// Removes what is allowed, and adds the findings about the comments themselves.
     pub fn apply(mut self, findings: &mut Vec<Finding>) {
         self.filter(findings);
-        let unused = self.allows.iter().filter(|allow| !allow.used);
+        // If a tool is asked at all, its findings come later.
+        let unused = self.allows.iter();
+        let unused = unused.filter(|allow| !allow.used && !allow.code.starts_with('T'));
         let unused = unused.map(|allow| i0803::finding(allow.code, allow.span));
         self.findings.extend(unused);
         if !self.findings.is_empty() {
@@ -155,7 +157,9 @@ impl Allows {
 
 /// The rule of a code that can be allowed: all but those about edits and about allowing.
 fn known(code: &str) -> Option<&'static Rule> {
-    rule(code).filter(|rule| !matches!(&rule.code[1..3], "07" | "08" | "11" | "12"))
+    rule(code).filter(|rule| {
+        rule.code.starts_with('T') || !matches!(&rule.code[1..3], "07" | "08" | "11" | "12")
+    })
 }
 
 /// `E0310`, or `E0310:2000` for one object: what a command line allows.

@@ -12,7 +12,7 @@ pub use crate::allow::{Allows, parse_allow};
 pub use crate::finding::{Fixability, Rule};
 #[cfg(feature = "explain")]
 pub use crate::rules::{Pair, pair};
-pub use crate::rules::{RULES, rule};
+pub use crate::rules::{RULES, all, rule};
 
 /// Runs all checks and returns the findings in file order.
 ///

@@ -45,6 +45,8 @@ mod rules;
 mod scan;
 mod span;
 mod subject;
+#[cfg(feature = "tools")]
+pub mod tools;
 mod write;
 #[cfg(feature = "xdd")]
 pub mod xdd;

@@ -1,6 +1,7 @@
 //! The result of a check, from which every report is made.
 
 use od_eds::fix::{Held, Why};
+use od_eds::tools::Tool;
 use od_eds::{Eds, Finding, Sentence, Severity, Span, say};
 use serde::Serialize;
 
@@ -24,6 +25,8 @@ pub(super) struct Checked {
     pub(super) names: Names,
     /// What is wrong with the project's settings.
     pub(super) misused: Option<String>,
+    /// The tools of `--for`.
+    pub(super) tools: Vec<&'static Tool>,
     /// Do warnings of this file count as errors?
     pub(super) strict: bool,
 }
@@ -48,6 +51,12 @@ impl Checked {
     /// The files that it is about: of base and overlay, each with its own findings.
     pub(super) fn parts(&self) -> Vec<Part<'_>> {
         self.file.parts(self.findings.clone())
+    }
+
+    /// The findings of one tool.
+    pub(super) fn of_tool(&self, tool: &Tool) -> Vec<Finding> {
+        let is_its = |finding: &&Finding| tool.rules.contains(&finding.rule);
+        self.findings.iter().filter(is_its).cloned().collect()
     }
 }
 

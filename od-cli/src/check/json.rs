@@ -1,6 +1,7 @@
 //! The report as one JSON object; `version` counts changes that break its readers.
 
 use od_eds::fix::{self, Applicability, TextEdit};
+use od_eds::tools::verdict;
 use od_eds::{Eds, Finding, Label, Offsets, Severity, Span, say};
 use serde::Serialize;
 
@@ -19,6 +20,9 @@ struct File<'a> {
     path: &'a str,
     failed: Option<&'a str>,
     fixed: usize,
+    /// The tools of `--for`, and what each makes of the file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tools: Vec<Outcome>,
     /// Fixes that were not applied.
     held: Vec<Held>,
     /// The name that readers of version 1 know.
@@ -40,6 +44,15 @@ struct Reported {
     span: Option<Span>,
     labels: Vec<Label>,
     fix: Option<Fix>,
+}
+
+/// What a tool makes of the file.
+#[derive(Serialize)]
+struct Outcome {
+    name: &'static str,
+    version: &'static str,
+    tried: bool,
+    verdict: &'static str,
 }
 
 /// A fix that would do harm.
@@ -78,6 +91,7 @@ fn files(checked: &Checked) -> Vec<File<'_>> {
         File {
             path: part.path,
             failed: checked.failed.as_deref().filter(|_| at == 0),
+            tools: outcomes(checked, at == 0),
             fixed: if at == 0 { checked.fixed } else { 0 },
             held: match at {
                 0 => checked.held.iter().map(held).collect(),
@@ -89,6 +103,20 @@ fn files(checked: &Checked) -> Vec<File<'_>> {
         }
     });
     files.collect()
+}
+
+fn outcomes(checked: &Checked, is_first: bool) -> Vec<Outcome> {
+    let tools = checked
+        .tools
+        .iter()
+        .filter(|_| is_first && checked.failed.is_none());
+    let outcomes = tools.map(|tool| Outcome {
+        name: tool.name,
+        version: tool.version,
+        tried: tool.tried,
+        verdict: verdict(&checked.of_tool(tool)).name(),
+    });
+    outcomes.collect()
 }
 
 /// Edits of the text as edits of the file.

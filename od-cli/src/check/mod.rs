@@ -4,6 +4,7 @@ use od_eds::Document;
 use od_eds::check::parse_allow;
 use od_eds::fix;
 use od_eds::fix::{Applicability, Held};
+use od_eds::tools::{self, Tool};
 use od_eds::{Finding, Parsed, Severity};
 
 use crate::config::Config;
@@ -21,6 +22,7 @@ mod json;
 mod lines;
 mod sarif;
 mod statistics;
+mod table;
 
 /// Check EDS and DCF files; show findings with source line and caret, and apply fixes
 ///
@@ -44,6 +46,10 @@ pub(crate) struct Args {
     /// Show the fixes as a diff; write nothing
     #[arg(long)]
     diff: bool,
+    /// Also report what these tools reject, drop or read differently; `all` shows a table of all tools
+    #[arg(long = "for", value_name = "TOOL", value_delimiter = ',', ignore_case = true,
+          value_parser = table::names())]
+    tools: Vec<String>,
     /// Do not report this rule, or not for this object: `W0311`, `W0311:2000`
     #[arg(long, value_name = "CODE[:INDEX]", value_parser = parse_allow)]
     allow: Vec<(&'static str, Option<u16>)>,
@@ -88,8 +94,21 @@ impl Args {
         }
     }
 
-    fn find(&self, document: &Document, path: &str, config: &Config) -> Parsed {
+    fn find(
+        &self,
+        document: &Document,
+        path: &str,
+        config: &Config,
+        tools: &[&'static Tool],
+    ) -> Parsed {
         let mut parsed = document.load();
+        if !tools.is_empty() {
+            let of_tools = tools::check(document, &parsed.description, tools);
+            parsed.findings.extend(of_tools);
+            parsed
+                .findings
+                .sort_by_key(|finding| finding.span().map_or(u32::MAX, |span| span.line));
+        }
         config.apply(path, &mut parsed.findings);
         parsed.findings.retain(|finding| {
             let index = finding.object.map(|address| address.index);
@@ -115,16 +134,22 @@ impl Args {
                 return checked;
             }
         };
+        let named = match self.tools.is_empty() {
+            true => &config.tools,
+            false => &self.tools,
+        };
+        let (tools, is_table) = table::chosen(named);
+        checked.tools.clone_from(&tools);
         let file = &checked.file;
         let is_overlaid = file.is_overlaid();
         match self.level().filter(|_| !is_overlaid) {
             None => {
-                let parsed = self.find(file.document(), path, &config);
+                let parsed = self.find(file.document(), path, &config, &tools);
                 checked.names = report::names(&parsed.description, &parsed.findings);
                 checked.findings = parsed.findings;
             }
             Some(level) => {
-                let find = |file: &Document| self.find(file, path, &config).findings;
+                let find = |file: &Document| self.find(file, path, &config, &tools).findings;
                 let done = fix::fix(file.document(), level, find);
                 let description = done.document.parse().description;
                 checked.names = report::names(&description, &done.findings);
@@ -149,6 +174,7 @@ impl Args {
             let wanted = |finding: &&Finding| remarks || finding.severity() > Severity::Info;
             let wanted: Vec<_> = checked.findings.iter().filter(wanted).cloned().collect();
             checked.shown = match self.output_format {
+                Format::Full if is_table => table::of(&checked),
                 Format::Full => checked
                     .file
                     .render(&wanted, &checked.names, output::colours()),

@@ -1,6 +1,6 @@
 //! SARIF 2.1.0: what code scanning services read.
 
-use od_eds::check::RULES;
+use od_eds::check::all;
 use od_eds::fix::TextEdit;
 use od_eds::{Eds, Finding, Offsets, Severity, Span, say};
 use serde_json::{Value, json};
@@ -12,8 +12,7 @@ const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/os/schemas/sarif-schema-2.1.0.json";
 
 pub(super) fn report(checked: &[Checked]) -> String {
-    let rules: Vec<Value> = RULES
-        .iter()
+    let rules: Vec<Value> = all()
         .map(|rule| {
             json!({
                 "id": rule.code,
@@ -132,7 +131,7 @@ fn result(file: &Places<'_>, finding: &Finding) -> Value {
     }
     let mut result = json!({
         "ruleId": finding.code,
-        "ruleIndex": RULES.iter().position(|rule| rule.code == finding.code),
+        "ruleIndex": all().position(|rule| rule.code == finding.code),
         "level": level(finding.severity),
         "message": { "text": message },
         "locations": [location(file, finding.span, None)],

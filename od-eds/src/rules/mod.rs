@@ -4,10 +4,15 @@ use crate::finding::Rule;
 
 /// The rule with this code, in any case.
 pub fn rule(code: &str) -> Option<&'static Rule> {
-    RULES
-        .iter()
-        .copied()
-        .find(|r| r.code.eq_ignore_ascii_case(code))
+    all().find(|r| r.code.eq_ignore_ascii_case(code))
+}
+
+/// Every rule of odkit, and with feature `tools` those of the tools that read device files, too.
+pub fn all() -> impl Iterator<Item = &'static Rule> {
+    let rules = RULES.iter().copied();
+    #[cfg(feature = "tools")]
+    let rules = rules.chain(crate::tools::list::rules());
+    rules
 }
 
 /// A module for each rule of a folder, the rule under the name of its code, and all of them.

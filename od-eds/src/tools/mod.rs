@@ -1,0 +1,141 @@
+//! Tools that read device files: what each rejects, drops, or reads otherwise than the standard says.
+//!
+//! A tool reads text, not odkit's description of it. So each has a reader of its own here, which takes the lines
+//! as they are and says what the tool makes of them; what it makes is compared with the description.
+//!
+//! ```
+//! use od_eds::{Document, tools};
+//!
+//! let file = Document::new(b"[2000]\nParameterName=a\nDataType=0x5\nAccessType=rw\nDefaultValue=010\n");
+//! let tool = tools::tool("python-canopen").unwrap();
+//! let findings = tools::check(&file, &file.parse().description, &[tool]);
+//! assert_eq!(findings[0].code(), "T0112");
+//! assert_eq!(tools::verdict(&findings), tools::Verdict::Differs);
+//! ```
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use crate::allow::Allows;
+use crate::description::Description;
+use crate::document::Document;
+use crate::finding::{Finding, Place, Severity, sort};
+use crate::load::is_xml;
+use crate::tools::compare::Compare;
+use crate::tools::tool::Input;
+
+mod compare;
+mod configparser;
+pub(crate) mod list;
+mod python;
+mod python_canopen;
+mod shared;
+mod tool;
+
+pub use list::{TOOLS, rules, tool, tool_of};
+pub use tool::{Read, ReadEntry, Reading, Tool};
+
+/// What becomes of a file.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// The tool reads all of it, as odkit does.
+    Accepts,
+    /// The tool drops something, or reads it as something else.
+    Differs,
+    /// The tool gives it up.
+    Rejects,
+}
+
+impl Verdict {
+    /// In a word or two.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Accepts => "accepts",
+            Self::Differs => "reads differently",
+            Self::Rejects => "rejects",
+        }
+    }
+}
+
+/// The verdict that the findings of one tool make.
+pub fn verdict(findings: &[Finding]) -> Verdict {
+    match findings {
+        [] => Verdict::Accepts,
+        _ if findings
+            .iter()
+            .any(|finding| finding.rule.severity == Severity::Error) =>
+        {
+            Verdict::Rejects
+        }
+        _ => Verdict::Differs,
+    }
+}
+
+/// What a tool reads of a file.
+pub fn reading(document: &Document, tool: &Tool) -> Reading {
+    let mark: &[u8] = b"\xEF\xBB\xBF";
+    let bytes = document.bytes();
+    let body = bytes.strip_prefix(mark).unwrap_or(bytes);
+    let input = Input {
+        text: core::str::from_utf8(body).ok(),
+        decoded: document.text(),
+        has_mark: body.len() < bytes.len(),
+    };
+    let is_placed = input.text == Some(document.text());
+    let mut reading = (tool.read)(&input);
+    for finding in &mut reading.findings {
+        if !is_placed {
+            finding.place = Place::Nowhere;
+            finding.related.clear();
+        }
+        if !is_placed || is_xml(document.text()) {
+            finding.fix = None;
+        }
+    }
+    reading
+}
+
+/// What these tools reject, drop or read otherwise, in file order, without what the text allows. A fix suits all of
+/// them.
+///
+/// `description` is what odkit reads of the file.
+pub fn check(
+    document: &Document,
+    description: &Description,
+    tools: &[&'static Tool],
+) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for tool in tools {
+        let reading = reading(document, tool);
+        let mut own = Vec::new();
+        if let Some(rules) = tool.differences.filter(|_| !reading.is_rejected()) {
+            let mut compare = Compare {
+                text: document.text(),
+                tools,
+                rules,
+                found: Vec::new(),
+            };
+            compare.all(description, &reading);
+            own = compare.found;
+        }
+        let rejected = reading.is_rejected();
+        let of_text = reading.findings.into_iter();
+        own.extend(of_text.filter(|finding| !rejected || finding.is_error()));
+        // Members of CompactSubObj come from one section.
+        let mut known = BTreeSet::new();
+        own.retain(|finding| {
+            let span = finding.span().filter(|_| finding.object.is_some());
+            span.is_none_or(|span| known.insert((finding.code(), span)))
+        });
+        found.extend(
+            own.into_iter()
+                .map(|finding| finding.fact("tool", tool.name)),
+        );
+    }
+    Allows::of(document.text()).filter(&mut found);
+    sort(&mut found);
+    found
+}
+
+#[cfg(test)]
+mod tests;

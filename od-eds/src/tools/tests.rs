@@ -1,0 +1,3 @@
+//! The rules of all tools against their own texts.
+
+use super::*;

@@ -1,0 +1,191 @@
+//! A tool that reads device files, and what it makes of one.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::fact::Key;
+use crate::finding::{Finding, Fixability, Form, Rule, Severity};
+
+/// A program or a library that reads EDS and DCF files.
+#[derive(Debug)]
+pub struct Tool {
+    /// Its name, as `--for` takes it.
+    pub name: &'static str,
+    /// The version whose behaviour the rules have.
+    pub version: &'static str,
+    /// The package that was run, or the public text that describes the behaviour.
+    pub source: &'static str,
+    /// Were the rules held against the tool itself?
+    pub tried: bool,
+    /// What it rejects, drops or reads otherwise.
+    pub rules: &'static [&'static Rule],
+    pub(crate) read: fn(&Input<'_>) -> Reading,
+    /// What it makes of the text of a value; `None` for a tool of which that is not known.
+    pub(crate) value: Option<fn(Key, &str, i128) -> Option<Read>>,
+    /// How the findings about single values are reported; `None` for a tool of which these are not known.
+    pub(crate) differences: Option<&'static Differences>,
+}
+
+impl PartialEq for Tool {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// A file as a tool finds it.
+pub(crate) struct Input<'a> {
+    /// The text behind a byte order mark; `None` if it is not UTF-8.
+    pub(crate) text: Option<&'a str>,
+    /// The text as odkit reads it, whatever the encoding.
+    #[allow(dead_code)]
+    pub(crate) decoded: &'a str,
+    /// Does it begin with the byte order mark of UTF-8?
+    pub(crate) has_mark: bool,
+}
+
+/// A value as a tool reads it.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Read {
+    /// A number; what is beyond 127 bits is cut.
+    Number(i128),
+    /// A real.
+    Real(f64),
+    /// A text.
+    Text(String),
+    /// Bytes.
+    Bytes(Vec<u8>),
+}
+
+/// One value of an object as a tool reads it; an outer `None` is a field that the tool does not have.
+#[derive(Clone, PartialEq, Debug, Default)]
+#[allow(missing_docs)] // the fields are the keys' names
+pub struct ReadEntry {
+    pub name: Option<String>,
+    pub data_type: Option<i128>,
+    pub access: Option<String>,
+    pub mappable: Option<bool>,
+    pub default: Option<Option<Read>>,
+    pub parameter: Option<Option<Read>>,
+    pub low: Option<Option<Read>>,
+    pub high: Option<Option<Read>>,
+}
+
+/// All that a tool reads of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The faults that it stops at, and what else its rules report.
+    pub findings: Vec<Finding>,
+    /// The values by index and sub-index. Without meaning if the tool rejects the file.
+    pub entries: BTreeMap<(u32, u32), ReadEntry>,
+    /// Objects whose members it makes when a program asks for them.
+    pub on_demand: Vec<u32>,
+}
+
+impl Reading {
+    /// Does the tool give the file up?
+    pub fn is_rejected(&self) -> bool {
+        self.findings.iter().any(Finding::is_error)
+    }
+
+    /// Adds a finding of a tool's rule.
+    pub(crate) fn push(&mut self, finding: Finding) {
+        self.findings.push(finding);
+    }
+}
+
+/// How a tool's findings about single values are reported.
+#[derive(Debug)]
+pub(crate) struct Differences {
+    /// An object or a member that it does not read.
+    pub(crate) drops: Rule,
+    /// A default or configured value that it drops or reads as another one.
+    pub(crate) value: Rule,
+    /// A limit that it drops or reads as another one.
+    pub(crate) limit: Rule,
+    /// A name, type, access or mapping that it reads as another one.
+    pub(crate) field: Rule,
+}
+
+/// Sentences of a value: that the tool drops it, and what to write so that all chosen tools read it.
+pub(crate) const DROPPED: Form = Form {
+    says: "{tool} drops {key}, which is {own}",
+    ..Form::OWN
+};
+pub(crate) const READS_WRITE: Form = Form {
+    help: "write `{text}`{fix}",
+    ..Form::OWN
+};
+pub(crate) const DROPPED_WRITE: Form = Form {
+    says: DROPPED.says,
+    help: READS_WRITE.help,
+};
+
+const DIFFERS: Rule = Rule {
+    says: "{tool} reads {key} as {read}, not as {own}",
+    also: &[DROPPED, READS_WRITE, DROPPED_WRITE],
+    fixability: Fixability::Safe,
+    ..OTHERWISE
+};
+
+impl Differences {
+    /// The rules with these codes.
+    pub(crate) const fn new(codes: [&'static str; 4], source: &'static str) -> Self {
+        let [drops, value, limit, field] = codes;
+        Self {
+            drops: Rule {
+                code: drops,
+                source,
+                title: "an object that the tool does not read",
+                why: "The tool reads the file, and a program that uses it does not find the object.",
+                says: "{tool} does not read the object",
+                example: "ObjectType=0x5",
+                also: &[Form {
+                    says: "{tool} finds no object in the file",
+                    ..Form::OWN
+                }],
+                ..OTHERWISE
+            },
+            value: Rule {
+                code: value,
+                source,
+                title: "a value that the tool drops or reads as another one",
+                why: "The tool reads the file, and a program that uses it works with another value.",
+                example: "DefaultValue=010",
+                ..DIFFERS
+            },
+            limit: Rule {
+                code: limit,
+                source,
+                title: "a limit that the tool drops or reads as another one",
+                why: "The tool reads the file, and a program that uses it checks values against another limit.",
+                example: "HighLimit=1e3",
+                ..DIFFERS
+            },
+            field: Rule {
+                code: field,
+                source,
+                title: "a name, type, access or mapping that the tool reads as another one",
+                why: "The tool reads the file, and a program that uses it finds another description of the object.",
+                example: "PdoMapping=1",
+                ..DIFFERS
+            },
+        }
+    }
+}
+
+/// A rule about what a tool stops at.
+pub(crate) const REJECTS: Rule = Rule {
+    severity: Severity::Error,
+    why: "The tool stops there and reads nothing of the file.",
+    buildable: true,
+    ..Rule::NEW
+};
+
+/// A rule about what a tool drops or reads otherwise.
+pub(crate) const OTHERWISE: Rule = Rule {
+    severity: Severity::Warning,
+    why: "The tool reads the file, and something in it otherwise than the standard says.",
+    buildable: true,
+    ..Rule::NEW
+};
