@@ -28,3 +28,4 @@ mod overlay;
 mod project;
 mod run;
 mod sim;
+mod tools;

@@ -126,32 +126,6 @@ impl<'a> Ini<'a> {
         };
         find(section).or_else(|| find(&self.sections[self.default?]))
     }
-
-    /// Adds a section that the file lacks.
-    pub(crate) fn add(&mut self, name: String, header: Span, pairs: &[(&str, String)]) {
-        let mut section = Section {
-            name: Cow::Owned(name.clone()),
-            header,
-            ..Section::default()
-        };
-        for (key, value) in pairs {
-            let key = Cow::Owned(String::from(*key));
-            section.set(key, Cow::Owned(value.clone()), header, header, self.folds);
-        }
-        let key = folded(Cow::Owned(name), self.folds);
-        self.names.insert(key, self.sections.len());
-        self.sections.push(section);
-    }
-
-    /// Sets a key of a section.
-    pub(crate) fn set(&mut self, section: &str, key: String, value: String) {
-        let name = folded(Cow::Borrowed(section), self.folds);
-        if let Some(at) = self.names.get(name.as_ref()) {
-            let section = &mut self.sections[*at];
-            let span = section.header;
-            section.set(Cow::Owned(key), Cow::Owned(value), span, span, self.folds);
-        }
-    }
 }
 
 impl<'a> Section<'a> {

@@ -85,18 +85,17 @@ pub(super) fn interop(context: &Context<'_>) -> Result<()> {
     let mut build = cargo(&context.repo.root, &["build"]);
     build
         .args(ALL)
-        .args(["--bin", CLI.1, "--example", "corpus"]);
+        .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
     context.console.run("building odkit", &mut build)?;
     let built = context.repo.target.join("debug");
+    let example = |name| built.join("examples").join(program(name));
     let mut command = Command::new(python);
     command
         .args(["-m", "unittest", "discover", "-s", "tests/interop", "-v"])
         .current_dir(&context.repo.root)
         .env("ODKIT", built.join(program(CLI.1)))
-        .env(
-            "ODKIT_READING",
-            built.join("examples").join(program("corpus")),
-        )
+        .env("ODKIT_READING", example("corpus"))
+        .env("ODKIT_TOOLS", example("tools"))
         .env("PYTHONDONTWRITEBYTECODE", "1");
     long(context, &mut command);
     context.console.run("python-canopen", &mut command)
