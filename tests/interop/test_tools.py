@@ -23,7 +23,7 @@ class PythonCanopen(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             command = [os.environ.get("ODKIT_TOOLS", tools.ROOT / "target" / "debug" / "examples" / "tools")]
             subprocess.run(
-                command + ["mutants", tools.ROOT / "od-eds" / "cases", folder, "500", "1"], check=True
+                command + ["mutants", tools.ROOT / "od-eds" / "cases", folder, "200", "1"], check=True
             )
             self.hold(folder, 0.98)
 

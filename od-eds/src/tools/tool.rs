@@ -7,6 +7,9 @@ use alloc::vec::Vec;
 use crate::fact::Key;
 use crate::finding::{Finding, Fixability, Form, Rule, Severity};
 
+/// Reads the text under a key as a value of this type.
+pub(crate) type ReadValue = fn(Key, &str, i128) -> Option<Read>;
+
 /// A program or a library that reads EDS and DCF files.
 #[derive(Debug)]
 pub struct Tool {
@@ -22,7 +25,7 @@ pub struct Tool {
     pub rules: &'static [&'static Rule],
     pub(crate) read: fn(&Input<'_>) -> Reading,
     /// What it makes of the text of a value; `None` for a tool of which that is not known.
-    pub(crate) value: Option<fn(Key, &str, i128) -> Option<Read>>,
+    pub(crate) value: Option<ReadValue>,
     /// How the findings about single values are reported; `None` for a tool of which these are not known.
     pub(crate) differences: Option<&'static Differences>,
 }
