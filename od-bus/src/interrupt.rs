@@ -52,4 +52,9 @@ impl<L: Link> Link for Interruptible<L> {
     fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
         self.link.listen_at(kbit)
     }
+
+    fn resume(&mut self) {
+        self.stop.store(false, Ordering::Relaxed);
+        self.link.resume();
+    }
 }

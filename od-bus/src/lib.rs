@@ -4,11 +4,13 @@
 //! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test.
 
 pub mod bench;
+pub mod configure;
 pub mod conform;
 pub mod fault;
 pub mod interrupt;
 pub mod link;
 pub mod links;
+pub mod lss;
 pub mod master;
 pub mod nmt;
 pub mod objects;

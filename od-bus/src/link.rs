@@ -42,6 +42,9 @@ pub trait Link {
             "this link cannot listen at {kbit} kbit/s; bit-rate detection needs an slcan adapter"
         )))
     }
+
+    /// Waits again after [`Fault::Interrupted`], to put back what was begun on the bus.
+    fn resume(&mut self) {}
 }
 
 impl<L: Link + ?Sized> Link for &mut L {
@@ -60,6 +63,10 @@ impl<L: Link + ?Sized> Link for &mut L {
     fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
         (**self).listen_at(kbit)
     }
+
+    fn resume(&mut self) {
+        (**self).resume();
+    }
 }
 
 impl<L: Link + ?Sized> Link for Box<L> {
@@ -77,5 +84,9 @@ impl<L: Link + ?Sized> Link for Box<L> {
 
     fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
         (**self).listen_at(kbit)
+    }
+
+    fn resume(&mut self) {
+        (**self).resume();
     }
 }

@@ -41,4 +41,8 @@ impl<L: Link, F: FnMut(&Frame)> Link for Tap<L, F> {
     fn listen_at(&mut self, kbit: u16) -> Result<(), Fault> {
         self.link.listen_at(kbit)
     }
+
+    fn resume(&mut self) {
+        self.link.resume();
+    }
 }

@@ -38,7 +38,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
     // What can be wrong is said before anything is sent.
-    let given = names.given(args.node);
+    let given = names.given(args.node).map(|known| known.dictionary);
     let mut asked: Vec<Vec<Asked>> = Vec::new();
     if let Some(dictionary) = given {
         for text in &args.objects {
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     });
     let mut master = Master::new(link, args.node);
-    let dictionary = names.of(&mut master)?;
+    let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
     if given.is_none() {
         for text in &args.objects {
             asked.push(match dictionary {

@@ -5,6 +5,7 @@
 //! One file for each subcommand. What they share: `source` finds a device, `output`
 //! writes to a pipe that may close, `report` shows findings.
 
+mod backup;
 mod bridge;
 mod bus;
 mod check;
@@ -21,6 +22,7 @@ mod get;
 mod lesson;
 mod live;
 mod lsp;
+mod lss;
 mod new;
 mod nmt;
 mod output;
@@ -78,6 +80,9 @@ enum Command {
     ///
     /// They take effect with the next reset.
     Restore(save::Args),
+    Lss(lss::Args),
+    Backup(backup::Args),
+    Apply(backup::Apply),
 }
 
 /// The program `odkit`: reads the command line, does it, answers with the exit code.
@@ -122,6 +127,9 @@ pub fn main() -> ExitCode {
         Command::Nmt(args) => nmt::run(&args),
         Command::Save(args) => save::save(&args),
         Command::Restore(args) => save::restore(&args),
+        Command::Lss(args) => lss::run(&args),
+        Command::Backup(args) => backup::backup(&args),
+        Command::Apply(args) => backup::apply(&args),
     };
     exit(result)
 }

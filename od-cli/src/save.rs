@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::{output, source};
 
 /// Longest time that a node may take to write its memory.
-const PATIENCE: Duration = Duration::from_secs(10);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Arguments of both.
 #[derive(clap::Args)]

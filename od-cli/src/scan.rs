@@ -89,7 +89,9 @@ fn text(scan: &Scan, rate: Option<u16>, names: &Names) -> String {
         lines.push(format!("bit rate {rate} kbit/s"));
     }
     for one in &scan.nodes {
-        let known = names.fitting(one.node, one.identity).map(|(name, _)| name);
+        let known = names
+            .fitting(Some(one.node), one.identity)
+            .map(|known| known.name);
         lines.push(format!(
             "node {:<3}  {:<16}  {}",
             one.node.raw(),
@@ -178,7 +180,7 @@ fn report(scan: &Scan, rate: Option<u16>, names: &Names) -> Value {
             "name": name,
             "hardware_version": hardware,
             "software_version": software,
-            "fits": names.fitting(one.node, one.identity).map(|(name, _)| name),
+            "fits": names.fitting(Some(one.node), one.identity).map(|known| known.name),
             "conflict": one.conflict,
         })
     };

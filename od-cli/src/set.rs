@@ -47,7 +47,7 @@ struct Ready {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let names = args.bus.names()?;
     let pairs = pairs(args)?;
-    let given = names.given(args.node);
+    let given = names.given(args.node).map(|known| known.dictionary);
     let mut ready = match given {
         Some(dictionary) => checked(dictionary, args.node, &pairs)?,
         None => Vec::new(),
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     });
     let mut master = Master::new(link, args.node);
-    let dictionary = names.of(&mut master)?;
+    let dictionary = names.of(&mut master)?.map(|known| known.dictionary);
     if given.is_none() {
         ready = match dictionary {
             Some(dictionary) => checked(dictionary, args.node, &pairs)?,

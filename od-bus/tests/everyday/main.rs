@@ -1,5 +1,7 @@
 //! What tools do on a bus, on the bench and in virtual time.
 
+mod configure;
+mod lss;
 mod master;
 mod objects;
 mod scan;

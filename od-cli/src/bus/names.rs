@@ -21,6 +21,13 @@ struct File {
     tables: Tables,
 }
 
+/// A dictionary of a node, with the name of its file or built-in device.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'n> {
+    pub(crate) name: &'n str,
+    pub(crate) dictionary: Dictionary<'n>,
+}
+
 /// How well a dictionary fits a node by 1018h.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Fit {
@@ -53,23 +60,20 @@ impl Names {
     }
 
     /// The dictionary that is known without asking the node: the file of its ID, or the only file.
-    pub(crate) fn given(&self, node: NodeId) -> Option<Dictionary<'_>> {
+    pub(crate) fn given(&self, node: NodeId) -> Option<Known<'_>> {
         let own = self.0.iter().find(|file| file.node == Some(node));
         let only = || match self.0.as_slice() {
             [file] if file.node.is_none() => Some(file),
             _ => None,
         };
-        own.or_else(only).map(|file| file.tables.dictionary())
+        own.or_else(only).map(File::known)
     }
 
     /// The dictionary of a node: the file given for it, else the file or built-in device that its
     /// identity (1018h) fits.
-    pub(crate) fn of<L: Link>(
-        &self,
-        master: &mut Master<L>,
-    ) -> Result<Option<Dictionary<'_>>, Fault> {
-        if let Some(dictionary) = self.given(master.node()) {
-            return Ok(Some(dictionary));
+    pub(crate) fn of<L: Link>(&self, master: &mut Master<L>) -> Result<Option<Known<'_>>, Fault> {
+        if let Some(known) = self.given(master.node()) {
+            return Ok(Some(known));
         }
         let mut identity = [None; 4];
         for (part, sub) in identity.iter_mut().zip(1..=3) {
@@ -81,29 +85,39 @@ impl Names {
                 break;
             }
         }
-        Ok(self.fitting(master.node(), identity).map(|(_, fit)| fit))
+        Ok(self.fitting(Some(master.node()), identity))
     }
 
-    /// What fits an identity best: its name and its dictionary.
+    /// What fits an identity best. Files for another node ID do not count; without one, those for
+    /// any node ID do not.
     pub(crate) fn fitting(
         &self,
-        node: NodeId,
+        node: Option<NodeId>,
         identity: [Option<u32>; 4],
-    ) -> Option<(&str, Dictionary<'_>)> {
-        let files = self
-            .0
-            .iter()
-            .filter(|file| file.node.is_none_or(|one| one == node));
-        let files = files.map(|file| (file.source.path.as_str(), file.tables.dictionary()));
-        let known = DEVICES.iter().map(|kind| (kind.name, kind.dictionary));
+    ) -> Option<Known<'_>> {
+        let files = self.0.iter();
+        let files = files.filter(|file| file.node.is_none() || file.node == node);
+        let built_in = DEVICES.iter().map(|kind| Known {
+            name: kind.name,
+            dictionary: kind.dictionary,
+        });
         let mut best = None;
-        for (name, dictionary) in files.chain(known) {
-            let fit = fit(dictionary, identity);
-            if fit > best.and_then(|(fit, _, _)| fit) {
-                best = Some((fit, name, dictionary));
+        for known in files.map(File::known).chain(built_in) {
+            let fit = fit(known.dictionary, identity);
+            if fit > best.and_then(|(fit, _)| fit) {
+                best = Some((fit, known));
             }
         }
-        best.map(|(_, name, dictionary)| (name, dictionary))
+        best.map(|(_, known)| known)
+    }
+}
+
+impl File {
+    fn known(&self) -> Known<'_> {
+        Known {
+            name: &self.source.path,
+            dictionary: self.tables.dictionary(),
+        }
     }
 }
 

@@ -2,16 +2,9 @@
 
 use serde_json::Value;
 
-use super::{done, fails};
+use super::{done, fails, link};
 use crate::support::odkit;
 use crate::support::quiet::Sim;
-
-fn link(sim: &Sim) -> String {
-    format!(
-        "slcan:{}",
-        sim.ready["links"][0]["address"].as_str().expect("a port")
-    )
-}
 
 #[track_caller]
 fn json(text: &str) -> Value {
@@ -130,7 +123,9 @@ fn without_a_file_types_come_from_sizes() {
                AccessType=ro\nDefaultValue=0\n[2000]\nParameterName=Image\nObjectType=2\nDataType=15\n\
                AccessType=rw\n[2001]\nParameterName=Speed\nDataType=3\nAccessType=rw\nDefaultValue=-5\n\
                [2002]\nParameterName=Key\nDataType=6\nAccessType=wo\n";
-    let path = crate::support::file("sizes.eds", eds).display().to_string();
+    let path = crate::support::file("bus-sizes.eds", eds)
+        .display()
+        .to_string();
     let sim = Sim::start(&[&path, "--node-id", "5"]);
     let link = link(&sim);
     let at = ["--link", &link];
@@ -148,8 +143,8 @@ fn without_a_file_types_come_from_sizes() {
     // A DOMAIN goes there by block transfer, and comes back.
     let image: Vec<u8> = (0..20_000_u32).map(|byte| (byte * 7) as u8).collect();
     let (there, back) = (
-        path.replace("sizes.eds", "there.bin"),
-        path.replace("sizes.eds", "back.bin"),
+        path.replace("bus-sizes.eds", "bus-there.bin"),
+        path.replace("bus-sizes.eds", "bus-back.bin"),
     );
     std::fs::write(&there, &image).expect("a file");
     done(&[&["set", "5", "2000h", "--file", &there], &at[..]].concat());

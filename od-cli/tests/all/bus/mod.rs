@@ -2,6 +2,7 @@
 
 mod everyday;
 mod links;
+mod setup;
 
 use crate::support::odkit;
 
@@ -19,4 +20,10 @@ fn fails(code: i32, args: &[&str]) -> String {
     let done = odkit(args, "");
     assert_eq!(done.code, code, "{args:?}: {}{}", done.out, done.err);
     done.err
+}
+
+/// The slcan port of a simulation.
+fn link(sim: &crate::support::quiet::Sim) -> String {
+    let address = sim.ready["links"][0]["address"].as_str().expect("a port");
+    format!("slcan:{address}")
 }

@@ -1,0 +1,289 @@
+//! The configuration of a node: read, and written so that either all of it or none is there.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_model::{Address, DataType, Dictionary};
+
+use crate::fault::Fault;
+use crate::link::Link;
+use crate::master::Master;
+
+/// Bit 31 of a PDO's COB-ID: the PDO is not valid.
+const NOT_VALID: u32 = 1 << 31;
+
+/// A value of a node's configuration.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Setting {
+    /// Address.
+    pub address: Address,
+    /// Value as it goes over the bus.
+    pub bytes: Vec<u8>,
+}
+
+/// A value that is not as it should be.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Wrong {
+    /// The value that was wanted.
+    pub setting: Setting,
+    /// The value that is there, or the SDO abort code.
+    pub found: Result<Vec<u8>, u32>,
+}
+
+/// Result of [`apply`].
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Applied {
+    /// Values that were right before.
+    pub equal: usize,
+    /// Values that were written.
+    pub written: usize,
+    /// Values that the node refused, or that are not there after they were written.
+    pub wrong: Vec<Wrong>,
+    /// All that was written has its earlier value again.
+    pub is_put_back: bool,
+    /// Values that could not be put back.
+    pub left: Vec<Address>,
+}
+
+/// The values that make up the configuration of a node: those that can be read and written, but
+/// for commands, logs, programs and DOMAINs.
+pub fn addresses(dictionary: Dictionary<'_>) -> Vec<Address> {
+    let entries = dictionary.entries().filter(|entry| {
+        let is_command = matches!(
+            entry.address.index,
+            0x1003 | 0x1010 | 0x1011 | 0x1F50..=0x1F5F
+        );
+        let is_own = entry.data_type != DataType::Domain && !is_command;
+        is_own && entry.access.readable() && entry.access.writable()
+    });
+    entries.map(|entry| entry.address).collect()
+}
+
+/// An address with its value, or with the SDO abort code.
+pub type Read = (Address, Result<Vec<u8>, u32>);
+
+/// Reads these values; those that the node does not give come with the SDO abort code. `progress` is
+/// told the share that is done, 0 to 100.
+///
+/// # Errors
+/// The node is silent, or the link is lost.
+pub fn read(
+    master: &mut Master<impl Link>,
+    addresses: &[Address],
+    mut progress: impl FnMut(u8),
+) -> Result<Vec<Read>, Fault> {
+    let mut values = Vec::new();
+    for (at, address) in addresses.iter().enumerate() {
+        progress((100 * at / addresses.len()) as u8);
+        values.push((*address, master.upload(*address)?));
+    }
+    Ok(values)
+}
+
+/// Writes values that differ, and reads them back. PDOs are not valid while their mapping changes.
+/// If the node refuses one or the program is to stop, those that were written get their earlier
+/// values again.
+///
+/// # Errors
+/// The node is silent, or the link is lost: then the node may have a part of the values.
+pub fn apply(
+    master: &mut Master<impl Link>,
+    settings: &[Setting],
+    mut progress: impl FnMut(u8),
+) -> Result<Applied, Fault> {
+    let mut applied = Applied::default();
+    let wanted = Values(
+        settings
+            .iter()
+            .map(|one| (one.address, one.bytes.clone()))
+            .collect(),
+    );
+    let addresses: Vec<Address> = wanted.0.keys().copied().collect();
+    let (mut new, mut old) = (Values::default(), Values::default());
+    for (address, found) in read(master, &addresses, |percent| progress(percent / 2))? {
+        let bytes = wanted.0[&address].clone();
+        match found {
+            Ok(before) if before == bytes || wanted.is_beyond(address) => applied.equal += 1,
+            Ok(before) => {
+                old.0.insert(address, before);
+                new.0.insert(address, bytes);
+            }
+            Err(_) => applied.wrong.push(wrong(address, bytes, found)),
+        }
+    }
+    if !applied.wrong.is_empty() {
+        // Nothing was written yet.
+        applied.is_put_back = true;
+        return Ok(applied);
+    }
+    for index in old.pdos() {
+        // What changes for a moment has to be put back, too.
+        let (cob_id, count) = (Address::new(index, 1), Address::new(index + 0x200, 0));
+        let is_mapped_anew = old.0.keys().any(|one| one.index == count.index);
+        for address in [Some(cob_id), is_mapped_anew.then_some(count)]
+            .into_iter()
+            .flatten()
+        {
+            if !old.0.contains_key(&address)
+                && let Ok(bytes) = master.upload(address)?
+            {
+                old.0.insert(address, bytes);
+            }
+        }
+    }
+    applied.written = new.0.len();
+    let refused = match new.write(master) {
+        Ok(None) => None,
+        Ok(Some(refused)) => Some(Ok(refused)),
+        Err(fault) => Some(Err(fault)),
+    };
+    if let Some(refused) = refused {
+        master.link().resume();
+        let put_back = old.write(master);
+        let fault = match refused {
+            Ok(refused) => {
+                applied.wrong.push(refused);
+                None
+            }
+            Err(fault) => Some(fault),
+        };
+        match (put_back, fault) {
+            (Ok(None), None) => applied.is_put_back = true,
+            (Ok(Some(left)), None) => applied.left.push(left.setting.address),
+            (Err(fault), None) | (_, Some(fault)) => return Err(fault),
+        }
+        return Ok(applied);
+    }
+    let written: Vec<Address> = new.0.keys().copied().collect();
+    for (address, found) in read(master, &written, |percent| progress(50 + percent / 2))? {
+        let bytes = new.0[&address].clone();
+        if found.as_ref() != Ok(&bytes) {
+            applied.wrong.push(wrong(address, bytes, found));
+        }
+    }
+    Ok(applied)
+}
+
+fn wrong(address: Address, bytes: Vec<u8>, found: Result<Vec<u8>, u32>) -> Wrong {
+    let setting = Setting { address, bytes };
+    Wrong { setting, found }
+}
+
+/// Values by address.
+#[derive(Default)]
+struct Values(BTreeMap<Address, Vec<u8>>);
+
+/// The PDO communication parameter that an address belongs to, with its mapping.
+fn pdo(address: Address) -> Option<u16> {
+    match address.index {
+        index @ (0x1400..=0x15FF | 0x1800..=0x19FF) => Some(index),
+        index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF) => Some(index - 0x200),
+        _ => None,
+    }
+}
+
+/// The address and abort code of a value that the node refuses; `None`: it took all.
+type Refused = Option<Wrong>;
+
+impl Values {
+    fn pdos(&self) -> BTreeSet<u16> {
+        self.0.keys().filter_map(|address| pdo(*address)).collect()
+    }
+
+    /// A mapping entry behind those that sub-index 0 counts: it maps nothing, and many devices
+    /// do not take its value.
+    fn is_beyond(&self, address: Address) -> bool {
+        let is_mapping = pdo(address).is_some_and(|index| index != address.index);
+        let count = self.0.get(&Address::new(address.index, 0));
+        let count = count.and_then(|bytes| bytes.first()).copied();
+        is_mapping && count.is_some_and(|count| address.sub > count)
+    }
+
+    fn write(&self, master: &mut Master<impl Link>) -> Result<Refused, Fault> {
+        let mut waiting: Vec<_> = self
+            .0
+            .iter()
+            .filter(|(one, _)| pdo(**one).is_none())
+            .collect();
+        // Values may depend on each other: what is refused now may be right after the others.
+        loop {
+            let mut refused = Vec::new();
+            let mut first = None;
+            for (address, bytes) in &waiting {
+                if let Err(code) = master.download(**address, bytes)? {
+                    refused.push((*address, *bytes));
+                    first.get_or_insert(wrong(**address, bytes.to_vec(), Err(code)));
+                }
+            }
+            if refused.is_empty() {
+                break;
+            }
+            if refused.len() == waiting.len() {
+                return Ok(first);
+            }
+            waiting = refused;
+        }
+        for index in self.pdos() {
+            let refused = self.write_pdo(master, index)?;
+            if refused.is_some() {
+                return Ok(refused);
+            }
+        }
+        Ok(None)
+    }
+
+    /// CiA 301, chapter 7.5.2.36: not valid, mapping off, entries, mapping on, valid.
+    fn write_pdo(&self, master: &mut Master<impl Link>, index: u16) -> Result<Refused, Fault> {
+        let (cob_id, mapping) = (Address::new(index, 1), index + 0x200);
+        let count = Address::new(mapping, 0);
+        let put = |master: &mut Master<_>, address: Address, bytes: &[u8]| {
+            let done = master.download(address, bytes)?;
+            Ok::<_, Fault>(
+                done.err()
+                    .map(|code| wrong(address, bytes.to_vec(), Err(code))),
+            )
+        };
+        let before = master.upload(cob_id)?;
+        let last = self.0.get(&cob_id).cloned().or(before.clone().ok());
+        if let Ok(Ok(raw)) = before.as_deref().map(<[u8; 4]>::try_from) {
+            let raw = u32::from_le_bytes(raw) | NOT_VALID;
+            // A device whose COB-ID is fixed goes on with the rest.
+            put(master, cob_id, &raw.to_le_bytes())?;
+        }
+        if self.0.keys().any(|address| address.index == mapping) {
+            let last = match self.0.get(&count) {
+                Some(count) => Some(count.clone()),
+                None => master.upload(count)?.ok(),
+            };
+            let entries = self
+                .0
+                .iter()
+                .filter(|(one, _)| one.index == mapping && one.sub > 0);
+            let mut steps = vec![(count, vec![0])];
+            steps.extend(entries.map(|(address, bytes)| (*address, bytes.clone())));
+            steps.extend(last.map(|last| (count, last)));
+            for (address, bytes) in steps {
+                let refused = put(master, address, &bytes)?;
+                if refused.is_some() {
+                    return Ok(refused);
+                }
+            }
+        }
+        for (address, bytes) in self
+            .0
+            .iter()
+            .filter(|(one, _)| one.index == index && one.sub > 1)
+        {
+            let refused = put(master, *address, bytes)?;
+            if refused.is_some() {
+                return Ok(refused);
+            }
+        }
+        match last {
+            Some(last) if before.as_ref().ok() != Some(&last) || self.0.contains_key(&cob_id) => {
+                put(master, cob_id, &last)
+            }
+            Some(last) => put(master, cob_id, &last).map(|_| None),
+            None => Ok(None),
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! LSS: which slaves are there, and their node IDs and bit rates (CiA 305).
+
+use od_client::lss::{Answer, Identity, LssError, Options, Task};
+use od_client::{Client, Event, sdo, watch};
+use od_wire::nmt::State;
+use od_wire::{Duration, Frame, Instant, NodeId, lss};
+
+use crate::fault::Fault;
+use crate::link::Link;
+
+/// Longest time for an answer: storing takes the longest.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Longest time until a slave with a new node ID boots.
+const BOOT: Duration = Duration::from_secs(3);
+
+/// Bit rates in kbit/s by their index in table 0 of CiA 301; index 5 is reserved.
+pub const BIT_RATES: [Option<u16>; 9] = [
+    Some(1000),
+    Some(800),
+    Some(500),
+    Some(250),
+    Some(125),
+    None,
+    Some(50),
+    Some(20),
+    Some(10),
+];
+
+/// An LSS master on a link. When it goes, all slaves are in waiting state.
+#[derive(Debug)]
+pub struct Lss<L: Link> {
+    link: L,
+    client: Client,
+}
+
+/// The slaves that a service is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Slaves {
+    /// The one with this LSS address.
+    One(Identity),
+    /// All on the bus.
+    All,
+}
+
+impl<L: Link> Lss<L> {
+    /// A master on `link`.
+    pub fn new(link: L) -> Self {
+        let mut options = Options::DEFAULT;
+        options.timeout = PATIENCE;
+        Self {
+            link,
+            client: Client::with(sdo::Options::DEFAULT, options),
+        }
+    }
+
+    /// Finds the slaves that have no node ID, by fastscan; `found` is told each at once.
+    ///
+    /// # Errors
+    /// The link is lost, or a slave answers and then does not confirm its LSS address.
+    pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Fault> {
+        self.run(Task::SwitchGlobal {
+            configuration: false,
+        })?;
+        let mut all = Vec::new();
+        while let Answer::Found(Some(identity)) = self.run(Task::Fastscan)? {
+            if all.contains(&identity) {
+                return Err(Fault::Node(format!(
+                    "two LSS slaves have the same LSS address (serial number {}), so no master can \
+                     address one of them; connect them one after the other",
+                    identity.serial
+                )));
+            }
+            found(&identity);
+            all.push(identity);
+        }
+        self.wait_all()?;
+        Ok(all)
+    }
+
+    /// Gives a slave a node ID, has it store it if `store`, and waits for its boot-up message. A slave
+    /// that had a node ID before takes the new one with its next reset, and `false` is returned.
+    ///
+    /// # Errors
+    /// No slave has the LSS address, the slave refuses, or the link is lost.
+    pub fn set_node_id(
+        &mut self,
+        identity: Identity,
+        node: NodeId,
+        store: bool,
+    ) -> Result<bool, Fault> {
+        self.select(Slaves::One(identity))?;
+        self.run(Task::ConfigureNodeId(Some(node)))?;
+        if store {
+            self.run(Task::Store)?;
+        }
+        self.wait_all()?;
+        let until = self.link.now() + BOOT;
+        while let Some(heard) = self.link.receive(until)? {
+            if watch::parse(&heard.frame) == Some((node, State::Initialising)) {
+                return Ok(true);
+            }
+            if heard.at > until {
+                break;
+            }
+        }
+        Ok(false)
+    }
+
+    /// Configures the bit rate in kbit/s of these slaves, and has them store it if `store`. With
+    /// `activate` they all change over after this time, and are silent for it again: the link has to
+    /// follow.
+    ///
+    /// # Errors
+    /// [`Fault::Usage`] for a bit rate that CiA 301 does not have; a slave refuses, none answers, or
+    /// the link is lost.
+    pub fn set_bit_rate(
+        &mut self,
+        slaves: Slaves,
+        kbit: u16,
+        store: bool,
+        activate: Option<u16>,
+    ) -> Result<(), Fault> {
+        let index = BIT_RATES.iter().position(|rate| *rate == Some(kbit));
+        let index = index
+            .and_then(|index| u8::try_from(index).ok())
+            .ok_or_else(|| {
+                let rates = BIT_RATES.iter().flatten().map(u16::to_string);
+                Fault::Usage(format!(
+                    "CiA 301 does not define {kbit} kbit/s; write one of {}",
+                    rates.collect::<Vec<_>>().join(", ")
+                ))
+            })?;
+        self.select(slaves)?;
+        self.run(Task::ConfigureBitTiming { table: 0, index })?;
+        if store {
+            self.run(Task::Store)?;
+        }
+        match activate {
+            Some(delay_ms) => self.run(Task::ActivateBitTiming { delay_ms }).map(drop),
+            None => self.wait_all(),
+        }
+    }
+
+    /// Has these slaves store node ID and bit rate.
+    ///
+    /// # Errors
+    /// A slave refuses, none answers, or the link is lost.
+    pub fn store(&mut self, slaves: Slaves) -> Result<(), Fault> {
+        self.select(slaves)?;
+        self.run(Task::Store)?;
+        self.wait_all()
+    }
+
+    fn select(&mut self, slaves: Slaves) -> Result<(), Fault> {
+        self.wait_all()?;
+        match slaves {
+            Slaves::One(identity) => self.run(Task::SwitchSelective(identity)),
+            Slaves::All => self.run(Task::SwitchGlobal {
+                configuration: true,
+            }),
+        }
+        .map(drop)
+    }
+
+    fn wait_all(&mut self) -> Result<(), Fault> {
+        let configuration = false;
+        self.run(Task::SwitchGlobal { configuration }).map(drop)
+    }
+
+    /// Runs a service. Of several slaves that answer one that refuses counts.
+    fn run(&mut self, task: Task) -> Result<Answer, Fault> {
+        self.client.lss(task);
+        let mut refused = None;
+        loop {
+            while let Some(frame) = self.client.poll_transmit(self.link.now()) {
+                self.link.send(&frame)?;
+            }
+            if let Some(Event::Lss(_, answer)) = self.client.poll_event() {
+                let answer = answer.map_err(|error| Fault::Node(words(task, error)))?;
+                if matches!(task, Task::ConfigureBitTiming { .. } | Task::Store) {
+                    self.others(&mut refused)?;
+                }
+                return match refused {
+                    None => Ok(answer),
+                    Some(error) => Err(Fault::Node(words(task, error))),
+                };
+            }
+            let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
+            match self.link.receive(until)? {
+                Some(heard) => self.client.handle_frame(heard.at, &heard.frame),
+                None => self.client.handle_timeout(self.link.now()),
+            }
+        }
+    }
+
+    /// Listens to the slaves that answer after the first.
+    fn others(&mut self, refused: &mut Option<LssError>) -> Result<(), Fault> {
+        let until = self.link.now().plus_millis(100);
+        while let Some(heard) = self.link.receive(until)? {
+            if heard.frame.id().as_standard() == Some(lss::SLAVE)
+                && let Some(lss::Response::Configured { error, .. }) =
+                    lss::Response::parse(heard.frame.data())
+                && error != 0
+            {
+                let specific = heard.frame.bytes()[2];
+                *refused = Some(LssError::Refused { error, specific });
+            }
+            if heard.at > until {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<L: Link> Drop for Lss<L> {
+    fn drop(&mut self) {
+        // Whatever went wrong: no slave is left in configuration state. If the link is lost, nobody
+        // can do more.
+        let configuration = false;
+        let request = lss::Request::SwitchGlobal { configuration };
+        let id = od_wire::CanId::standard(lss::MASTER);
+        let _ = self.link.send(&Frame::full(id, request.emit()));
+    }
+}
+
+/// An error of a service, with what to do about it.
+fn words(task: Task, error: LssError) -> String {
+    match (task, error) {
+        (Task::SwitchSelective(identity), LssError::Silent) => format!(
+            "no LSS slave has the LSS address with serial number {}; `odkit lss scan` lists those \
+             without a node ID",
+            identity.serial
+        ),
+        (Task::ConfigureNodeId(_), LssError::Refused { error: 1, .. }) => {
+            "the LSS slave does not accept the node ID".into()
+        }
+        (Task::ConfigureBitTiming { .. }, LssError::Refused { error: 1, .. }) => {
+            "an LSS slave does not support the bit rate".into()
+        }
+        (Task::Store, LssError::Refused { error: 1, .. }) => {
+            "an LSS slave does not support storing".into()
+        }
+        (Task::Store, LssError::Refused { error: 2, .. }) => {
+            "an LSS slave cannot write its memory".into()
+        }
+        (_, error) => error.to_string(),
+    }
+}

@@ -1,0 +1,128 @@
+//! The wizard: new encoders, one after the other.
+
+use std::collections::BTreeSet;
+use std::io::{self, BufRead, IsTerminal};
+
+use od_bus::lss::Lss;
+use od_bus::scan::{self, Options};
+use od_client::lss::Identity;
+use od_runtime::NodeId;
+use serde_json::json;
+
+use super::{tell, title};
+use crate::bus::{self, Format};
+use crate::failure::Failure;
+use crate::output::{self, Bar};
+use crate::report::plural;
+use crate::source;
+
+/// What somebody says to a proposal.
+enum Reply {
+    Take(NodeId),
+    Skip,
+    Quit,
+}
+
+pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Result<(), Failure> {
+    let names = args.names()?;
+    let mut bus = args.open()?;
+    let mut bar = Bar::new("looking for node IDs in use");
+    let there = scan::scan(&mut bus, Options::default(), |percent| bar.show(percent))?;
+    bar.clear();
+    let mut used: BTreeSet<NodeId> = there.nodes.iter().map(|one| one.node).collect();
+    if !used.is_empty() {
+        let ids: Vec<String> = used.iter().map(|node| node.raw().to_string()).collect();
+        tell(&format!("node IDs in use: {}", ids.join(", ")));
+    }
+    tell("looking for LSS slaves without a node ID; each takes some seconds");
+    let mut slaves = Lss::new(&mut bus).scan(|one| tell(&title(one, &names)))?;
+    slaves.sort_by_key(|one| one.serial);
+    if slaves.is_empty() {
+        return Err(Failure::Failed(
+            "no LSS slave without a node ID is on the bus; check power and bit rate".into(),
+        ));
+    }
+    let mut set_up = Vec::new();
+    for (at, slave) in (1..).zip(&slaves) {
+        tell("");
+        tell(&format!(
+            "{at} of {}: look at the encoder with serial number {}",
+            slaves.len(),
+            slave.serial
+        ));
+        let Some(proposed) = free(first, &used) else {
+            return Err(Failure::Failed("all node IDs are in use".into()));
+        };
+        let reply = match yes {
+            true => Reply::Take(proposed),
+            false => ask(proposed, &used)?,
+        };
+        let node = match reply {
+            Reply::Take(node) => node,
+            Reply::Skip => continue,
+            Reply::Quit => break,
+        };
+        let has_booted = Lss::new(&mut bus).set_node_id(*slave, node, store)?;
+        used.insert(node);
+        set_up.push((*slave, node, has_booted));
+        let node = node.raw();
+        tell(&match has_booted {
+            true => format!("node {node} boots"),
+            false => format!("node {node}: no boot-up message came; switch its power off and on"),
+        });
+    }
+    report(args.format, &set_up)
+}
+
+/// The first free node ID from `first` on.
+fn free(first: NodeId, used: &BTreeSet<NodeId>) -> Option<NodeId> {
+    let ids = (first.raw()..=127).chain(1..first.raw());
+    ids.filter_map(NodeId::new)
+        .find(|node| !used.contains(node))
+}
+
+fn ask(proposed: NodeId, used: &BTreeSet<NodeId>) -> Result<Reply, Failure> {
+    let mut input = io::stdin().lock();
+    loop {
+        let question = format!("node ID [{}], `s` to skip, `q` to stop: ", proposed.raw());
+        output::note_text(&question);
+        let mut line = String::new();
+        let read = input.read_line(&mut line)?;
+        if !io::stdin().is_terminal() {
+            output::note_text("\n");
+        }
+        match line.trim() {
+            _ if read == 0 => return Ok(Reply::Quit),
+            "" => return Ok(Reply::Take(proposed)),
+            "s" => return Ok(Reply::Skip),
+            "q" => return Ok(Reply::Quit),
+            text => match source::node_id(text) {
+                Ok(node) if used.contains(&node) => {
+                    tell(&format!("node ID {} is in use", node.raw()));
+                }
+                Ok(node) => return Ok(Reply::Take(node)),
+                Err(why) => tell(&why),
+            },
+        }
+    }
+}
+
+fn report(format: Format, set_up: &[(Identity, NodeId, bool)]) -> Result<(), Failure> {
+    if format == Format::Json {
+        let nodes = set_up.iter().map(|(slave, node, has_booted)| {
+            json!({
+                "node": node.raw(),
+                "serial_number": slave.serial,
+                "booted": has_booted,
+            })
+        });
+        let report = json!({ "nodes": nodes.collect::<Vec<_>>() });
+        return output::print(&format!("{report:#}"));
+    }
+    let lines = set_up
+        .iter()
+        .map(|(slave, node, _)| format!("node {:<3}  serial number {}", node.raw(), slave.serial));
+    let mut lines: Vec<String> = lines.collect();
+    lines.push(format!("{} set up", plural(set_up.len(), "encoder")));
+    output::print(&lines.join("\n"))
+}
