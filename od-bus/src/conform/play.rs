@@ -186,11 +186,11 @@ fn transfer(dut: &mut Dut<'_>, text: &str) -> Checked {
         },
         ("write", Some(bytes)) => {
             // What the case changes is put back after it, if it can be read.
-            if aborts.is_none() && !matches!(address.index, 0x1003 | 0x1010 | 0x1011) {
-                match dut.keep(address) {
-                    Err(End::Lost(fault)) => return Err(End::Lost(fault)),
-                    Err(_) | Ok(_) => {}
-                }
+            if aborts.is_none()
+                && !matches!(address.index, 0x1003 | 0x1010 | 0x1011)
+                && let Err(End::Lost(fault)) = dut.keep(address)
+            {
+                return Err(End::Lost(fault));
             }
             dut.download(address, &bytes)?
         }

@@ -108,11 +108,8 @@ fn a_case_of_a_vendor_is_a_file() {
     let done = odkit(&args, "");
     assert_eq!(done.code, 0, "{}{}", done.out, done.err);
     assert!(done.out.contains("1 case: 1 passed"), "{}", done.out);
-    file(
-        "wrong-cases/x.script",
-        "# Vendor 1.2: A title.\ncheck nosuch\n",
-    );
-    let wrong = folder.replace("own-cases", "wrong-cases");
+    let text = "# Vendor 1.2: A title.\ncheck nosuch\n";
+    let wrong = cases("wrong-cases", "x.script", text);
     let done = odkit(&["conform", "gxmm", "--cases", &wrong], "");
     assert_eq!(done.code, 2, "{}", done.err);
     assert!(
