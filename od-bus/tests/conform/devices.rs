@@ -1,7 +1,5 @@
 //! The twelve devices pass, in virtual time.
 
-use std::time::Instant;
-
 use od_bench::VirtualDevice;
 use od_bench::bus::Bus;
 use od_bus::bench::OnBench;
@@ -37,10 +35,8 @@ fn run(device: VirtualDevice, text: &str) -> Report {
 fn the_twelve_devices_pass() {
     let mut wrong = String::new();
     for kind in od_devices::DEVICES {
-        let began = Instant::now();
         let device = VirtualDevice::new(kind, NodeId::ONE);
         let report = run(device, &od_devices::text::eds(kind));
-        eprintln!("{}: {} {:?}", kind.name, report.summary(), began.elapsed());
         if !report.is_pass() {
             wrong += &report.render(Format::Text);
             wrong.push('\n');

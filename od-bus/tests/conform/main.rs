@@ -1,3 +1,5 @@
 //! The conformance test: no false failure on what is right, and what is wrong is found.
 
 mod devices;
+mod mutant;
+mod mutants;

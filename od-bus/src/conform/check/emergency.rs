@@ -194,6 +194,14 @@ pub(super) fn behaviour_stopped(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn behaviour_range(dut: &mut Dut<'_>) -> Checked {
     let address = Address::new(0x1029, 1);
-    dut.keep(address)?;
+    let entry = dut.eds.entry(0x1029, 1);
+    let before = dut.keep(address)?;
+    // Without a limit in the EDS a device may have values of its own.
+    if entry.is_none_or(|entry| entry.high == od_model::Literal::None)
+        && dut.download(address, &[0x55])?.is_ok()
+    {
+        dut.write(address, &before)?;
+        return crate::conform::end::lacks("the node takes values of its own in 1029h:01");
+    }
     dut.refuses_value(address, &[0x55], &[ValueRange, ValueTooHigh])
 }

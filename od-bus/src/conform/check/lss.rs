@@ -296,8 +296,13 @@ pub(super) fn fastscan(dut: &mut Dut<'_>) -> Checked {
     }
     ask(dut, Request::ConfigureNodeId { node_id: node })?;
     let from = dut.now();
-    waiting(dut)?;
-    if !keeps {
+    if keeps {
+        waiting(dut)?;
+    } else {
+        let request = Request::SwitchGlobal {
+            configuration: false,
+        };
+        dut.send(Frame::standard(MASTER, &request.emit()))?;
         if dut.next_of(id, 5_000_000)?.is_none() {
             return done.and(fail(
                 "the boot-up message with the node ID from LSS",

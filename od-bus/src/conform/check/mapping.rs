@@ -9,6 +9,7 @@ use od_wire::AbortCode::{
 use super::transmit::{Tpdo, first, mapping};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, lacks};
+use crate::conform::sdo::{is_abort, request};
 
 /// The first TPDO, off and with an open mapping; afterwards [`close`].
 struct Open {
@@ -91,16 +92,24 @@ pub(super) fn without_procedure(dut: &mut Dut<'_>) -> Checked {
     done
 }
 
+/// Sub-index 0 of a PDO that is on is refused, or 0 empties the PDO.
 pub(super) fn while_on(dut: &mut Dut<'_>) -> Checked {
     let pdo = variable(dut)?;
-    let count = dut.read(Address::new(pdo.map(), 0))?;
-    let codes = [UnsupportedAccess, NotMappable, DeviceState, Incompatible];
     let zero = Address::new(pdo.map(), 0);
-    let done = dut.refuses_value(zero, &[0], &codes);
-    if done.is_err() {
-        dut.undo.push((zero, count));
+    let count = dut.read(zero)?;
+    let codes = [UnsupportedAccess, NotMappable, DeviceState, Incompatible];
+    match dut.download(zero, &[0])? {
+        Err(code) => is_abort(&request(0x80, zero, code.to_le_bytes()), &codes),
+        Ok(()) => {
+            dut.undo.push((zero, count));
+            let is = dut.number(pdo.map(), 0)?;
+            ensure(
+                is == 0,
+                "an abort, or 0 mapped objects",
+                format!("{is} are mapped"),
+            )
+        }
     }
-    done
 }
 
 pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
@@ -111,16 +120,24 @@ pub(super) fn too_many(dut: &mut Dut<'_>) -> Checked {
             ValueTooHigh,
             NotMappable,
             UnsupportedAccess,
+            NoObject,
+            NoSubIndex,
         ];
         dut.refuses_value(Address::new(map, 0), &[65], &codes)
     })
 }
 
-/// An object that the EDS lets a TPDO carry.
+/// The longest object that the EDS lets a TPDO carry.
 fn mappable(dut: &Dut<'_>) -> Option<Entry> {
-    let mut entries = dut.eds.dictionary().entries();
-    entries
-        .find(|entry| entry.maps_to_tpdo() && entry.data_type.bits().is_some_and(|bits| bits >= 8))
+    let entries = dut.eds.dictionary().entries();
+    let bits = |entry: &Entry| {
+        entry
+            .data_type
+            .bits()
+            .filter(|bits| (8..=64).contains(bits))
+    };
+    let fits = |entry: &Entry| entry.maps_to_tpdo() && bits(entry).is_some();
+    entries.filter(fits).max_by_key(bits)
 }
 
 fn raw(entry: &Entry) -> u32 {

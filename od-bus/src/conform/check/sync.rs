@@ -25,7 +25,7 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     learn_sync(dut)?;
     let pdo = typed(dut, 1)?;
     let old = dut.sync_id;
-    let other = (old & !0x7FF) | 0x7F;
+    let other = (old & !0x7FF) | 0x4F2;
     dut.keep(COB_ID)?;
     if dut.download(COB_ID, &other.to_le_bytes())?.is_err() {
         return lacks("the node does not take another identifier");
@@ -41,7 +41,7 @@ pub(super) fn other_cob_id(dut: &mut Dut<'_>) -> Checked {
     sync(dut)?;
     let came = dut.next(QUIET, |frame| frame.id() == id)?;
     dut.sync_id = old;
-    ensure(came.is_some(), "a TPDO with the new SYNC 07Fh", "none came")
+    ensure(came.is_some(), "a TPDO with the new SYNC 4F2h", "none came")
 }
 
 /// The node's SYNC messages, when it produces them every 50 ms.
