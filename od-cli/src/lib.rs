@@ -13,6 +13,7 @@ mod config;
 mod conform;
 mod convert;
 mod ctl;
+mod decode;
 mod diff;
 mod dump;
 mod explain;
@@ -23,9 +24,11 @@ mod lesson;
 mod live;
 mod lsp;
 mod lss;
+mod monitor;
 mod new;
 mod nmt;
 mod output;
+mod record;
 mod report;
 mod run;
 mod save;
@@ -34,6 +37,7 @@ mod set;
 mod sim;
 mod source;
 mod terminal;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -44,7 +48,9 @@ use crate::failure::Failure;
 /// CANopen devices from EDS files.
 #[derive(Parser)]
 #[command(name = "odkit", version, max_term_width = 100)]
-#[command(about = "Check, convert and simulate CANopen devices described by EDS files")]
+#[command(
+    about = "Check, convert and simulate CANopen devices; look at them and set them up on a bus"
+)]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 struct Cli {
     /// Settings of the project; otherwise the nearest `odkit.toml` above each file
@@ -83,11 +89,68 @@ enum Command {
     Lss(lss::Args),
     Backup(backup::Args),
     Apply(backup::Apply),
+    Monitor(monitor::Args),
+    Watch(watch::Args),
+    Record(record::Args),
+    Replay(record::Replay),
+    Decode(decode::Args),
+}
+
+/// Commands by what they are about, as `--help` lists them; those that are missing here come last.
+const GROUPS: [(&str, &[&str]); 4] = [
+    (
+        "Simulate and learn",
+        &["sim", "bridge", "ctl", "run", "lesson", "new"],
+    ),
+    (
+        "Device files",
+        &[
+            "check", "explain", "dump", "export", "convert", "diff", "lsp",
+        ],
+    ),
+    (
+        "Look at a bus, set up nodes",
+        &[
+            "scan", "get", "set", "nmt", "save", "restore", "lss", "backup", "apply", "watch",
+            "conform", "learn",
+        ],
+    ),
+    ("Frames", &["monitor", "record", "replay", "decode"]),
+];
+
+/// The list of commands in groups, for `--help`.
+fn groups(command: &clap::Command) -> String {
+    let named = |name: &str| GROUPS.iter().any(|(_, names)| names.contains(&name));
+    let all = || command.get_subcommands().filter(|one| !one.is_hide_set());
+    let others: Vec<&str> = all()
+        .map(clap::Command::get_name)
+        .filter(|name| !named(name))
+        .collect();
+    let mut text = String::new();
+    for (title, names) in GROUPS.into_iter().chain([("Others", others.as_slice())]) {
+        let own = names
+            .iter()
+            .filter_map(|name| all().find(|one| one.get_name() == *name));
+        let lines = own.map(|one| {
+            let about = one.get_about().map(ToString::to_string).unwrap_or_default();
+            format!("  {:<8}  {about}\n", one.get_name())
+        });
+        let lines: String = lines.collect();
+        if !lines.is_empty() {
+            text.push_str(&format!("{title}:\n{lines}\n"));
+        }
+    }
+    text
 }
 
 /// The program `odkit`: reads the command line, does it, answers with the exit code.
 pub fn main() -> ExitCode {
     let command = Cli::command().after_help(source::device_list());
+    let groups = groups(&command);
+    let template = format!(
+        "{{about}}\n\n{{usage-heading}} {{usage}}\n\n{groups}Options:\n{{options}}{{after-help}}"
+    );
+    let command = command.help_template(template);
     let matches = match command.try_get_matches() {
         Ok(matches) => matches,
         // `--help` and `--version` come this way too, with exit code 0; a mistake has 2.
@@ -130,6 +193,11 @@ pub fn main() -> ExitCode {
         Command::Lss(args) => lss::run(&args),
         Command::Backup(args) => backup::backup(&args),
         Command::Apply(args) => backup::apply(&args),
+        Command::Monitor(args) => monitor::run(&args),
+        Command::Watch(args) => watch::run(&args),
+        Command::Record(args) => record::record(&args),
+        Command::Replay(args) => record::replay(&args),
+        Command::Decode(args) => decode::run(&args),
     };
     exit(result)
 }

@@ -31,6 +31,13 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     output.flush().map(drop)
 }
 
+/// A text as it is, to standard output at once.
+pub(crate) fn print_raw(text: &str) -> io::Result<()> {
+    let mut output = io::stdout().lock();
+    output.write_all(text.as_bytes())?;
+    output.flush()
+}
+
 /// Writes a text to a file, or to standard output without a path.
 pub(crate) fn save(path: Option<&Path>, text: &str) -> Result<(), Failure> {
     match path {

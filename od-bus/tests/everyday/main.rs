@@ -5,6 +5,7 @@ mod lss;
 mod master;
 mod objects;
 mod scan;
+mod time;
 
 use od_bench::VirtualDevice;
 use od_bench::bus::Bus;

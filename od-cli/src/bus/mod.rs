@@ -2,6 +2,7 @@
 
 pub(crate) mod names;
 pub(crate) mod value;
+pub(crate) mod words;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};

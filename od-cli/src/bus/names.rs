@@ -1,5 +1,6 @@
 //! Names and types of the nodes on a bus.
 
+use od_bench::VirtualDevice;
 use od_bus::fault::Fault;
 use od_bus::link::Link;
 use od_bus::master::Master;
@@ -17,6 +18,8 @@ pub(crate) struct Names(Vec<File>);
 struct File {
     /// The node that it is of; `None`: any that it fits.
     node: Option<NodeId>,
+    /// The node ID in a DCF.
+    commissioned: Option<NodeId>,
     source: Source,
     tables: Tables,
 }
@@ -49,9 +52,11 @@ impl Names {
                 None => (None, text.as_str()),
             };
             let source = Source::find(path)?;
-            let tables = Tables::new(&source.parse()?.description);
+            let description = source.parse()?.description;
+            let tables = Tables::new(&description);
             files.push(File {
                 node,
+                commissioned: description.commissioned_node_id().and_then(NodeId::new),
                 source,
                 tables,
             });
@@ -109,6 +114,24 @@ impl Names {
             }
         }
         best.map(|(_, known)| known)
+    }
+}
+
+impl Names {
+    /// The nodes that files were given for, by their ID or as a DCF.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        self.0
+            .iter()
+            .filter_map(|file| file.node.or(file.commissioned))
+    }
+
+    /// A device without a bus, with the names of a node: of the file for it, or for any.
+    pub(crate) fn device(&self, node: NodeId) -> Result<Option<VirtualDevice>, Failure> {
+        let own = |file: &&File| file.node.or(file.commissioned) == Some(node);
+        let any = |file: &&File| file.node.or(file.commissioned).is_none();
+        let file = self.0.iter().find(own).or_else(|| self.0.iter().find(any));
+        let device = file.map(|file| file.source.device(Some(node)));
+        device.transpose().map_err(Failure::Failed)
     }
 }
 

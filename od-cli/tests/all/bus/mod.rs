@@ -3,6 +3,7 @@
 mod everyday;
 mod links;
 mod setup;
+mod time;
 
 use crate::support::odkit;
 

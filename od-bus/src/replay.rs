@@ -1,0 +1,31 @@
+//! A log onto a bus.
+
+use od_wire::{Duration, Frame, Instant};
+
+use crate::fault::Fault;
+use crate::link::Link;
+
+/// Sends these frames with their distances in time, `speed` times as fast; 0: without waiting. Frames
+/// of the bus are left out meanwhile. Returns how many were sent.
+///
+/// # Errors
+/// The link is lost.
+pub fn replay(
+    link: &mut impl Link,
+    frames: &[(Instant, Frame)],
+    speed: f64,
+) -> Result<usize, Fault> {
+    let begin = link.now();
+    let first = frames.first().map_or(Instant::ZERO, |(at, _)| *at);
+    for (at, frame) in frames {
+        let distance = at.micros_since(first) as f64;
+        let wait = if speed > 0.0 { distance / speed } else { 0.0 };
+        // Each from the beginning on, so that no delay adds to the next.
+        let due = begin + Duration::from_micros(wait as u64);
+        while link.now() < due {
+            link.receive(due)?;
+        }
+        link.send(frame)?;
+    }
+    Ok(frames.len())
+}

@@ -1,0 +1,218 @@
+//! Values of a node over time: from its TPDOs where they are mapped, else polled by SDO.
+
+use od_client::sdo::SdoError;
+use od_client::{Client, Event, Job};
+use od_model::Address;
+use od_model::typed::MapEntry;
+use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
+
+use crate::fault::Fault;
+use crate::link::Link;
+use crate::master::Master;
+
+/// A value that comes by TPDO is polled if none came for this time: the node may not be Operational.
+const GRACE: Duration = Duration::from_secs(1);
+/// Bits of a COB-ID that say: not valid, 29 bits.
+const NOT_VALID: u32 = 1 << 31;
+const EXTENDED: u32 = 1 << 29;
+
+/// Where a value comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum By {
+    /// A TPDO.
+    Pdo {
+        /// Its number, from 1.
+        number: u16,
+        /// Its CAN-ID.
+        id: CanId,
+        /// The first bit of the value.
+        first: u8,
+        /// Its length in bits.
+        bits: u8,
+    },
+    /// SDO requests.
+    Poll,
+}
+
+/// A value that is watched.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Source {
+    /// Its address.
+    pub address: Address,
+    /// Where it comes from.
+    pub by: By,
+}
+
+/// A value at a moment.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Sample {
+    /// When it came, by the link's clock.
+    pub at: Instant,
+    /// Its place among the sources.
+    pub source: usize,
+    /// The value, or why there is none.
+    pub value: Result<Vec<u8>, SdoError>,
+}
+
+/// Finds where values come from: the valid TPDOs that the node has now, by their mapping.
+///
+/// # Errors
+/// The node is silent, or the link is lost.
+pub fn sources(
+    master: &mut Master<impl Link>,
+    addresses: &[Address],
+) -> Result<Vec<Source>, Fault> {
+    let polled = |address: &Address| Source {
+        address: *address,
+        by: By::Poll,
+    };
+    let mut found: Vec<Source> = addresses.iter().map(polled).collect();
+    for (number, index) in (1..).zip(0x1800..=0x19FF_u16) {
+        let cob_id = match master.upload(Address::new(index, 1))? {
+            // Those behind a gap are rare, and asking for all 512 takes seconds.
+            Err(code) if code == AbortCode::NoObject.code() && number > 4 => break,
+            read => number_of(read),
+        };
+        let cob_id = cob_id.filter(|cob_id| cob_id & NOT_VALID == 0);
+        let Some(id) = cob_id.map(can_id) else {
+            continue;
+        };
+        let kind = number_of(master.upload(Address::new(index, 2))?);
+        if matches!(kind, Some(252 | 253)) {
+            // Only on request.
+            continue;
+        }
+        let mapping = index + 0x200;
+        let count = number_of(master.upload(Address::new(mapping, 0))?).unwrap_or(0);
+        let mut first = 0_u32;
+        for sub in 1..=count.min(64) as u8 {
+            let raw = number_of(master.upload(Address::new(mapping, sub))?).unwrap_or(0);
+            let MapEntry { address, bits } = MapEntry::parse(raw);
+            let here = found
+                .iter_mut()
+                .find(|one| one.address == address && one.by == By::Poll);
+            if let Some(source) = here
+                && first + u32::from(bits) <= 64
+            {
+                let first = first as u8;
+                source.by = By::Pdo {
+                    number,
+                    id,
+                    first,
+                    bits,
+                };
+            }
+            first += u32::from(bits);
+        }
+    }
+    Ok(found)
+}
+
+fn number_of(read: Result<Vec<u8>, u32>) -> Option<u32> {
+    let bytes = read.ok().filter(|bytes| bytes.len() <= 4)?;
+    let mut wide = [0; 4];
+    wide[..bytes.len()].copy_from_slice(&bytes);
+    Some(u32::from_le_bytes(wide))
+}
+
+fn can_id(cob_id: u32) -> CanId {
+    match cob_id & EXTENDED {
+        0 => CanId::standard((cob_id & 0x7FF) as u16),
+        _ => CanId::extended(cob_id & 0x1FFF_FFFF),
+    }
+}
+
+/// The value in the data of its TPDO; `None`: it is too short.
+fn mapped(frame: &Frame, first: u8, bits: u8) -> Option<Vec<u8>> {
+    let end = u32::from(first) + u32::from(bits);
+    if bits == 0 || frame.is_remote() || end > 8 * u32::from(frame.dlc()) {
+        return None;
+    }
+    let value = u64::from_le_bytes(*frame.bytes()) >> first & (u64::MAX >> (64 - bits));
+    Some(value.to_le_bytes()[..usize::from(bits).div_ceil(8)].to_vec())
+}
+
+/// Tells each value as it comes, those that are polled `every` so long, until `tell` returns `false`.
+/// A node that does not answer is asked again.
+///
+/// # Errors
+/// The link is lost, or somebody stops it.
+pub fn watch(
+    link: &mut impl Link,
+    node: NodeId,
+    sources: &[Source],
+    every: Duration,
+    mut tell: impl FnMut(Sample) -> bool,
+) -> Result<(), Fault> {
+    let mut client = Client::new();
+    // When the value is asked for; `None`: it is on its way.
+    let mut due = vec![Some(link.now()); sources.len()];
+    let mut jobs: Vec<(Job, usize)> = Vec::new();
+    loop {
+        let now = link.now();
+        for (at, source) in sources.iter().enumerate() {
+            if due[at].is_some_and(|due| due <= now) {
+                due[at] = None;
+                jobs.push((client.read(node, source.address), at));
+            }
+        }
+        while let Some(frame) = client.poll_transmit(link.now()) {
+            link.send(&frame)?;
+        }
+        while let Some(event) = client.poll_event() {
+            let Event::Read(job, value) = event else {
+                continue;
+            };
+            let Some(place) = jobs.iter().position(|(one, _)| *one == job) else {
+                continue;
+            };
+            let (_, source) = jobs.swap_remove(place);
+            let at = link.now();
+            let pause = match sources[source].by {
+                By::Poll => every,
+                By::Pdo { .. } => every.max(GRACE),
+            };
+            // From the question on, so that the answer's time does not add up.
+            due[source] = Some((now + pause).max(at));
+            if !tell(Sample { at, source, value }) {
+                return Ok(());
+            }
+        }
+        let next = due
+            .iter()
+            .flatten()
+            .copied()
+            .chain(client.poll_timeout())
+            .min();
+        let Some(heard) = link.receive(next.unwrap_or(now))? else {
+            client.handle_timeout(link.now());
+            continue;
+        };
+        client.handle_frame(heard.at, &heard.frame);
+        for (at, source) in sources.iter().enumerate() {
+            let By::Pdo {
+                id, first, bits, ..
+            } = source.by
+            else {
+                continue;
+            };
+            if id != heard.frame.id() {
+                continue;
+            }
+            let Some(bytes) = mapped(&heard.frame, first, bits) else {
+                continue;
+            };
+            if let Some(due) = &mut due[at] {
+                *due = heard.at + every.max(GRACE);
+            }
+            let value = Ok(bytes);
+            if !tell(Sample {
+                at: heard.at,
+                source: at,
+                value,
+            }) {
+                return Ok(());
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! `odkit record` and `odkit replay`: the frames of a bus into a log, and a log onto a bus.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use od_bench::logs::{self, Format, Record, What};
+use od_bus::fault::Fault;
+use od_bus::link::Link;
+use od_bus::replay;
+use od_wire::{Duration, Instant};
+
+use crate::bus;
+use crate::failure::{Failure, read_error};
+use crate::output::{self, note};
+use crate::report::plural;
+
+/// Record the frames of a bus, until Ctrl-C
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Log to write: candump (.log) or pcapng
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Stop after this time, in seconds
+    #[arg(long = "for", value_name = "SECONDS")]
+    time: Option<f64>,
+    /// Stop after so many frames
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+    #[command(flatten)]
+    bus: bus::Args,
+}
+
+/// Send the frames of a log, with their timing
+///
+/// Reads candump, ASC, TRC, pcap and pcapng. Frames keep their distance in time.
+#[derive(clap::Args)]
+pub(crate) struct Replay {
+    /// Log to send
+    #[arg(value_name = "LOG")]
+    file: PathBuf,
+    /// Times as fast; 0 sends without waiting
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = speed)]
+    speed: f64,
+    #[command(flatten)]
+    bus: bus::Args,
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|speed: &f64| speed.is_finite() && *speed >= 0.0)
+        .ok_or_else(|| "write a factor such as 1, 0.5 or 10".into())
+}
+
+/// A log file that grows.
+pub(crate) struct Recorder {
+    file: BufWriter<File>,
+    format: Format,
+    name: String,
+    /// Frames that were written.
+    pub(crate) count: usize,
+}
+
+impl Recorder {
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+        let name = path.display().to_string();
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        let format = Format::of_ending(&ending.to_ascii_lowercase()).unwrap_or(Format::Candump);
+        if !format.grows() {
+            return Err(Failure::Usage(format!(
+                "{name}: write a name that ends in .log (candump) or .pcapng"
+            )));
+        }
+        let file = File::create(path)
+            .map_err(|error| Failure::Failed(format!("{name} cannot be written: {error}")))?;
+        let mut recorder = Self {
+            file: BufWriter::new(file),
+            format,
+            name,
+            count: 0,
+        };
+        recorder.write(&format.head())?;
+        Ok(recorder)
+    }
+
+    pub(crate) fn add(&mut self, at: Instant, frame: &od_wire::Frame) -> Result<(), Failure> {
+        let record = Record {
+            at,
+            sent: false,
+            what: What::Frame(*frame),
+        };
+        let mut bytes = Vec::new();
+        self.format.add(&mut bytes, &record);
+        self.count += 1;
+        self.write(&bytes)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
+        let written = self.file.write_all(bytes);
+        written.map_err(|error| Failure::Failed(format!("{}: {error}", self.name)))
+    }
+
+    /// Whatever is left goes out; says what was written.
+    pub(crate) fn finish(mut self) -> Result<String, Failure> {
+        let flushed = self.file.flush();
+        flushed.map_err(|error| Failure::Failed(format!("{}: {error}", self.name)))?;
+        Ok(format!("{}: {}", self.name, plural(self.count, "frame")))
+    }
+}
+
+/// The end of a command that runs until somebody stops it.
+pub(crate) fn end(link: &impl Link, seconds: Option<f64>) -> Instant {
+    match seconds.map(Duration::try_from_secs_f64) {
+        Some(Ok(time)) => link.now() + time,
+        // Some centuries.
+        _ => Instant::from_micros(u64::MAX),
+    }
+}
+
+pub(crate) fn record(args: &Args) -> Result<(), Failure> {
+    let mut bus = args.bus.open()?;
+    let mut recorder = Recorder::create(&args.file)?;
+    note!("recording until Ctrl-C");
+    let until = end(&bus, args.time);
+    let result = loop {
+        if args.count.is_some_and(|count| recorder.count >= count) {
+            break Ok(());
+        }
+        match bus.receive(until) {
+            Ok(Some(heard)) => recorder.add(heard.at, &heard.frame)?,
+            Ok(None) | Err(Fault::Interrupted) => break Ok(()),
+            // What came until then is kept.
+            Err(fault) => break Err(fault.into()),
+        }
+    };
+    drop(bus);
+    output::print(&recorder.finish()?)?;
+    result
+}
+
+pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
+    let shown = args.file.display();
+    let bytes = std::fs::read(&args.file)
+        .map_err(|error| Failure::Failed(format!("{shown}: {}", read_error(&error))))?;
+    let log = logs::read(&bytes).map_err(|why| Failure::Failed(format!("{shown}: {why}")))?;
+    for problem in &log.skipped {
+        note!("{shown}: {problem}");
+    }
+    let frames = log.records.iter().filter_map(|record| match record.what {
+        What::Frame(frame) => Some((record.at, frame)),
+        What::Error => None,
+    });
+    let frames: Vec<_> = frames.collect();
+    let mut bus = args.bus.open()?;
+    let sent = replay::replay(&mut bus, &frames, args.speed)?;
+    drop(bus);
+    output::print(&format!("{shown}: {} sent", plural(sent, "frame")))
+}
