@@ -13,7 +13,7 @@ use crate::shaft::{self, Shaft};
 pub(crate) enum Behaviour {
     Encoder(Box<Encoder<Shaft>>),
     Plain(Plain),
-    Other(Box<dyn Application>),
+    Other(Box<dyn Application + Send>),
 }
 
 impl Behaviour {
@@ -22,6 +22,15 @@ impl Behaviour {
         match shaft::encoder_of(dictionary) {
             Some(encoder) => Self::Encoder(Box::new(encoder)),
             None => Self::Plain(Plain::default()),
+        }
+    }
+
+    /// A copy; `None` of behaviour of one's own.
+    pub(crate) fn copy(&self) -> Option<Self> {
+        match self {
+            Self::Encoder(encoder) => Some(Self::Encoder(encoder.clone())),
+            Self::Plain(plain) => Some(Self::Plain(*plain)),
+            Self::Other(_) => None,
         }
     }
 

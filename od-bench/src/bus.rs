@@ -1,5 +1,6 @@
 //! Several devices on one bus, in virtual time.
 
+mod copy;
 mod traffic;
 
 use std::collections::VecDeque;

@@ -10,7 +10,7 @@ const PERIOD_US: u64 = 1_000_000;
 const PRODUCER: u64 = 1 << 30;
 
 /// A clock that begins on January 1, 1984, when power comes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Clock {
     set_to: TimeOfDay,
     set_at: Instant,

@@ -17,10 +17,10 @@ impl VirtualDevice {
     /// `node` is the one that `object_dictionary!` made a type of, with the sizes of the firmware.
     /// A node that does not know its dictionary does not compile.
     pub fn of<
-        D: Device + 'static,
+        D: Device + Send + 'static,
         const PDO: usize,
         const SDO: usize,
-        X: Extras<D, SDO> + 'static,
+        X: Extras<D, SDO> + Send + 'static,
     >(
         title: &str,
         node: Node<D, PDO, SDO, X>,
@@ -33,15 +33,15 @@ impl VirtualDevice {
 
     /// As [`of`](Self::of), with behaviour of one's own, and what the services do differently.
     pub fn with_application<
-        D: Device + 'static,
+        D: Device + Send + 'static,
         const PDO: usize,
         const SDO: usize,
-        X: Extras<D, SDO> + 'static,
+        X: Extras<D, SDO> + Send + 'static,
     >(
         title: &str,
         node: Node<D, PDO, SDO, X>,
         profile: &'static Profile,
-        application: Box<dyn Application>,
+        application: Box<dyn Application + Send>,
     ) -> Self {
         let behaviour = Behaviour::Other(application);
         let source = Source::of::<D>();
@@ -51,10 +51,10 @@ impl VirtualDevice {
     /// As [`of`](Self::of), with this encoder, which the bench turns, and what the services do
     /// differently.
     pub fn with_encoder<
-        D: Device + 'static,
+        D: Device + Send + 'static,
         const PDO: usize,
         const SDO: usize,
-        X: Extras<D, SDO> + 'static,
+        X: Extras<D, SDO> + Send + 'static,
     >(
         title: &str,
         node: Node<D, PDO, SDO, X>,

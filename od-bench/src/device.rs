@@ -13,6 +13,8 @@ use od_runtime::{BusEvent, Event, Frame, Instant, Lent, NodeId, Profile, Reset};
 use od_wire::emcy::Emcy;
 use od_wire::nmt::State;
 
+mod copy;
+
 use crate::behaviour::Behaviour;
 #[cfg(feature = "eds")]
 use crate::clock::Clock;
@@ -131,7 +133,7 @@ impl VirtualDevice {
 
     /// Another EEPROM, with what is in it. Do it before power comes.
     #[must_use]
-    pub fn with_storage(mut self, storage: Box<dyn Storage>) -> Self {
+    pub fn with_storage(mut self, storage: Box<dyn Storage + Send>) -> Self {
         self.storage = Eeprom::lent(storage);
         self
     }

@@ -15,7 +15,7 @@ pub(super) struct Eeprom {
 enum Keeper {
     /// A memory of its own, with a supply that can be cut.
     Own(Memory<Vec<u8>>),
-    Lent(Box<dyn Storage>),
+    Lent(Box<dyn Storage + Send>),
 }
 
 impl Keeper {
@@ -37,10 +37,21 @@ impl Eeprom {
     }
 
     /// Somebody else's storage.
-    pub(super) fn lent(storage: Box<dyn Storage>) -> Self {
+    pub(super) fn lent(storage: Box<dyn Storage + Send>) -> Self {
         Self {
             storage: Keeper::Lent(storage),
             broken: false,
+        }
+    }
+
+    /// A copy; `None` of somebody else's storage.
+    pub(super) fn copy(&self) -> Option<Self> {
+        match &self.storage {
+            Keeper::Own(memory) => Some(Self {
+                storage: Keeper::Own(memory.clone()),
+                broken: self.broken,
+            }),
+            Keeper::Lent(_) => None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! A device of an EDS or DCF text.
 
 use std::prelude::v1::*;
+use std::sync::Arc;
 
 use od_eds::{Description, Finding, Tables};
 use od_runtime::{LssProfile, NodeId, Profile};
@@ -52,7 +53,7 @@ impl VirtualDevice {
             .filter(|title| !title.is_empty())
             .unwrap_or_else(|| "EDS device".into());
         let node = roomy(node_id, tables.dictionary());
-        let source = Source::Loaded(Box::new(tables));
+        let source = Source::Loaded(Arc::new(tables));
         let profile = Profile {
             lss: lss(description),
             ..Profile::CIA301

@@ -16,7 +16,7 @@ use crate::programs::{Loader, Programs};
 pub(crate) const DOMAIN_SIZE: usize = 1 << 20;
 
 /// The values that the store has no room for.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Long {
     /// Most bytes of a string or DOMAIN that a master writes, if its default is not longer. `None`:
     /// [`DOMAIN_SIZE`], and for a string its room in the store.

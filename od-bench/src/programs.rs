@@ -12,7 +12,7 @@ const PAGE: usize = 256;
 const SIZE: u32 = 1 << 20;
 
 /// Memory that outlasts power, and takes room as a program comes.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Memory {
     bytes: Vec<u8>,
     program: Option<Program>,

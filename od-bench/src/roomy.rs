@@ -1,5 +1,6 @@
 //! The node of built-in devices and of files: it has every service, and room for what files have.
 
+use core::any::Any;
 use std::prelude::v1::*;
 
 use od_model::Dictionary;
@@ -8,7 +9,7 @@ use od_runtime::{Clocks, Device, Extras, FullRooms, Node, NodeId, SdoServer};
 use crate::slave::Slave;
 
 /// A device whose dictionary is known at run time, with every service.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Loaded;
 
 impl Device for Loaded {
@@ -23,6 +24,7 @@ const PDOS: usize = 512;
 const LONGEST: usize = 0x1_0000;
 
 /// Room for as many SDO servers as a dictionary has.
+#[derive(Clone)]
 struct Room {
     servers: Vec<SdoServer<Loaded, LONGEST>>,
     clocks: Clocks,
@@ -54,13 +56,19 @@ impl Extras<Loaded, LONGEST> for Room {
     }
 }
 
+type Roomy = Node<Loaded, PDOS, LONGEST, Room>;
+
+/// Returns a copy of a node made by [`roomy`]; `None` of another node.
+pub(super) fn copy(node: &dyn Slave) -> Option<Box<dyn Slave>> {
+    let node: &Roomy = (node as &dyn Any).downcast_ref()?;
+    Some(Box::new(node.clone()))
+}
+
 /// Returns a node with room for what a dictionary has.
 pub(super) fn roomy(node_id: NodeId, dictionary: Dictionary<'_>) -> Box<dyn Slave> {
     let mut servers = Vec::new();
     servers.resize_with(dictionary.servers(), SdoServer::new);
     let clocks = Clocks::new();
     let room = Room { servers, clocks };
-    Box::new(Node::<Loaded, PDOS, LONGEST, Room>::with_extras(
-        node_id, room,
-    ))
+    Box::new(Roomy::with_extras(node_id, room))
 }

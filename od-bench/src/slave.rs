@@ -1,5 +1,7 @@
 //! A node whatever its type: the bench runs those of compiled devices with their own sizes.
 
+use core::any::Any;
+
 use od_model::Address;
 use od_runtime::{
     BusEvent, Device, Event, Extras, Frame, Instant, Lent, Node, NodeId, StoreTooSmall,
@@ -24,7 +26,7 @@ pub enum Input<'f> {
 }
 
 /// The functions of [`Node`] that a bench calls; see there.
-pub(crate) trait Slave {
+pub(crate) trait Slave: Any + Send {
     fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), StoreTooSmall>;
     fn power_off(&mut self);
     fn handle(&mut self, device: &mut Lent<'_>, now: Instant, input: Input<'_>);
@@ -47,8 +49,10 @@ pub(crate) trait Slave {
     fn is_bus_off(&self) -> bool;
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Slave
-    for Node<D, PDO, SDO, X>
+impl<D, const PDO: usize, const SDO: usize, X> Slave for Node<D, PDO, SDO, X>
+where
+    D: Device + Send + 'static,
+    X: Extras<D, SDO> + Send + 'static,
 {
     /// A file may ask for more than the node serves: more TPDOs, say. What a compiled
     /// device has fits its node, or it would not compile.

@@ -1,18 +1,19 @@
 //! Source of the dictionary of a device.
 
 #[cfg(feature = "eds")]
-use std::boxed::Box;
+use std::sync::Arc;
 
 #[cfg(feature = "eds")]
 use od_eds::Tables;
 use od_model::Dictionary;
 use od_runtime::Device;
 
-/// A dictionary and its tables, if they are not compiled in.
+/// A dictionary and its tables, if they are not compiled in; copies of a device share them.
+#[derive(Clone)]
 pub(super) enum Source {
     Compiled(Dictionary<'static>),
     #[cfg(feature = "eds")]
-    Loaded(Box<Tables>),
+    Loaded(Arc<Tables>),
 }
 
 impl Source {

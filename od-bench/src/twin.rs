@@ -46,7 +46,7 @@ pub struct Before<'d> {
 }
 
 /// Receiver of the calls of a device.
-pub trait Twin {
+pub trait Twin: Send {
     /// Receives a call, before the device does.
     fn call(&mut self, device: Before<'_>, now: Instant, call: Call<'_>);
 

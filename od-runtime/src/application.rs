@@ -40,7 +40,7 @@ const CHANGES: usize = 32;
 /// Requests of an application to its node, carried out when the call is over.
 ///
 /// `Q` is room for the errors that come and go in a call.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Signals<Q: ?Sized = [Change; CHANGES]> {
     /// The constants of the type, one bit each.
     requests: u8,

@@ -34,7 +34,7 @@ const NO_NEWS: Outcome = Outcome {
 };
 
 /// The emergency producer.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Producer<R: Rooms> {
     active: Fifo<R::Errors<Emcy>>,
     waiting: Fifo<R::Messages<Emcy>>,

@@ -33,7 +33,7 @@ pub trait Extras<D, const SDO: usize>: Sized {
 }
 
 /// State of SYNC producer and TIME.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Clocks {
     pub(crate) sync: sync::Producer,
     /// CAN-ID of the TIME messages that the device consumes.
@@ -57,7 +57,7 @@ impl Default for Clocks {
 }
 
 /// A node without further SDO servers, SYNC producer and TIME, whose rooms are `R`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Only<R>(PhantomData<R>);
 
 /// A node as [`Only`], with room for all else.
@@ -117,7 +117,7 @@ impl<D, R: Rooms, const SDO: usize> Extras<D, SDO> for Only<R> {
 
 /// Room for SYNC producer and TIME, and for `SERVERS` further SDO servers with a buffer of `SDO` bytes
 /// each; all other rooms are `R`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Extra<D, const SDO: usize, const SERVERS: usize, R: Rooms = FullRooms> {
     servers: [SdoServer<D, SDO, R>; SERVERS],
     clocks: Clocks,

@@ -85,7 +85,7 @@ pub trait ProgramMemory {
 ///
 /// Starting a program is the host's part: when the response to 1F51h is out,
 /// [`is_running`](Self::is_running) says whether it runs.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Loader<M, const PAGE: usize> {
     /// The memory.
     pub memory: M,

@@ -9,13 +9,13 @@ use crate::fifo::Fifo;
 use crate::objects::outbox::Outbox;
 
 /// Content of a place that nothing has been put into.
-pub trait Blank: Debug {
+pub trait Blank: Clone + Debug {
     /// All zeros where the type allows it, so that a static node takes no flash.
     const BLANK: Self;
 }
 
 /// Room for some `T`.
-pub trait Room<T>: Debug + Sized {
+pub trait Room<T>: Clone + Debug {
     /// Nothing is in it.
     const BLANK: Self;
     /// How many there is room for.
@@ -66,7 +66,7 @@ impl<T: Blank, const N: usize> Room<T> for [T; N] {
 ///
 /// What a device does not have takes no RAM. `object_dictionary!` chooses the rooms of the type `Node` of
 /// its module.
-pub trait Rooms: Debug + Sized {
+pub trait Rooms: Clone + Debug {
     /// Errors that can be active at once.
     type Errors<T: Blank>: Room<T>;
     /// Errors that can come or go in one call.
@@ -293,6 +293,6 @@ impl Blank for Frame {
     const BLANK: Self = Self::standard(0, &[]);
 }
 
-impl<T: Debug> Blank for Option<T> {
+impl<T: Clone + Debug> Blank for Option<T> {
     const BLANK: Self = None;
 }

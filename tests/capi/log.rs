@@ -1,8 +1,7 @@
 //! Calls of a device of the bench, as `od-capi/examples/c/virtual.c` reads them, and the
 //! answers of the device.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 
 use od_bench::VirtualDevice;
 use od_bench::twin::{Before, Call, Input, Twin};
@@ -32,15 +31,18 @@ pub(crate) struct Log {
 }
 
 /// The twin of a device: it writes a log, which somebody else has, too.
-pub(crate) struct Writer(pub Rc<RefCell<Log>>);
+pub(crate) struct Writer(pub Arc<Mutex<Log>>);
 
 impl Twin for Writer {
     fn call(&mut self, device: Before<'_>, now: Instant, call: Call<'_>) {
-        self.0.borrow_mut().add(device, now, call);
+        self.0
+            .lock()
+            .expect("nobody panicked")
+            .add(device, now, call);
     }
 
     fn sent(&mut self, frame: &Frame) {
-        let mut log = self.0.borrow_mut();
+        let mut log = self.0.lock().expect("nobody panicked");
         let now = log.now.as_micros();
         log.frames.push((now, bytes(frame)));
     }
@@ -48,7 +50,11 @@ impl Twin for Writer {
     fn happened(&mut self, event: &Event) {
         if let Event::BitRate(index) = *event {
             let kbit = od_wire::lss::kbit(index).unwrap_or_default();
-            self.0.borrow_mut().rates.push(kbit.into());
+            self.0
+                .lock()
+                .expect("nobody panicked")
+                .rates
+                .push(kbit.into());
         }
     }
 }

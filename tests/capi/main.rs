@@ -11,10 +11,9 @@
 mod log;
 mod play;
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use od_bench::script::{Bench, Host, Script, run_on};
@@ -41,7 +40,7 @@ const LACKING: [(&str, &str); 1] = [(
 /// The devices of a script.
 struct Logged {
     folder: PathBuf,
-    logs: Vec<Rc<RefCell<Log>>>,
+    logs: Vec<Arc<Mutex<Log>>>,
 }
 
 impl Host for Logged {
@@ -69,8 +68,8 @@ impl Host for Logged {
         };
         let device = VirtualDevice::from_eds(&text, options);
         let device = device.map_err(|findings| format!("{name}: {findings:?}"))?;
-        let log = Rc::default();
-        self.logs.push(Rc::clone(&log));
+        let log = Arc::default();
+        self.logs.push(Arc::clone(&log));
         Ok(device.with_twin(Box::new(Writer(log))))
     }
 }
@@ -84,11 +83,15 @@ fn record(path: &Path, text: &str) -> Result<Vec<Log>, String> {
     let mut bench = Bench::default();
     run_on(&script, &mut bench, &mut host).map_err(|stop| stop.to_string())?;
     for (at, log) in host.logs.iter().enumerate() {
-        let mut log = log.borrow_mut();
+        let mut log = log.lock().expect("nobody panicked");
         bench.bus.with(at, |device, now| log.end(device, now));
     }
     drop(bench);
-    Ok(host.logs.iter().map(|log| log.take()).collect())
+    Ok(host
+        .logs
+        .iter()
+        .map(|log| std::mem::take(&mut *log.lock().expect("nobody panicked")))
+        .collect())
 }
 
 /// Plays all scripts of a program whose names contain one of the words; returns their number, and

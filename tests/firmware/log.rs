@@ -3,8 +3,7 @@
 //!
 //! `firmware/twin/src/twin.rs` describes the bytes.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 
 use od_bench::VirtualDevice;
 use od_bench::shaft::Shaft;
@@ -71,19 +70,26 @@ struct Last {
 }
 
 /// The twin of a device: it writes a log, which somebody else has, too.
-pub(crate) struct Writer(pub Rc<RefCell<Log>>);
+pub(crate) struct Writer(pub Arc<Mutex<Log>>);
 
 impl Twin for Writer {
     fn call(&mut self, device: Before<'_>, now: Instant, call: Call<'_>) {
-        self.0.borrow_mut().log(device, now, call);
+        self.0
+            .lock()
+            .expect("nobody panicked")
+            .log(device, now, call);
     }
 
     fn sent(&mut self, frame: &Frame) {
-        self.0.borrow_mut().sent.push(bytes(frame));
+        self.0
+            .lock()
+            .expect("nobody panicked")
+            .sent
+            .push(bytes(frame));
     }
 
     fn happened(&mut self, event: &Event) {
-        self.0.borrow_mut().events += &format!("{event:?}");
+        self.0.lock().expect("nobody panicked").events += &format!("{event:?}");
     }
 }
 

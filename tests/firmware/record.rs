@@ -1,9 +1,8 @@
 //! Plays a script or an input of the fuzz target `node` on the bench, and logs the calls of its
 //! devices.
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
+use std::sync::{Arc, Mutex};
 
 use od_bench::script::{Bare, Bench, Host, Script, run_on};
 use od_bench::twin::Call;
@@ -20,7 +19,7 @@ struct Twins<'a> {
     folder: PathBuf,
     name: &'a str,
     /// Of each device on the bus.
-    logs: Vec<Option<Rc<RefCell<Log>>>>,
+    logs: Vec<Option<Arc<Mutex<Log>>>>,
 }
 
 impl Host for Twins<'_> {
@@ -46,8 +45,8 @@ impl Host for Twins<'_> {
             self.logs.push(None);
             return Ok(device);
         }
-        let log = Rc::default();
-        self.logs.push(Some(Rc::clone(&log)));
+        let log = Arc::default();
+        self.logs.push(Some(Arc::clone(&log)));
         Ok(device.with_twin(Box::new(Writer(log))))
     }
 }
@@ -80,13 +79,15 @@ pub(crate) fn record(path: &Path, text: &str, name: &str) -> Result<Vec<Log>, St
     }
     drop(bench);
     let logs = twins.logs.into_iter().flatten();
-    Ok(logs.map(|log| log.take()).collect())
+    Ok(logs
+        .map(|log| std::mem::take(&mut *log.lock().expect("nobody panicked")))
+        .collect())
 }
 
 /// Ends a log: the device shows its values and its EEPROM.
-fn end(log: &RefCell<Log>, device: &mut VirtualDevice, now: Instant) {
+fn end(log: &Mutex<Log>, device: &mut VirtualDevice, now: Instant) {
     device.forward(now, Call::End);
-    log.borrow_mut().end(device, now);
+    log.lock().expect("nobody panicked").end(device, now);
 }
 
 /// The log of a made input: frames that mean something more often than not, time, power, switches
@@ -97,8 +98,9 @@ pub(crate) fn made(number: u64, name: &str) -> Log {
     let make = targets::of("node").and_then(|target| target.make);
     let mut input = make.expect("it makes its inputs")(&mut Random::of(0, number));
     let kind = od_devices::find(name).expect("it is built in");
-    let log: Rc<RefCell<Log>> = Rc::default();
-    let device = VirtualDevice::new(kind, NodeId::ONE).with_twin(Box::new(Writer(Rc::clone(&log))));
+    let log: Arc<Mutex<Log>> = Arc::default();
+    let device =
+        VirtualDevice::new(kind, NodeId::ONE).with_twin(Box::new(Writer(Arc::clone(&log))));
     let mut broken = vec![false; device.faults().len()];
     for [act, how, fault, ..] in input.as_chunks_mut::<STEP>().0 {
         let fault = usize::from(*fault) % broken.len();
@@ -114,5 +116,5 @@ pub(crate) fn made(number: u64, name: &str) -> Log {
     }
     let mut bus = targets::node::play(&input, device);
     bus.with(0, |device, now| end(&log, device, now));
-    log.take()
+    std::mem::take(&mut *log.lock().expect("nobody panicked"))
 }

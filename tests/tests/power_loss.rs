@@ -57,7 +57,10 @@ struct Bench {
 }
 
 impl Bench {
-    fn start<S: Storage + 'static>(kind: &'static DeviceKind, memory: S) -> (Self, Shared<S>) {
+    fn start<S: Storage + Send + 'static>(
+        kind: &'static DeviceKind,
+        memory: S,
+    ) -> (Self, Shared<S>) {
         let shared = Shared(Arc::new(Mutex::new(memory)));
         let lent = Shared(shared.0.clone());
         let device = VirtualDevice::new(kind, NodeId::ONE).with_storage(Box::new(lent));
@@ -125,7 +128,7 @@ impl Bench {
 }
 
 /// The values after a start with this memory.
-fn values_of(kind: &'static DeviceKind, memory: impl Storage + 'static) -> Values {
+fn values_of(kind: &'static DeviceKind, memory: impl Storage + Send + 'static) -> Values {
     Bench::start(kind, memory).0.values()
 }
 
@@ -135,7 +138,7 @@ fn difference(a: &Values, b: &Values) -> Vec<Address> {
 }
 
 /// A memory whose power goes in the step behind so many others.
-trait Cut: Storage + Clone + 'static {
+trait Cut: Storage + Clone + Send + 'static {
     fn cut_after(&mut self, steps: usize);
     fn is_cut(&self) -> bool;
     fn restore(&mut self);

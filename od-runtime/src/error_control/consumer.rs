@@ -24,7 +24,7 @@ impl Blank for Watch {
 }
 
 /// The nodes that are watched.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Consumer<R: Rooms> {
     watches: R::Watches<Watch>,
     count: u8,

@@ -7,7 +7,7 @@ use od_wire::Instant;
 use od_wire::nmt::State;
 
 /// The slave's side: a toggling answer to each remote frame, and the life time of the master.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Guard {
     enabled: bool,
     toggle: bool,

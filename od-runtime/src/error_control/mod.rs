@@ -40,7 +40,7 @@ pub(crate) fn is_configuration(index: u16, profile: &Profile) -> bool {
 }
 
 /// Monitor of the other side: life guarding and heartbeat consumer.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Monitor<R: Rooms> {
     guards: R::Guards<guarding::Guard>,
     consumer: consumer::Consumer<R>,

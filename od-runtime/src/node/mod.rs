@@ -52,7 +52,7 @@ pub use fits::Unfit;
 /// services that few devices have ([`Extras`]).
 ///
 /// The node has no lifetime: each call borrows the device as a [`Lent`].
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: Extras<D, SDO> = ()>
 {
     /// [`Objects`] holds both while a call has the device, so they are not among the machines.
@@ -62,7 +62,7 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: 
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     node_id: NodeId,
     /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).

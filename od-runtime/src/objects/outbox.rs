@@ -30,7 +30,7 @@ pub(crate) enum Effect {
 
 /// The node's part of [`Objects`](super::Objects): filled while a call has the device, emptied
 /// before it returns.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Outbox<Q: ?Sized = [Change]> {
     /// Objects that were written: one by an SDO, up to 64 by an RPDO.
     pub(crate) effects: Fifo<[Effect; 8]>,

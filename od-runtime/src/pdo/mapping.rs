@@ -13,7 +13,7 @@ use crate::store::{Store, little_endian};
 type Mapped = u32;
 
 /// The mapping of one PDO.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Mapping<R: Rooms> {
     object: u16,
     count: u8,

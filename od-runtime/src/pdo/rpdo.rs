@@ -7,7 +7,7 @@ use crate::rooms::{Blank, Rooms};
 use od_wire::{CanId, CobId, Frame};
 
 /// An RPDO with what its objects say, and a frame that waits for SYNC.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Rpdo<R: Rooms> {
     valid: bool,
     cob_id: CobId,

@@ -32,7 +32,7 @@ struct Config {
 }
 
 /// TPDO: its configuration and its state.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tpdo<R: Rooms> {
     config: Config,
     mapping: Mapping<R>,

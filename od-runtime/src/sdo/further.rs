@@ -11,7 +11,7 @@ use crate::store::Store;
 
 /// SDO server of one of the objects 1201h to 127Fh, with a transfer of its own. `N` is the room for
 /// its buffer in bytes, as that of the default server.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SdoServer<D, const N: usize, R: Rooms = FullRooms> {
     pub(crate) server: Server<D, N, R>,
     /// The two COB-IDs, while both are valid.

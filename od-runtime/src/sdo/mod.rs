@@ -60,7 +60,7 @@ impl Blank for Transfer {
 }
 
 /// The server: one transfer at a time, `N` bytes of it.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Server<D, const N: usize, R: Rooms = FullRooms> {
     device: PhantomData<D>,
     transfers: R::Transfers<Transfer>,

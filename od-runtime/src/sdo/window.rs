@@ -3,7 +3,7 @@
 use od_wire::AbortCode;
 
 /// A part of a value.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Window<const N: usize> {
     pub(super) buffer: [u8; N],
     /// Bytes of the value before those in the buffer: the stream has them.
