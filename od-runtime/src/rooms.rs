@@ -9,13 +9,13 @@ use crate::fifo::Fifo;
 use crate::objects::outbox::Outbox;
 
 /// Content of a place that nothing has been put into.
-pub trait Blank: Clone + Debug {
+pub trait Blank: Clone + Debug + Send {
     /// All zeros where the type allows it, so that a static node takes no flash.
     const BLANK: Self;
 }
 
 /// Room for some `T`.
-pub trait Room<T>: Clone + Debug {
+pub trait Room<T>: Clone + Debug + Send {
     /// Nothing is in it.
     const BLANK: Self;
     /// How many there is room for.
@@ -293,6 +293,6 @@ impl Blank for Frame {
     const BLANK: Self = Self::standard(0, &[]);
 }
 
-impl<T: Clone + Debug> Blank for Option<T> {
+impl<T: Clone + Debug + Send> Blank for Option<T> {
     const BLANK: Self = None;
 }

@@ -1,0 +1,188 @@
+"""The interface ``odkit`` of python-can."""
+
+import logging
+
+import can
+from can import BusABC, CanInitializationError, CanOperationError, Message
+from can.broadcastmanager import (
+    LimitedDurationCyclicSendTaskABC,
+    ModifiableCyclicTaskABC,
+    RestartableCyclicTaskABC,
+)
+
+from odkit import _odkit
+
+_LOG = logging.getLogger("can.odkit")
+_STATES = (can.BusState.ACTIVE, can.BusState.PASSIVE, can.BusState.ERROR)
+
+
+class OdkitBus(BusABC):
+    """A station on a bus with CANopen devices in it.
+
+    :param channel: The devices, such as ``gxmm@1,eam_mt@2`` or ``my.eds+coarse.overlay@5``, or the
+        name of a wire that is open. ``line=gxmm@1`` gives a new wire a name. All buses of one channel
+        or name share the wire; the devices live as long as one of them is open.
+    :param can_filters: As python-can has them.
+    :param receive_own_messages: Whether the bus receives what it sends.
+    :param time: ``virtual``, the default of a new wire: time moves while all who take part wait.
+        ``real``: it is that of the clock.
+    :param bitrate: In bit/s. Devices with another bit rate do not hear the bus. Without it they do.
+    :raises can.CanInitializationError: A device does not exist, a file cannot be read.
+    """
+
+    def __init__(
+        self,
+        channel="",
+        can_filters=None,
+        receive_own_messages=False,
+        time=None,
+        bitrate=None,
+        bench=None,
+        fd=False,
+        **kwargs,
+    ):
+        if fd:
+            raise CanInitializationError("odkit does not support CAN FD; leave out `fd`")
+        channel = "" if channel is None else str(channel)
+        try:
+            self._port = _odkit.Port(channel, time, receive_own_messages, bitrate, bench)
+        except (ValueError, OSError) as error:
+            raise CanInitializationError(str(error)) from None
+        self.channel = channel
+        self.channel_info = f"odkit {channel}"
+        super().__init__(channel=channel, can_filters=can_filters, **kwargs)
+
+    @property
+    def bench(self):
+        """The :class:`odkit.Bench` of the wire."""
+        return self._call(self._port.bench)
+
+    @property
+    def state(self):
+        """The state of the CAN controller. Only a real line of the bench changes it."""
+        return _STATES[self._call(self._port.condition)]
+
+    @state.setter
+    def state(self, new_state):
+        raise NotImplementedError("the line decides which state the controller has")
+
+    def recv(self, timeout=None):
+        """The next message, or ``None`` when ``timeout`` seconds of the bus's time are over.
+
+        In virtual time they are over at once, unless other threads take part on the wire: time moves
+        while all of them wait.
+
+        :raises can.CanOperationError: The bus is closed.
+        """
+        try:
+            heard = self._port.recv(timeout)
+        except OSError as error:
+            raise CanOperationError(str(error)) from None
+        if heard is None:
+            return None
+        message = Message(*heard)
+        if can.bus.LOG.isEnabledFor(self.RECV_LOGGING_LEVEL):
+            can.bus.LOG.log(self.RECV_LOGGING_LEVEL, "Received: %s", message)
+        return message
+
+    def _recv_internal(self, timeout):
+        return OdkitBus.recv(self, timeout), True
+
+    def send(self, msg, timeout=None):
+        """Sends a message. It does not wait: ``timeout`` is ignored.
+
+        :raises can.CanOperationError: The bus is closed, the controller is bus-off, or the message is
+            not a frame of classical CAN.
+        """
+        try:
+            self._port.send(_parts(msg))
+        except (OSError, ValueError) as error:
+            raise CanOperationError(str(error)) from None
+
+    def flush_tx_buffer(self):
+        """Does nothing: what was sent is on the line."""
+
+    def shutdown(self):
+        """Leaves the wire. Its devices go with the last bus or bench of the wire."""
+        super().shutdown()
+        self._port.close()
+
+    def _apply_filters(self, filters):
+        passing = None
+        if filters:
+            passing = [(f["can_id"], f["can_mask"], f.get("extended")) for f in filters]
+        self._call(self._port.set_filters, passing)
+
+    def _send_periodic_internal(
+        self, msgs, period, duration=None, autostart=True, modifier_callback=None
+    ):
+        return CyclicTask(self._port, msgs, period, duration, autostart, modifier_callback)
+
+    @staticmethod
+    def _call(function, *args):
+        try:
+            return function(*args)
+        except OSError as error:
+            raise CanOperationError(str(error)) from None
+
+    @staticmethod
+    def _detect_available_configs():
+        channels = _odkit.wires()
+        channels += [f"{name}@1" for name, _ in _odkit.devices()]
+        return [{"interface": "odkit", "channel": channel} for channel in channels]
+
+
+class CyclicTask(
+    LimitedDurationCyclicSendTaskABC, ModifiableCyclicTaskABC, RestartableCyclicTaskABC
+):
+    """Messages in a rhythm, in the time of the bus."""
+
+    def __init__(self, port, messages, period, duration, autostart, modifier_callback):
+        super().__init__(messages, period, duration)
+        self._port = port
+        self._modify = modifier_callback
+        maker = self._make if modifier_callback else None
+        frames = [_parts(message) for message in self.messages]
+        try:
+            self._task = port.task(frames, period, duration, maker)
+        except (OSError, ValueError) as error:
+            raise CanOperationError(str(error)) from None
+        if autostart:
+            self.start()
+
+    def _make(self, place):
+        message = self.messages[place]
+        self._modify(message)
+        return _parts(message)
+
+    def start(self):
+        """Starts, or starts again, with the first message."""
+        OdkitBus._call(self._port.start_task, self._task)
+
+    def stop(self):
+        """Stops sending."""
+        self._port.stop_task(self._task)
+
+    def modify_data(self, messages):
+        """Sends other data from now on, of messages with the same CAN-IDs.
+
+        :raises ValueError: The CAN-IDs are others.
+        """
+        messages = self._check_and_convert_messages(messages)
+        self._check_modified_messages(messages)
+        self.messages = messages
+        OdkitBus._call(self._port.change_task, self._task, [_parts(one) for one in messages])
+
+
+def _parts(msg):
+    if msg.is_fd:
+        raise CanOperationError("odkit does not support CAN FD; send a message without `is_fd`")
+    if msg.is_error_frame:
+        raise CanOperationError("a program cannot send an error frame; `bench.terminators` makes some")
+    return (
+        msg.arbitration_id,
+        msg.is_extended_id,
+        msg.is_remote_frame,
+        msg.dlc,
+        bytes(msg.data),
+    )

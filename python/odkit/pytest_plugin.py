@@ -1,0 +1,93 @@
+"""Fixtures and markers for pytest: a bench and a bus for each test.
+
+Without a marker the bench has a GXMM encoder at node ID 1::
+
+    @pytest.mark.odkit_devices("gxmm@1", "eam_mt@2")
+    def test_two_encoders(odkit_bench, odkit_bus): ...
+
+    @pytest.mark.odkit_eds("drive.eds", node_id=5)
+    def test_drive(odkit_bench, odkit_bus): ...
+
+A failing test shows the last frames of its bus in words. ``--odkit-record DIR`` saves the frames of
+each test as ``DIR/TEST.log``, as candump does.
+"""
+
+import os
+import re
+
+import pytest
+
+#: Frames that a failing test shows.
+SHOWN = 100
+
+_benches = pytest.StashKey()
+
+
+def pytest_addoption(parser):
+    group = parser.getgroup("odkit")
+    group.addoption(
+        "--odkit-record",
+        metavar="DIR",
+        help="save the frames of each test that uses odkit_bench as DIR/TEST.log",
+    )
+
+
+def pytest_configure(config):
+    for line in (
+        "odkit_devices(*devices): the devices of odkit_bench, such as 'gxmm@1' or 'my.eds@5'",
+        "odkit_eds(path, node_id=None): a device of odkit_bench that a file describes; the path is "
+        "relative to the file of the test",
+    ):
+        config.addinivalue_line("markers", line)
+
+
+def _devices(request):
+    devices = []
+    for marker in reversed(list(request.node.iter_markers())):
+        if marker.name == "odkit_devices":
+            devices += marker.args
+        elif marker.name == "odkit_eds":
+            devices.append(_of_file(request, *marker.args, **marker.kwargs))
+    return [str(device) for device in devices] or ["gxmm@1"]
+
+
+def _of_file(request, path, node_id=None):
+    path = os.path.join(os.path.dirname(str(request.node.path)), str(path))
+    return path if node_id is None else f"{path}@{node_id}"
+
+
+@pytest.fixture
+def odkit_bench(request):
+    """An :class:`odkit.Bench` in virtual time, with the devices of the markers."""
+    import odkit
+
+    bench = odkit.Bench(_devices(request))
+    request.node.stash[_benches] = bench
+    yield bench
+    folder = request.config.getoption("--odkit-record")
+    if folder:
+        os.makedirs(folder, exist_ok=True)
+        name = re.sub(r"[^\w.-]+", "-", request.node.nodeid).strip("-")
+        bench.save_log(os.path.join(folder, f"{name}.log"))
+    del request.node.stash[_benches]
+
+
+@pytest.fixture
+def odkit_bus(odkit_bench):
+    """A bus of python-can on the wire of ``odkit_bench``. It hears the frames from now on, the
+    boot-up messages of the devices not."""
+    with odkit_bench.bus() as bus:
+        yield bus
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item, call):
+    report = (yield).get_result()
+    if call.when != "call" or not report.failed:
+        return
+    bench = item.stash.get(_benches, None)
+    lines = bench.log if bench is not None else []
+    if lines:
+        hidden = len(lines) - SHOWN
+        head = [f"({hidden} earlier frames)"] if hidden > 0 else []
+        report.sections.append(("odkit bus log", "\n".join(head + lines[-SHOWN:])))

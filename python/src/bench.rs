@@ -1,0 +1,355 @@
+//! A bench: devices on a wire, and the world around them.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use od_bench::logs::Format;
+use od_wire::Instant;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList, PyString};
+
+use crate::device::Device;
+use crate::expect::expect;
+use crate::faults::Fault;
+use crate::party::Wait;
+use crate::pass::{End, pass};
+use crate::registry;
+use crate::snapshot::Snapshot;
+use crate::spec;
+use crate::state::State;
+use crate::wire::{Wire, micros};
+
+/// Devices on a CAN bus, and the world around them, in virtual time.
+///
+/// `devices` names built-in devices, EDS, DCF or XDD files, and overlays, each with a node ID if it
+/// shall have one: `"gxmm@1,eam_mt@2"`, or a list such as `["my.eds+coarse.overlay@5"]`. They get
+/// power at once. A snapshot in their place makes a bench in its state. `can.Bus(interface="odkit", channel=bench.name)` connects to the bench, and
+/// `bench.bus()` does so, too.
+///
+/// Time moves while somebody waits: in `run`, `until`, `expect`, or in `recv` of a bus. With
+/// `time="real"` it is that of the clock.
+///
+/// Raises `ValueError` if a device cannot be made, `OSError` if a file cannot be read.
+#[pyclass(frozen, module = "odkit")]
+pub(crate) struct Bench {
+    pub(crate) wire: Arc<Wire>,
+}
+
+impl Bench {
+    fn device_at(&self, place: usize) -> Device {
+        Device {
+            wire: Arc::clone(&self.wire),
+            place,
+        }
+    }
+
+    /// Waits for a moment, or until `done`.
+    fn wait(
+        &self,
+        py: Python<'_>,
+        until: Instant,
+        done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
+    ) -> PyResult<End> {
+        let wait = Wait {
+            port: None,
+            until: Some(until),
+        };
+        pass(py, &self.wire, wait, None, done)
+    }
+}
+
+#[pymethods]
+impl Bench {
+    #[new]
+    #[pyo3(signature = (devices=None, *, name=None, time="virtual"))]
+    fn new(
+        py: Python<'_>,
+        devices: Option<&Bound<'_, PyAny>>,
+        name: Option<&str>,
+        time: &str,
+    ) -> PyResult<Self> {
+        let real = registry::is_real(Some(time))? == Some(true);
+        let name = name.map_or_else(registry::free_name, str::to_owned);
+        let mut state = State::default();
+        let snapshot = devices.and_then(|devices| devices.cast::<Snapshot>().ok());
+        match snapshot {
+            Some(_) if real => return Err(Fault::value("a snapshot goes on in virtual time").into()),
+            Some(snapshot) => snapshot.get().restore(&mut state)?,
+            None => {
+                for list in lists(devices)? {
+                    spec::add(&mut state.bus, &mut state.names, &list)?;
+                }
+                state.start();
+            }
+        }
+        if registry::find(&name).is_some() {
+            return Err(Fault::value(format!("a wire named `{name}` is open already")).into());
+        }
+        state.collect();
+        let wire = registry::add(py, name, state, real, false);
+        Ok(Self { wire })
+    }
+
+    fn __enter__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    #[pyo3(signature = (*_error))]
+    fn __exit__(&self, _error: &Bound<'_, pyo3::types::PyTuple>) {
+        self.close();
+    }
+
+    /// Frees the name for another bench. Buses that are open stay so.
+    fn close(&self) {
+        registry::release(&self.wire);
+    }
+
+    /// The name of the wire: the `channel` of `can.Bus(interface="odkit", channel=…)`.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.wire.name
+    }
+
+    /// The present moment in seconds since the beginning of the bench.
+    #[getter]
+    fn now(&self) -> f64 {
+        self.wire.lock().now().as_micros() as f64 / 1e6
+    }
+
+    /// The devices, in the order in which they were named.
+    #[getter]
+    fn devices(&self) -> Vec<Device> {
+        let count = self.wire.lock().bus.devices().len();
+        (0..count).map(|place| self.device_at(place)).collect()
+    }
+
+    /// The device with a name, or with a node ID: `bench["gxmm"]`, `bench[5]`.
+    ///
+    /// Raises `KeyError` if no device has it.
+    fn __getitem__(&self, device: &Bound<'_, PyAny>) -> PyResult<Device> {
+        let state = self.wire.lock();
+        let place = match device.extract::<u8>() {
+            Ok(id) => state.bus.devices().iter().position(|one| one.is_configured() && one.node_id().raw() == id),
+            Err(_) => {
+                let wanted: String = device.extract()?;
+                state.names.iter().position(|name| name.eq_ignore_ascii_case(&wanted))
+            }
+        };
+        let known = state.names.join(", ");
+        drop(state);
+        let place = place.ok_or_else(|| {
+            let text = format!("no device is named {device}; the devices are {known}");
+            pyo3::exceptions::PyKeyError::new_err(text)
+        })?;
+        Ok(self.device_at(place))
+    }
+
+    fn __len__(&self) -> usize {
+        self.wire.lock().bus.devices().len()
+    }
+
+    /// Puts another device on the bus, with power unless `power=False`, and returns it. Of an encoder
+    /// with two channels it is the first one.
+    ///
+    /// Raises `ValueError` or `OSError` as the bench does.
+    #[pyo3(signature = (device, *, power=true))]
+    fn add(&self, py: Python<'_>, device: &str, power: bool) -> PyResult<Device> {
+        let mut state = self.wire.enter(py)?;
+        let state = &mut *state;
+        let added = spec::add(&mut state.bus, &mut state.names, device)?;
+        for place in added.iter().filter(|_| power) {
+            state.bus.start(*place);
+        }
+        state.collect();
+        state.wake();
+        let first = added.first().copied();
+        Ok(self.device_at(first.ok_or_else(|| Fault::value("no device is named"))?))
+    }
+
+    /// Lets `seconds` pass. Programs that listen to the bus do what they do on the way.
+    ///
+    /// Raises `ValueError` if `seconds` is negative.
+    fn run(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
+        let time = micros(seconds, "the time to run")?;
+        let until = {
+            let state = self.wire.enter(py)?;
+            state.now().plus_micros(time)
+        };
+        self.wait(py, until, &mut |_| Ok(false))?;
+        Ok(())
+    }
+
+    /// Lets time pass until `condition()` is true, and returns the seconds that passed. It is asked
+    /// after every frame, and every millisecond. A text is a frame, as in `expect`.
+    ///
+    /// Raises `TimeoutError` if it is not true within `timeout` seconds.
+    #[pyo3(signature = (condition, timeout=10.0))]
+    fn until(&self, py: Python<'_>, condition: &Bound<'_, PyAny>, timeout: f64) -> PyResult<f64> {
+        if let Ok(frame) = condition.cast::<PyString>() {
+            let began = self.now();
+            expect(py, &self.wire, &frame.extract::<String>()?, timeout)?;
+            return Ok(self.now() - began);
+        }
+        let time = micros(timeout, "the time-out")?;
+        let began = self.wire.enter(py)?.now();
+        let end = began.plus_micros(time);
+        loop {
+            let now = self.wire.lock().now();
+            if condition.call0()?.is_truthy()? {
+                return Ok(now.micros_since(began) as f64 / 1e6);
+            }
+            if now >= end {
+                let text = format!("the condition is not true after {timeout} s");
+                return Err(Fault::Late(text).into());
+            }
+            let before = self.wire.lock().journal.end();
+            let next = now.plus_micros(1000).min(end);
+            self.wait(py, next, &mut |state| Ok(state.journal.end() != before))?;
+        }
+    }
+
+    /// Lets time pass until a frame comes, at most `within` seconds, and returns its line of the log.
+    /// `..` is any byte, `*` any rest: `bench.expect("581#43 04 60 00 *", within=0.1)`. A frame that
+    /// came since the last one of a program counts, too, if that is not longer ago than `within`; one
+    /// that an `expect` found does not.
+    ///
+    /// Raises `AssertionError` that says what came instead.
+    #[pyo3(signature = (frame, within=1.0))]
+    fn expect(&self, py: Python<'_>, frame: &str, within: f64) -> PyResult<String> {
+        expect(py, &self.wire, frame, within)
+    }
+
+    /// A bus of python-can on this wire; keywords are those of `can.Bus`.
+    #[pyo3(signature = (**keywords))]
+    fn bus<'p>(
+        slf: Bound<'p, Self>,
+        keywords: Option<Bound<'p, pyo3::types::PyDict>>,
+    ) -> PyResult<Bound<'p, PyAny>> {
+        let py = slf.py();
+        let keywords = keywords.unwrap_or_else(|| pyo3::types::PyDict::new(py));
+        keywords.set_item("channel", slf.get().name())?;
+        keywords.set_item("bench", &slf)?;
+        py.import("odkit.bus")?.getattr("OdkitBus")?.call((), Some(&keywords))
+    }
+
+    /// The bit rate of the programs in kbit/s. A device with another one does not hear them and is
+    /// not heard; `None`, as it is at first: everybody hears everybody.
+    #[getter]
+    fn get_bit_rate(&self) -> Option<u16> {
+        self.wire.lock().bus.bit_rate()
+    }
+
+    #[setter]
+    fn set_bit_rate(&self, py: Python<'_>, kbit: Option<u16>) -> PyResult<()> {
+        let mut state = self.wire.enter(py)?;
+        state.bus.set_bit_rate(kbit);
+        state.bus.line.bit_rate = kbit;
+        Ok(())
+    }
+
+    /// Whether frames take their time and can fail, as on a CAN bus: they need terminators, another
+    /// station that acknowledges them, and one bit rate. `False` at first: each frame reaches
+    /// everybody at once. A change loses the frames that wait.
+    #[getter]
+    fn get_real_line(&self) -> bool {
+        self.wire.lock().bus.line.is_real
+    }
+
+    #[setter]
+    fn set_real_line(&self, py: Python<'_>, real: bool) -> PyResult<()> {
+        self.wire.enter(py)?.bus.line.set_real(real);
+        Ok(())
+    }
+
+    /// The resistors of 120 Ω at the ends of the line, 2 at first. With another number frames fail
+    /// on a real line.
+    #[getter]
+    fn get_terminators(&self) -> u8 {
+        self.wire.lock().bus.line.terminators
+    }
+
+    #[setter]
+    fn set_terminators(&self, py: Python<'_>, count: u8) -> PyResult<()> {
+        self.wire.enter(py)?.bus.line.terminators = count;
+        Ok(())
+    }
+
+    /// Seeds the random disturbances of a real line. The same seed gives the same disturbances.
+    fn seed(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
+        self.wire.enter(py)?.bus.line.set_seed(seed);
+        Ok(())
+    }
+
+    /// Starts the CAN controller of a device again after bus-off, or without a device that of the
+    /// programs.
+    #[pyo3(signature = (device=None))]
+    fn restart(&self, py: Python<'_>, device: Option<&Device>) -> PyResult<()> {
+        let station = device.map_or(0, |device| device.place + 1);
+        let mut state = self.wire.enter(py)?;
+        state.bus.restart_controller(station);
+        state.collect();
+        state.wake();
+        Ok(())
+    }
+
+    /// The state of the bench, to go back to with `restore`.
+    fn snapshot(&self) -> PyResult<Snapshot> {
+        Ok(Snapshot::of(&self.wire.lock())?)
+    }
+
+    /// Goes back to a state, its time included. The journal begins there, and frames that buses
+    /// received and did not read are gone.
+    fn restore(&self, py: Python<'_>, snapshot: &Snapshot) -> PyResult<()> {
+        Ok(snapshot.restore(&mut *self.wire.enter(py)?)?)
+    }
+
+    /// The frames so far, one text a line: time, frame, and its meaning in words. The last 2,000,000
+    /// are kept.
+    #[getter]
+    fn log(&self) -> Vec<String> {
+        let state = self.wire.lock();
+        state.journal.lines(state.bus.devices(), 0)
+    }
+
+    /// The frames so far as the file that candump writes (`candump -L`), or as one of the formats
+    /// `asc`, `trc` and `pcapng`.
+    ///
+    /// Raises `ValueError` if the format is not one of them.
+    #[pyo3(signature = (format="log"))]
+    fn journal<'p>(&self, py: Python<'p>, format: &str) -> PyResult<Bound<'p, PyBytes>> {
+        let known = Format::of_ending(if format == "candump" { "log" } else { format });
+        let known = known.ok_or_else(|| {
+            Fault::value(format!("format `{format}` is not known; write `log`, `asc`, `trc` or `pcapng`"))
+        })?;
+        Ok(PyBytes::new(py, &known.write(self.wire.lock().journal.records())))
+    }
+
+    /// Saves the frames so far; the ending of the file is the format: `.log`, `.asc`, `.trc`,
+    /// `.pcapng`.
+    ///
+    /// Raises `ValueError` if the ending is not one of them, `OSError` if the file cannot be written.
+    fn save_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
+        let bytes = self.journal(py, &ending)?;
+        Ok(fs::write(path, bytes.as_bytes())?)
+    }
+
+    fn __repr__(&self) -> String {
+        let state = self.wire.lock();
+        format!("<odkit.Bench {}: {} at {:?} s>", self.wire.name, state.names.join(", "), state.now())
+    }
+}
+
+/// The lists of devices in a text, a path, or a list of them.
+fn lists(devices: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    let Some(devices) = devices else {
+        return Ok(Vec::new());
+    };
+    let text = |one: &Bound<'_, PyAny>| one.str()?.extract::<String>();
+    let is_list = devices.is_instance_of::<PyList>() || devices.is_instance_of::<pyo3::types::PyTuple>();
+    if !is_list {
+        return Ok(vec![text(devices)?]);
+    }
+    devices.try_iter()?.map(|one| text(&one?)).collect()
+}

@@ -1,0 +1,355 @@
+//! One device of a bench, and the world around it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use od_bench::VirtualDevice;
+use od_model::{Address, values};
+use od_runtime::Instant;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::faults::Fault;
+use crate::value::{from_python, to_python};
+use crate::wire::{Wire, micros};
+
+/// A device of a bench. `bench["gxmm"]` and `bench.devices` have it.
+///
+/// Attributes are read at the present moment of the bench and send nothing on the bus. A method of
+/// something that the device does not have raises `ValueError`.
+#[pyclass(frozen, module = "odkit")]
+pub(crate) struct Device {
+    pub(crate) wire: Arc<Wire>,
+    pub(crate) place: usize,
+}
+
+impl Device {
+    /// Changes something outside the bus, and lets the others hear of it.
+    fn act<R>(
+        &self,
+        py: Python<'_>,
+        act: impl FnOnce(&mut VirtualDevice, Instant) -> R,
+    ) -> PyResult<R> {
+        let mut state = self.wire.enter(py)?;
+        state.acted = state.now();
+        let result = state.bus.with(self.place, act);
+        state.collect();
+        state.wake();
+        Ok(result.ok_or_else(gone)?)
+    }
+
+    /// As `act`, where the device may not have what is changed.
+    fn turn_something(
+        &self,
+        py: Python<'_>,
+        act: impl FnOnce(&mut VirtualDevice, Instant) -> bool,
+    ) -> PyResult<()> {
+        match self.act(py, act)? {
+            true => Ok(()),
+            false => Err(Fault::value("this device has no shaft").into()),
+        }
+    }
+
+    /// Looks at the device.
+    fn look<R>(&self, look: impl FnOnce(&VirtualDevice, Instant) -> R) -> PyResult<R> {
+        let state = self.wire.lock();
+        let device = state.bus.devices().get(self.place);
+        Ok(look(device.ok_or_else(gone)?, state.now()))
+    }
+
+    fn shaft(&self) -> PyResult<od_bench::ShaftView> {
+        let shaft = self.look(|device, now| device.shaft(now))?;
+        Ok(shaft.ok_or_else(|| Fault::value("this device has no shaft"))?)
+    }
+}
+
+fn gone() -> Fault {
+    Fault::value("the device is not on the bench any more")
+}
+
+/// The address in `0x6004`, `(0x1018, 2)`, `"1018h:02"` or the name of an object.
+fn address(device: &VirtualDevice, object: &Bound<'_, PyAny>) -> PyResult<Address> {
+    if let Ok((index, sub)) = object.extract::<(u16, u8)>() {
+        return Ok(Address::new(index, sub));
+    }
+    if let Ok(index) = object.extract::<u16>() {
+        return Ok(Address::new(index, 0));
+    }
+    let text: String = object.str()?.extract()?;
+    let entry = values::find(device.dictionary(), &text).map_err(Fault::Value)?;
+    Ok(entry.address)
+}
+
+#[pymethods]
+impl Device {
+    /// The name on the bench: that of the built-in device or of the file, with a number if it is
+    /// not the first one.
+    #[getter]
+    fn name(&self) -> PyResult<String> {
+        let state = self.wire.lock();
+        Ok(state.names.get(self.place).cloned().ok_or_else(gone)?)
+    }
+
+    /// The title of the family, or `ProductName` of the file.
+    #[getter]
+    fn title(&self) -> PyResult<String> {
+        self.look(|device, _| device.title().to_owned())
+    }
+
+    /// The active node ID, 1 to 127; `None` for a device without one (LSS).
+    #[getter]
+    fn node_id(&self) -> PyResult<Option<u8>> {
+        self.look(|device, _| device.is_configured().then(|| device.node_id().raw()))
+    }
+
+    /// The NMT state: `Initialising`, `Pre-operational`, `Operational`, `Stopped`, or `off`.
+    #[getter]
+    fn state(&self) -> PyResult<&'static str> {
+        self.look(|device, _| if device.is_powered() { device.state().name() } else { "off" })
+    }
+
+    /// The bit rate of the device in kbit/s; `None` for one that adapts itself.
+    #[getter]
+    fn bit_rate(&self) -> PyResult<Option<u16>> {
+        self.look(|device, _| device.bit_rate())
+    }
+
+    /// The LEDs, green and red: each `off`, `flashing` or `on`.
+    #[getter]
+    fn leds(&self) -> PyResult<(&'static str, &'static str)> {
+        self.look(|device, _| {
+            let (green, red) = device.leds();
+            (green.name(), red.name())
+        })
+    }
+
+    /// Vendor-ID, product code, revision number and serial number of the first start.
+    #[getter]
+    fn lss_address(&self) -> PyResult<(u32, u32, u32, u32)> {
+        self.look(|device, _| device.lss_address().into())
+    }
+
+    /// Power: `True` or `False`. Setting it takes effect at once.
+    #[getter]
+    fn get_power(&self) -> PyResult<bool> {
+        self.look(|device, _| device.is_powered())
+    }
+
+    #[setter]
+    fn set_power(&self, py: Python<'_>, on: bool) -> PyResult<()> {
+        let mut state = self.wire.enter(py)?;
+        state.acted = state.now();
+        if self.place >= state.bus.devices().len() {
+            return Err(gone().into());
+        }
+        state.bus.set_power(self.place, on);
+        state.collect();
+        state.wake();
+        Ok(())
+    }
+
+    /// Revolutions of the shaft from the zero point of the sensor. Setting it turns the shaft there;
+    /// the speed stays.
+    #[getter]
+    fn get_turns(&self) -> PyResult<f64> {
+        Ok(self.shaft()?.turns)
+    }
+
+    #[setter]
+    fn set_turns(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
+        self.turn_something(py, |device, now| device.turn_to(turns, now))
+    }
+
+    /// The position of the sensor in steps, before scaling and preset. Setting it turns the shaft
+    /// there; the speed stays.
+    #[getter]
+    fn get_position(&self) -> PyResult<u64> {
+        Ok(self.shaft()?.raw)
+    }
+
+    #[setter]
+    fn set_position(&self, py: Python<'_>, raw: u64) -> PyResult<()> {
+        self.turn_something(py, |device, now| device.set_position(raw, now))
+    }
+
+    /// The speed of the shaft in revolutions per minute, positive clockwise. Setting it takes effect
+    /// at once.
+    #[getter]
+    fn get_rpm(&self) -> PyResult<f64> {
+        Ok(self.shaft()?.rpm)
+    }
+
+    #[setter]
+    fn set_rpm(&self, py: Python<'_>, rpm: f64) -> PyResult<()> {
+        self.turn_something(py, |device, now| device.set_rpm(rpm, now))
+    }
+
+    /// Turns the shaft by a number of revolutions at once; the speed stays.
+    fn turn(&self, py: Python<'_>, turns: f64) -> PyResult<()> {
+        self.turn_something(py, |device, now| device.turn(turns, now))
+    }
+
+    /// Changes the speed evenly to `rpm` revolutions per minute within `seconds`, at most 4295 s.
+    fn ramp(&self, py: Python<'_>, rpm: f64, seconds: f64) -> PyResult<()> {
+        let time = micros(seconds, "the time of a ramp")?;
+        self.turn_something(py, |device, now| device.ramp_to_rpm(rpm, time, now))
+    }
+
+    /// The faults that this device supports.
+    #[getter]
+    fn faults(&self) -> PyResult<Vec<&'static str>> {
+        self.look(|device, _| device.faults())
+    }
+
+    /// Lets a fault of `faults` appear, or end with `on=False`.
+    ///
+    /// Raises `ValueError` if the device does not support it.
+    #[pyo3(signature = (name, on=true))]
+    fn fault(&self, py: Python<'_>, name: &str, on: bool) -> PyResult<()> {
+        if self.act(py, |device, now| device.set_fault(name, on, now))? {
+            return Ok(());
+        }
+        let known = self.faults()?.join(", ");
+        Err(Fault::value(format!("this device does not support the fault `{name}`; it supports {known}")).into())
+    }
+
+    /// Whether a fault is active.
+    fn is_faulty(&self, name: &str) -> PyResult<bool> {
+        self.look(|device, _| device.is_broken(name))
+    }
+
+    /// Reports an error: an EMCY message with this code, 1001h and 1003h. `register` has the bits of
+    /// 1001h, `info` the five bytes of the manufacturer.
+    ///
+    /// Raises `ValueError` if the device has no power or no EMCY messages, or if the error is active.
+    #[pyo3(signature = (code, register=1, info=None))]
+    fn emcy(&self, py: Python<'_>, code: u16, register: u8, info: Option<[u8; 5]>) -> PyResult<()> {
+        let result = self.act(py, |device, now| device.raise_error(code, register, info, now))?;
+        Ok(result.map_err(Fault::Value)?)
+    }
+
+    /// Ends an error of `emcy`, or all of them.
+    ///
+    /// Raises `ValueError` if it is not active.
+    #[pyo3(signature = (code=0))]
+    fn clear_emcy(&self, py: Python<'_>, code: u16) -> PyResult<()> {
+        let result = self.act(py, |device, now| device.clear_error(code, now))?;
+        Ok(result.map_err(Fault::Value)?)
+    }
+
+    /// The rotary switches of the node ID, 0 to 99; 0 leaves it to the EEPROM. The device reads
+    /// them when it starts.
+    #[getter]
+    fn get_node_switch(&self) -> PyResult<u8> {
+        self.look(|device, _| device.switches().0)
+    }
+
+    #[setter]
+    fn set_node_switch(&self, py: Python<'_>, number: u8) -> PyResult<()> {
+        if number > 99 {
+            return Err(Fault::value(format!("the rotary switches have 0 to 99, not {number}")).into());
+        }
+        self.act(py, |device, now| device.set_node_switch(number, now))
+    }
+
+    /// The DIP switches of the bit rate, 0 to 7. The device reads them when it starts, if the rotary
+    /// switches are not 0.
+    #[getter]
+    fn get_rate_switch(&self) -> PyResult<u8> {
+        self.look(|device, _| device.switches().1)
+    }
+
+    #[setter]
+    fn set_rate_switch(&self, py: Python<'_>, number: u8) -> PyResult<()> {
+        if number > 7 {
+            return Err(Fault::value(format!("the DIP switches have 0 to 7, not {number}")).into());
+        }
+        self.act(py, |device, now| device.set_bitrate_switch(number, now))
+    }
+
+    /// The value of an object: `device[0x6004]`, `device[0x1018, 2]`, `device["Position value"]`.
+    /// It is what an SDO upload would return now: `bool`, `int`, `float`, `str` or `bytes`.
+    ///
+    /// Raises `ValueError` if the object does not exist.
+    fn __getitem__<'p>(&self, py: Python<'p>, object: &Bound<'p, PyAny>) -> PyResult<Bound<'p, PyAny>> {
+        let mut state = self.wire.lock();
+        let found = state.bus.with(self.place, |device, now| {
+            let address = address(device, object)?;
+            let entry = values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+            PyResult::Ok((entry.data_type, device.read(address, now)))
+        });
+        drop(state);
+        let (data_type, bytes) = found.ok_or_else(gone)??;
+        to_python(py, data_type, &bytes)
+    }
+
+    /// Sets the value of an object from the side of the device, whatever a master may write.
+    /// Event-driven TPDOs follow. Types and limits are those of the object.
+    ///
+    /// Raises `ValueError` if the object does not exist, the device computes it, or it cannot have
+    /// this value.
+    fn __setitem__<'p>(&self, py: Python<'p>, object: &Bound<'p, PyAny>, value: &Bound<'p, PyAny>) -> PyResult<()> {
+        let (address, data_type) = self.look(|device, _| {
+            let address = address(device, object)?;
+            let entry = values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+            PyResult::Ok((address, entry.data_type))
+        })??;
+        let bytes = from_python(data_type, value)?;
+        let result = self.act(py, |device, now| device.set_value(address, &bytes, now))?;
+        Ok(result.map_err(Fault::Value)?)
+    }
+
+    /// The bytes of the EEPROM. Bytes that are set take effect at the next start.
+    #[getter]
+    fn get_eeprom<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyBytes>> {
+        let mut state = self.wire.lock();
+        let bytes = state.bus.with(self.place, |device, _| device.eeprom());
+        Ok(PyBytes::new(py, &bytes.ok_or_else(gone)?))
+    }
+
+    #[setter]
+    fn set_eeprom(&self, py: Python<'_>, bytes: Vec<u8>) -> PyResult<()> {
+        let room = self.look(|device, _| device.storage_needed())?;
+        if bytes.len() > room {
+            let len = bytes.len();
+            return Err(Fault::value(format!("the EEPROM has {room} bytes, not {len}")).into());
+        }
+        self.act(py, |device, _| device.set_eeprom(&bytes))
+    }
+
+    /// Saves the bytes of the EEPROM to a file. Raises `OSError` if it cannot be written.
+    fn save_eeprom(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let bytes = self.get_eeprom(py)?;
+        Ok(std::fs::write(path, bytes.as_bytes())?)
+    }
+
+    /// Loads the EEPROM from a file of `save_eeprom`; it takes effect at the next start. Raises
+    /// `OSError` if the file cannot be read, `ValueError` if it is too long.
+    fn load_eeprom(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.set_eeprom(py, std::fs::read(path)?)
+    }
+
+    /// Lets power go in the middle of the next save, when `after` more bytes have been written.
+    fn cut_power(&self, py: Python<'_>, after: usize) -> PyResult<()> {
+        self.act(py, |device, _| device.cut_power_after(after))?;
+        Ok(())
+    }
+
+    /// Whether the device is connected to the bus line. Setting it takes effect at once.
+    #[getter]
+    fn get_plugged(&self) -> bool {
+        self.wire.lock().bus.line.is_plugged(self.place + 1)
+    }
+
+    #[setter]
+    fn set_plugged(&self, py: Python<'_>, plugged: bool) -> PyResult<()> {
+        self.wire.enter(py)?.bus.line.set_plugged(self.place + 1, plugged);
+        Ok(())
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let (name, state) = (self.name()?, self.state()?);
+        let node = self.node_id()?.map_or(String::from("without node ID"), |id| format!("node {id}"));
+        Ok(format!("<odkit.Device {name}, {node}, {state}>"))
+    }
+}

@@ -1,0 +1,43 @@
+//! Reasons of this package, as Python exceptions.
+
+use pyo3::exceptions::{PyOSError, PyTimeoutError, PyValueError};
+use pyo3::prelude::*;
+
+/// Why something is not done.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Fault {
+    /// The caller asks for something that does not exist, or that does not fit: `ValueError`.
+    Value(String),
+    /// The bus or a file fails: `OSError`.
+    System(String),
+    /// It did not happen in time: `TimeoutError`.
+    Late(String),
+}
+
+impl Fault {
+    /// A `ValueError` with this sentence.
+    pub(crate) fn value(text: impl Into<String>) -> Self {
+        Self::Value(text.into())
+    }
+
+    /// An `OSError` with this sentence.
+    pub(crate) fn system(text: impl Into<String>) -> Self {
+        Self::System(text.into())
+    }
+}
+
+impl From<String> for Fault {
+    fn from(text: String) -> Self {
+        Self::Value(text)
+    }
+}
+
+impl From<Fault> for PyErr {
+    fn from(fault: Fault) -> Self {
+        match fault {
+            Fault::Value(text) => PyValueError::new_err(text),
+            Fault::System(text) => PyOSError::new_err(text),
+            Fault::Late(text) => PyTimeoutError::new_err(text),
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The Python package `odkit`: a CAN bus with CANopen devices in it, in virtual time.
+//!
+//! `wire` is a bus with its devices and those who listen; `party` and `pass` decide who moves its
+//! time. The classes above it are one file each.
+
+#![forbid(unsafe_op_in_unsafe_fn)]
+
+mod bench;
+mod cyclic;
+mod device;
+mod expect;
+mod faults;
+mod filter;
+mod journal;
+mod party;
+mod pass;
+mod port;
+mod registry;
+mod snapshot;
+mod spec;
+mod state;
+mod value;
+mod wire;
+
+use pyo3::prelude::*;
+
+/// The compiled part of `odkit`.
+#[pymodule(gil_used = false)]
+mod _odkit {
+    #[pymodule_export]
+    use crate::bench::Bench;
+    #[pymodule_export]
+    use crate::device::Device;
+    #[pymodule_export]
+    use crate::port::Port;
+    #[pymodule_export]
+    use crate::registry::wires;
+    #[pymodule_export]
+    use crate::snapshot::Snapshot;
+    #[pymodule_export]
+    use crate::spec::devices;
+}

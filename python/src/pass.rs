@@ -1,0 +1,292 @@
+//! Who moves the time of a wire.
+//!
+//! Time moves when every thread that takes part on the wire waits: in a call of this package, or in
+//! Python (`_who.py`). The thread that finds it so moves time to the next frame. While one of them
+//! runs, nobody does. Of a thread that sleeps where Python does not show it, nobody knows what for:
+//! time follows the clock then.
+
+use std::thread;
+use std::time::{Duration, Instant as Clock};
+
+use od_wire::Instant;
+use pyo3::prelude::*;
+
+use crate::party::{Known, Outside, Wait};
+use crate::state::{State, Step};
+use crate::wire::Wire;
+
+/// How a wait ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum End {
+    /// What it was for is there.
+    Done,
+    /// The moment came.
+    Late,
+}
+
+/// Steps between two looks at signals such as Ctrl-C.
+const STEPS: u32 = 1024;
+/// The longest nap of a thread that waits for others.
+const NAP: Duration = Duration::from_millis(2);
+
+/// Can time move, and how far?
+enum Way {
+    /// To the next frame, or to this moment if it comes first.
+    Free(Option<Instant>),
+    /// As `Free`, but not for the sake of a time-out.
+    Frames(Option<Instant>),
+    /// Somebody runs.
+    Closed,
+}
+
+/// Waits until `done` or until `wait` is over. `done` is asked whenever something happened.
+///
+/// # Errors
+/// An exception in Python, such as `KeyboardInterrupt`.
+pub(crate) fn pass(
+    py: Python<'_>,
+    wire: &Wire,
+    wait: Wait,
+    patience: Option<Duration>,
+    done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
+) -> PyResult<End> {
+    let result = Pass::new(wire, patience).run(py, wait, done);
+    wire.lock().leave(thread::current().id());
+    result
+}
+
+struct Pass<'w> {
+    wire: &'w Wire,
+    began: Clock,
+    patience: Option<Duration>,
+    steps: u32,
+    idle: u32,
+}
+
+impl<'w> Pass<'w> {
+    fn new(wire: &'w Wire, patience: Option<Duration>) -> Self {
+        Self {
+            wire,
+            began: Clock::now(),
+            patience,
+            steps: 0,
+            idle: 0,
+        }
+    }
+
+    fn run(
+        &mut self,
+        py: Python<'_>,
+        wait: Wait,
+        done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
+    ) -> PyResult<End> {
+        let own = thread::current().id();
+        loop {
+            let mut state = self.wire.lock();
+            if let Some(clock) = state.clock() {
+                self.catch_up(py, state, clock)?;
+                state = self.wire.lock();
+            }
+            let end = match done(&mut state)? {
+                true => Some(End::Done),
+                false if wait.until.is_some_and(|until| until <= state.now()) => Some(End::Late),
+                false => None,
+            };
+            if let Some(end) = end {
+                state.leave(own);
+                return Ok(end);
+            }
+            if let Some(party) = state.parties.iter_mut().find(|party| party.id == own) {
+                party.wait = Some(wait);
+            }
+            if state.real.is_some() {
+                let next = [state.next(), wait.until].into_iter().flatten().min();
+                let left = next.map(|next| next.micros_since(state.now()));
+                drop(state);
+                self.sleep(py, left.map_or(NAP * 25, Duration::from_micros).min(NAP * 25))?;
+                continue;
+            }
+            drop(state);
+            let way = self.survey(py, wait)?;
+            let state = self.wire.lock();
+            let to = match way {
+                Way::Free(to) => to,
+                Way::Frames(to) if state.next().is_some_and(|next| to.is_none_or(|to| next <= to)) => to,
+                // Nothing will come, or another thread is about to act.
+                _ if self.is_out_of_patience() => {
+                    if let Some(until) = wait.until {
+                        drop(state);
+                        self.advance(py, until)?;
+                    }
+                    return Ok(End::Late);
+                }
+                _ => {
+                    drop(state);
+                    self.rest(py)?;
+                    continue;
+                }
+            };
+            let Some(to) = to.or_else(|| state.next()) else {
+                drop(state);
+                self.rest(py)?;
+                continue;
+            };
+            if to < state.now() || (to == state.now() && state.next().is_none_or(|next| next > to)) {
+                drop(state);
+                self.rest(py)?;
+                continue;
+            }
+            self.idle = 0;
+            self.step(py, state, to)?;
+        }
+    }
+
+    /// Looks at all threads that take part.
+    fn survey(&self, py: Python<'_>, own: Wait) -> PyResult<Way> {
+        let id = thread::current().id();
+        let mut limit = own.until;
+        let mut state = self.wire.lock();
+        let (mut outside, mut knows, mut wanted, mut daemon) = (Vec::new(), true, own.port.is_none(), false);
+        for party in &state.parties {
+            match party.wait {
+                _ if party.id == id => daemon = party.daemon,
+                Some(wait) if state.is_over(wait) => return Ok(Way::Closed),
+                Some(wait) => {
+                    limit = earlier(limit, wait.until);
+                    wanted |= wait.port.is_none();
+                }
+                None => {
+                    outside.push(party.ident);
+                    knows &= party.outside != Outside::Runs;
+                }
+            }
+        }
+        if outside.is_empty() {
+            return Ok(Way::Free(limit));
+        }
+        // One that ran a moment ago mostly still does.
+        if !knows && self.idle == 0 {
+            return Ok(Way::Closed);
+        }
+        let changes = state.changes;
+        drop(state);
+        let found = self.wire.look(py, &outside)?;
+        state = self.wire.lock();
+        if state.changes != changes {
+            return Ok(Way::Closed);
+        }
+        Ok(match state.learn(&outside, &found) {
+            Known::Run => match follow(&mut state) {
+                Some(clock) => Way::Free(earlier(limit, Some(clock))),
+                None => Way::Closed,
+            },
+            Known::Wait(until) => Way::Free(earlier(limit, Some(until))),
+            Known::WaitForEver if daemon && !wanted => Way::Frames(limit),
+            Known::WaitForEver => Way::Free(limit),
+        })
+    }
+
+    /// One step in time.
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        mut state: std::sync::MutexGuard<'_, State>,
+        to: Instant,
+    ) -> PyResult<Step> {
+        let step = state.step(to);
+        state.wake();
+        drop(state);
+        if let Step::Call(task, place) = step {
+            call(py, self.wire, task, place)?;
+        }
+        self.steps += 1;
+        if self.steps % STEPS == 0 {
+            py.check_signals()?;
+            py.detach(|| ());
+        }
+        Ok(step)
+    }
+
+    /// Lets time pass to a moment, whoever runs.
+    fn advance(&mut self, py: Python<'_>, to: Instant) -> PyResult<()> {
+        loop {
+            let state = self.wire.lock();
+            let follows = state.real.is_some();
+            if self.step(py, state, to)? == Step::Reached || follows && self.steps % STEPS == 0 {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Time is what the clock shows.
+    fn catch_up(
+        &mut self,
+        py: Python<'_>,
+        state: std::sync::MutexGuard<'_, State>,
+        clock: Instant,
+    ) -> PyResult<()> {
+        drop(state);
+        self.advance(py, clock)
+    }
+
+    fn is_out_of_patience(&self) -> bool {
+        self.patience.is_some_and(|most| self.began.elapsed() >= most)
+    }
+
+    /// Lets the others run: the longer it takes, the longer the rest.
+    fn rest(&mut self, py: Python<'_>) -> PyResult<()> {
+        self.idle = self.idle.saturating_add(1);
+        // A frame ends the rest at once. Without one the thread that runs shall have the interpreter.
+        let micros = 25 << self.idle.min(8);
+        self.sleep(py, Duration::from_micros(micros).min(NAP))
+    }
+
+    fn sleep(&mut self, py: Python<'_>, time: Duration) -> PyResult<()> {
+        let time = match self.patience {
+            Some(most) => time.min(most.saturating_sub(self.began.elapsed()).max(Duration::from_micros(50))),
+            None => time,
+        };
+        py.detach(|| thread::park_timeout(time));
+        py.check_signals()
+    }
+}
+
+/// The earlier of two moments, of which none may be.
+fn earlier(a: Option<Instant>, b: Option<Instant>) -> Option<Instant> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// Time follows the clock where every thread that runs sleeps; returns the moment that it shows.
+fn follow(state: &mut State) -> Option<Instant> {
+    if state.follows.is_none() {
+        let own = thread::current().id();
+        let mut latest = None;
+        for party in state.parties.iter_mut().filter(|party| party.id != own && party.runs()) {
+            latest = latest.max(Some(party.lets_time_follow()?));
+        }
+        let now = state.now();
+        state.parties.iter_mut().for_each(|party| party.leads = party.id != own && party.runs());
+        state.follows = Some((latest?, now));
+    }
+    let (clock, from) = state.follows?;
+    Some(from.plus_micros(u64::try_from(clock.elapsed().as_micros()).ok()?))
+}
+
+/// Python makes the frame of a task.
+fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyResult<()> {
+    let Some(maker) = wire.maker(py, task) else {
+        return Ok(());
+    };
+    let frame = maker.call1(py, (place,))?.extract::<crate::value::Parts>(py)?.frame()?;
+    let mut state = wire.lock();
+    let port = state.cyclics.iter().find(|one| one.id == task).map(|one| one.port);
+    if let Some(port) = port {
+        // A frame that the line does not take is lost, as that of a timer would be.
+        drop(state.transmit(port, &frame));
+        state.wake();
+    }
+    Ok(())
+}

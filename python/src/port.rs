@@ -1,0 +1,255 @@
+//! A bus of python-can.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use od_bench::logs::What;
+use od_bench::wire::Condition;
+use od_wire::Frame;
+use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyString, PyTuple};
+
+use crate::bench::Bench;
+use crate::cyclic::Cyclic;
+use crate::faults::Fault;
+use crate::filter::Filter;
+use crate::party::Wait;
+use crate::pass::pass;
+use crate::registry::{self, is_real};
+use crate::state::{Heard, Listener};
+use crate::value::Parts;
+use crate::wire::{Wire, micros};
+
+/// CAN-ID of an error frame of python-can: what it says is in its data, as SocketCAN has it.
+const PROTOCOL_ERROR: u32 = 0x08;
+const ERROR_DATA: [u8; 8] = [0, 0, 4, 0, 0, 0, 0, 0];
+
+/// A station on a wire; `odkit.bus.OdkitBus` is its Python half.
+#[pyclass(frozen, module = "odkit._odkit")]
+pub(crate) struct Port {
+    id: u32,
+    /// `None` once it is closed.
+    wire: Mutex<Option<Arc<Wire>>>,
+    channel: Py<PyString>,
+}
+
+impl Port {
+    fn wire(&self) -> Result<Arc<Wire>, Fault> {
+        let wire = self.wire.lock().unwrap_or_else(PoisonError::into_inner);
+        wire.clone().ok_or_else(|| Fault::system("the bus is closed"))
+    }
+}
+
+#[pymethods]
+impl Port {
+    #[new]
+    #[pyo3(signature = (channel, time=None, own=false, bitrate=None, bench=None))]
+    fn new(
+        py: Python<'_>,
+        channel: &str,
+        time: Option<&str>,
+        own: bool,
+        bitrate: Option<u32>,
+        bench: Option<&Bench>,
+    ) -> PyResult<Self> {
+        is_real(time)?;
+        let wire = match bench {
+            Some(bench) => Arc::clone(&bench.wire),
+            None => registry::open(py, channel, time)?,
+        };
+        let mut state = wire.enter(py)?;
+        let id = state.number();
+        state.listeners.push(Listener {
+            id,
+            queue: Default::default(),
+            filters: None,
+            own,
+        });
+        if let Some(rate) = bitrate.and_then(|rate| u16::try_from(rate / 1000).ok()) {
+            state.bus.set_bit_rate(Some(rate));
+            state.bus.line.bit_rate = Some(rate);
+        }
+        // The first bus of a wire hears the boot-up messages of its devices.
+        state.collect();
+        drop(state);
+        Ok(Self {
+            id,
+            wire: Mutex::new(Some(wire)),
+            channel: PyString::new(py, channel).unbind(),
+        })
+    }
+
+    /// Sends a frame: CAN-ID, extended, remote, length of a remote frame, data.
+    fn send(&self, py: Python<'_>, frame: Parts) -> PyResult<()> {
+        let frame = frame.frame()?;
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        if let Some(clock) = state.clock() {
+            // Calls of Python wait for the next one who waits.
+            while matches!(state.step(clock), crate::state::Step::Moved) {}
+        }
+        state.transmit(self.id, &frame)?;
+        state.wake();
+        Ok(())
+    }
+
+    /// The next frame as the arguments of `can.Message`, or `None` when the time is over.
+    #[pyo3(signature = (timeout=None))]
+    fn recv<'p>(&self, py: Python<'p>, timeout: Option<f64>) -> PyResult<Option<Bound<'p, PyTuple>>> {
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        let heard = state.listener(self.id).and_then(|own| own.queue.pop_front());
+        let now = state.now();
+        drop(state);
+        let mut heard = heard;
+        if heard.is_none() {
+            let time = timeout.map(|seconds| micros(seconds.max(0.0), "the time-out")).transpose()?;
+            let wait = Wait {
+                port: Some(self.id),
+                until: time.map(|micros| now.plus_micros(micros)),
+            };
+            let mut is_closed = false;
+            pass(py, &wire, wait, time.map(Duration::from_micros), &mut |state| {
+                match state.listener(self.id) {
+                    Some(own) => heard = own.queue.pop_front(),
+                    None => is_closed = true,
+                }
+                Ok(heard.is_some() || is_closed)
+            })?;
+            if is_closed {
+                return Err(Fault::system("the bus was closed while it received").into());
+            }
+        }
+        heard.map(|heard| self.message(py, &wire, heard)).transpose()
+    }
+
+    /// Lets only frames through that pass one of the filters: CAN-ID, mask, extended.
+    fn set_filters(&self, py: Python<'_>, filters: Option<Vec<(u32, u32, Option<bool>)>>) -> PyResult<()> {
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        let filters = filters.map(|all| {
+            let filters = all.into_iter();
+            filters.map(|(id, mask, extended)| Filter { id, mask, extended }).collect()
+        });
+        if let Some(own) = state.listener(self.id) {
+            own.filters = filters;
+        }
+        Ok(())
+    }
+
+    /// Forgets what was received and not read.
+    fn clear(&self, py: Python<'_>) -> PyResult<()> {
+        if let Some(own) = self.wire()?.enter(py)?.listener(self.id) {
+            own.queue.clear();
+        }
+        Ok(())
+    }
+
+    /// Makes a task that sends frames in a rhythm, and returns its number.
+    #[pyo3(signature = (frames, period, duration=None, maker=None))]
+    fn task(
+        &self,
+        py: Python<'_>,
+        frames: Vec<Parts>,
+        period: f64,
+        duration: Option<f64>,
+        maker: Option<Py<PyAny>>,
+    ) -> PyResult<u32> {
+        let frames = frames.into_iter().map(Parts::frame).collect::<Result<Vec<Frame>, _>>()?;
+        let times = (
+            micros(period, "the period")?,
+            duration.map(|time| micros(time, "the duration")).transpose()?,
+        );
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        let id = state.number();
+        let calls = maker.is_some();
+        state.cyclics.push(Cyclic::new(id, self.id, frames, times, calls));
+        drop(state);
+        wire.set_maker(py, id, maker)?;
+        Ok(id)
+    }
+
+    /// Starts a task with its first frame.
+    fn start_task(&self, py: Python<'_>, id: u32) -> PyResult<()> {
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        let now = state.now();
+        let own = state.cyclics.iter_mut().find(|one| one.id == id);
+        own.ok_or_else(|| Fault::value("the task has ended"))?.start(now);
+        Ok(())
+    }
+
+    /// Gives a task other frames.
+    fn change_task(&self, py: Python<'_>, id: u32, frames: Vec<Parts>) -> PyResult<()> {
+        let frames = frames.into_iter().map(Parts::frame).collect::<Result<Vec<Frame>, _>>()?;
+        let wire = self.wire()?;
+        let mut state = wire.enter(py)?;
+        let own = state.cyclics.iter_mut().find(|one| one.id == id);
+        own.ok_or_else(|| Fault::value("the task has ended"))?.frames = frames;
+        Ok(())
+    }
+
+    /// Stops a task; it can start again.
+    fn stop_task(&self, py: Python<'_>, id: u32) -> PyResult<()> {
+        if let Ok(wire) = self.wire() {
+            let mut state = wire.enter(py)?;
+            state.cyclics.iter_mut().filter(|one| one.id == id).for_each(Cyclic::stop);
+        }
+        Ok(())
+    }
+
+    /// Condition of the CAN controller of the programs: 0 error active, 1 error passive, 2 bus-off.
+    fn condition(&self) -> PyResult<u8> {
+        Ok(match self.wire()?.lock().bus.line.controller(0).condition() {
+            Condition::BusOff => 2,
+            Condition::ErrorPassive => 1,
+            _ => 0,
+        })
+    }
+
+    /// The bench of the wire.
+    fn bench(&self) -> PyResult<Bench> {
+        Ok(Bench { wire: self.wire()? })
+    }
+
+    /// Leaves the wire; nothing happens the second time.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let wire = self.wire.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some(wire) = wire else {
+            return Ok(());
+        };
+        let mut state = wire.lock();
+        state.changes += 1;
+        state.listeners.retain(|one| one.id != self.id);
+        let (own, others): (Vec<_>, _) = state.cyclics.drain(..).partition(|one| one.port == self.id);
+        state.cyclics = others;
+        let is_empty = state.listeners.is_empty();
+        state.wake();
+        drop(state);
+        if is_empty && wire.of_channel {
+            registry::release(&wire);
+        }
+        own.iter().try_for_each(|one| wire.set_maker(py, one.id, None))
+    }
+}
+
+impl Port {
+    fn message<'p>(&self, py: Python<'p>, wire: &Wire, heard: Heard) -> PyResult<Bound<'p, PyTuple>> {
+        let at = wire.seconds(heard.at);
+        let (id, extended, remote, is_error, dlc, data) = match &heard.what {
+            What::Frame(frame) => {
+                let id = frame.id();
+                let remote = frame.is_remote();
+                (id.raw(), id.is_extended(), remote, false, frame.dlc(), frame.data())
+            }
+            What::Error => (PROTOCOL_ERROR, false, false, true, 8, &ERROR_DATA[..]),
+        };
+        let data = match remote {
+            true => PyByteArray::new(py, &[]),
+            false => PyByteArray::new(py, data),
+        };
+        let channel = self.channel.bind(py);
+        (at, id, extended, remote, is_error, channel, dlc, data, false, !heard.own, false, false).into_pyobject(py)
+    }
+}

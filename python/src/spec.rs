@@ -1,0 +1,197 @@
+//! The devices of a wire, as a channel names them: `gxmm@1,eam_mt@2,my.eds+coarse.overlay@5`.
+
+use std::fs;
+
+use od_bench::bus::Bus;
+use od_bench::{EdsOptions, VirtualDevice};
+use od_devices::DEVICES;
+use od_eds::{Document, Eds, Finding, say};
+use od_runtime::{DeviceKind, NodeId};
+use pyo3::prelude::*;
+
+use crate::faults::Fault;
+
+/// Errors of a file that a message shows.
+const SHOWN: usize = 5;
+
+/// Names and titles of the built-in devices.
+#[pyfunction]
+pub(crate) fn devices() -> Vec<(&'static str, &'static str)> {
+    DEVICES.iter().map(|kind| (kind.name, kind.title)).collect()
+}
+
+/// The name of a wire in a channel, and its devices: `line=gxmm@1`.
+pub(crate) fn split(channel: &str) -> (Option<&str>, &str) {
+    let is_name = |name: &str| {
+        let fits = |letter: char| letter.is_alphanumeric() || "_-. ".contains(letter);
+        !name.trim().is_empty() && name.chars().all(fits)
+    };
+    match channel.split_once('=') {
+        Some((name, devices)) if is_name(name) => (Some(name.trim()), devices),
+        _ => (None, channel),
+    }
+}
+
+/// Whether this can be the name of a wire that has no devices in its name.
+pub(crate) fn is_list(devices: &str) -> bool {
+    devices.contains(['@', ',', '+']) || od_devices::find(devices.trim()).is_some() || fs::metadata(devices.trim()).is_ok()
+}
+
+/// Puts the devices of a list on a bus, and adds their names to `names`. They have no power yet.
+///
+/// # Errors
+/// A device that does not exist, a file that cannot be read, a node ID that is not valid.
+pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<Vec<usize>, Fault> {
+    let mut added = Vec::new();
+    for word in list.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+        let (name, node) = match word.rsplit_once('@') {
+            Some((name, node)) => (name, Some(node_id(word, node)?)),
+            None => (word, None),
+        };
+        let made = Made::of(name)?;
+        let first = bus.devices().len();
+        for channel in 0..made.channels() {
+            let number = |id: NodeId| NodeId::new(id.raw().checked_add(channel)?);
+            let wanted = match node {
+                Some(id) => Some(number(id).ok_or_else(|| {
+                    Fault::value(format!("`{word}` needs two node IDs, and the second is 128"))
+                })?),
+                None => None,
+            };
+            let device = made.device(bus, wanted)?;
+            let place = match channel {
+                0 => bus.add(device),
+                _ => bus.add_beside(device, first),
+            };
+            let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+            names.push(free_name(names, base, channel));
+            added.push(place);
+        }
+    }
+    Ok(added)
+}
+
+fn node_id(word: &str, node: &str) -> Result<NodeId, Fault> {
+    let id = node.trim().parse().ok().and_then(NodeId::new);
+    id.ok_or_else(|| {
+        Fault::value(format!("`{word}`: `{node}` is not a node ID; write 1 to 127"))
+    })
+}
+
+/// A name that no other device has: `gxmm`, `gxmm-2`; the second channel of a device is `eam_red.2`.
+fn free_name(names: &[String], base: &str, channel: u8) -> String {
+    if let (1.., Some(last)) = (channel, names.last()) {
+        return format!("{last}.{}", channel + 1);
+    }
+    let numbered = |number: usize| match number {
+        1 => base.to_owned(),
+        _ => format!("{base}-{number}"),
+    };
+    let mut all = (1..=names.len() + 1).map(numbered);
+    all.find(|name| !names.contains(name)).unwrap_or_else(|| base.to_owned())
+}
+
+/// Where devices come from.
+enum Made {
+    Kind(&'static DeviceKind),
+    /// Name and text of a file.
+    Text(String, String),
+}
+
+impl Made {
+    fn of(name: &str) -> Result<Self, Fault> {
+        if let Some(kind) = od_devices::find(name) {
+            return Ok(Self::Kind(kind));
+        }
+        Ok(Self::Text(name.to_owned(), text(name)?))
+    }
+
+    fn channels(&self) -> u8 {
+        match self {
+            Self::Kind(kind) => kind.channels,
+            Self::Text(..) => 1,
+        }
+    }
+
+    /// The device with a node ID, with its own if that is free, or else with the next free one.
+    fn device(&self, bus: &Bus, wanted: Option<NodeId>) -> Result<VirtualDevice, Fault> {
+        let used: Vec<u8> = bus.devices().iter().map(|one| one.node_id().raw()).collect();
+        let mut device = self.make(wanted)?;
+        if wanted.is_none() && used.contains(&device.node_id().raw()) {
+            let last = used.last().copied().unwrap_or(0);
+            let mut others = (last..=127).chain(1..last).filter(|id| !used.contains(id));
+            let free = others.find_map(NodeId::new);
+            let free = free.ok_or_else(|| Fault::value("all 127 node IDs of the bus are used"))?;
+            device = self.make(Some(free))?;
+        }
+        let device = device.delivered();
+        // Devices of one LSS address could not be told apart.
+        let own = device.lss_address();
+        let others = bus.devices().iter().map(VirtualDevice::lss_address);
+        let alike: Vec<u32> = others.filter(|one| one[..3] == own[..3]).map(|one| one[3]).collect();
+        Ok(match alike.iter().max() {
+            Some(last) if alike.contains(&own[3]) => device.with_serial_number(last.wrapping_add(1)),
+            _ => device,
+        })
+    }
+
+    fn make(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Fault> {
+        match self {
+            Self::Kind(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
+            Self::Text(name, text) => {
+                let options = EdsOptions {
+                    node_id,
+                    lenient: false,
+                };
+                let device = VirtualDevice::from_eds(text, options);
+                device.map_err(|findings| Fault::value(format!("{name}: {}", errors(&findings))))
+            }
+        }
+    }
+}
+
+/// The text of a file; of an overlay on its base with `base+overlay`.
+///
+/// # Errors
+/// Why it cannot be read.
+pub(crate) fn text(name: &str) -> Result<String, Fault> {
+    match (fs::read(name), name.rsplit_once('+')) {
+        (Ok(bytes), _) => Ok(Document::new(bytes).text().to_owned()),
+        (Err(_), Some((base, over))) => {
+            let base = match od_devices::find(base) {
+                Some(kind) => od_devices::text::eds(kind),
+                None => text(base)?,
+            };
+            let made = od_eds::overlay(&base, &text(over)?);
+            made.map(|made| made.text).map_err(|faults| {
+                let faults: Vec<_> = faults.iter().map(|(line, why)| format!("line {line}: {why}")).collect();
+                Fault::value(format!("{over}: {}", faults.join("; ")))
+            })
+        }
+        (Err(error), None) if error.kind() == std::io::ErrorKind::NotFound => {
+            let known: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
+            let known = known.join(", ");
+            Err(Fault::value(format!(
+                "no built-in device or file is named `{name}`; built-in devices are {known}"
+            )))
+        }
+        (Err(error), None) => Err(Fault::system(format!("{name}: {error}"))),
+    }
+}
+
+/// Errors in words.
+fn errors(findings: &[Finding]) -> String {
+    let unsound: Vec<_> = findings.iter().filter(|one| one.is_unsound()).collect();
+    let mut words: Vec<String> = unsound
+        .iter()
+        .take(SHOWN)
+        .map(|finding| {
+            let line = finding.span().map_or(String::new(), |span| format!("line {}: ", span.line));
+            format!("{line}{} {}", finding.code(), say(finding, &Eds).message)
+        })
+        .collect();
+    if unsound.len() > SHOWN {
+        words.push(format!("and {} more", unsound.len() - SHOWN));
+    }
+    words.join("; ")
+}

@@ -1,0 +1,300 @@
+//! A bus with its devices, and all who listen to it.
+
+use std::collections::VecDeque;
+use std::thread::{self, Thread, ThreadId};
+use std::time::Instant as Clock;
+
+use od_bench::bus::Bus;
+use od_bench::logs::What;
+use od_bench::wire::Condition;
+use od_wire::{Frame, Instant};
+
+use crate::cyclic::Cyclic;
+use crate::faults::Fault;
+use crate::filter::{Filter, passes};
+use crate::journal::Journal;
+use crate::party::{Known, Outside, Party, Wait};
+
+/// Frames that wait for a bus; then the newest ones are lost, as in a controller.
+const QUEUED: usize = 1_000_000;
+
+/// Numbers of `odkit._who` for a thread that ended, and for one that runs.
+const GONE: f64 = -2.0;
+const RUNS: f64 = -1.0;
+
+/// What a bus of python-can received.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heard {
+    pub(crate) at: Instant,
+    pub(crate) what: What,
+    /// It sent the frame itself.
+    pub(crate) own: bool,
+}
+
+/// A bus of python-can.
+#[derive(Debug)]
+pub(crate) struct Listener {
+    pub(crate) id: u32,
+    pub(crate) queue: VecDeque<Heard>,
+    pub(crate) filters: Option<Vec<Filter>>,
+    /// It receives what it sends.
+    pub(crate) own: bool,
+}
+
+/// What a step in time led to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Step {
+    /// A frame was sent.
+    Moved,
+    /// Nothing happened until the moment.
+    Reached,
+    /// Python has to make the frame of this task; the number is its place among its frames.
+    Call(u32, usize),
+}
+
+/// Everything on one wire.
+#[derive(Default)]
+pub(crate) struct State {
+    pub(crate) bus: Bus,
+    /// Names of the devices.
+    pub(crate) names: Vec<String>,
+    pub(crate) listeners: Vec<Listener>,
+    pub(crate) cyclics: Vec<Cyclic>,
+    pub(crate) parties: Vec<Party>,
+    pub(crate) journal: Journal,
+    /// The number of the first record that `expect` looks at.
+    pub(crate) seen: usize,
+    /// The last frame from a program, or change of the bench.
+    pub(crate) acted: Instant,
+    /// The buses whose frames wait for a line that takes time.
+    senders: VecDeque<u32>,
+    /// Time is that of the clock since this moment.
+    pub(crate) real: Option<Clock>,
+    /// Time follows the clock, since a moment and from a moment.
+    pub(crate) follows: Option<(Clock, Instant)>,
+    /// Counts all that is done to the wire.
+    pub(crate) changes: u64,
+    ids: u32,
+    /// The process that its threads are in.
+    process: u32,
+}
+
+impl State {
+    /// A number that nothing else on the wire has.
+    pub(crate) fn number(&mut self) -> u32 {
+        self.ids += 1;
+        self.ids
+    }
+
+    /// Its devices get power.
+    pub(crate) fn start(&mut self) {
+        for device in 0..self.bus.devices().len() {
+            self.bus.start(device);
+        }
+    }
+
+    /// The present moment.
+    pub(crate) fn now(&self) -> Instant {
+        self.bus.now()
+    }
+
+    /// The next moment at which something happens.
+    pub(crate) fn next(&self) -> Option<Instant> {
+        let cyclics = self.cyclics.iter().filter_map(Cyclic::due);
+        cyclics.chain(self.bus.next_deadline()).min()
+    }
+
+    /// Lets time pass to the next frame, or to `to`.
+    pub(crate) fn step(&mut self, to: Instant) -> Step {
+        let due = self.cyclics.iter().filter_map(Cyclic::due).min();
+        let target = due.map_or(to, |due| due.min(to)).max(self.now());
+        let sent = self.bus.advance_until_sent(target);
+        self.collect();
+        if sent {
+            return Step::Moved;
+        }
+        let now = self.now();
+        let Some(at) = self.cyclics.iter().position(|one| one.due().is_some_and(|due| due <= now))
+        else {
+            return Step::Reached;
+        };
+        let (id, port, calls) = {
+            let one = &self.cyclics[at];
+            (one.id, one.port, one.calls)
+        };
+        match self.cyclics[at].take(now) {
+            Some((place, _)) if calls => return Step::Call(id, place),
+            // A frame that the line does not take is lost, as that of a timer would be.
+            Some((_, frame)) => drop(self.transmit(port, &frame)),
+            None => {}
+        }
+        Step::Moved
+    }
+
+    /// A program sends a frame.
+    ///
+    /// # Errors
+    /// The CAN controller of the programs is bus-off.
+    pub(crate) fn transmit(&mut self, port: u32, frame: &Frame) -> Result<(), Fault> {
+        if self.bus.line.controller(0).condition() == Condition::BusOff {
+            return Err(Fault::system(
+                "the CAN controller of the programs is bus-off; restart it with `bench.restart()`",
+            ));
+        }
+        let now = self.now();
+        self.acted = now;
+        if self.bus.line.is_timed() {
+            self.senders.push_back(port);
+            self.bus.receive(frame);
+        } else if self.bus.receive(frame) {
+            self.hear(now, What::Frame(*frame), Some(port));
+        }
+        self.collect();
+        Ok(())
+    }
+
+    /// Hands out what was sent.
+    pub(crate) fn collect(&mut self) {
+        while let Some(one) = self.bus.line.poll() {
+            if one.device.is_none() && !one.delivered {
+                self.senders.pop_front();
+            }
+            self.hear(one.at, What::Error, None);
+        }
+        while let Some(sent) = self.bus.poll() {
+            let from = match sent.device {
+                None => self.senders.pop_front(),
+                Some(_) => None,
+            };
+            self.hear(sent.at, What::Frame(sent.frame), from);
+        }
+        if !self.senders.is_empty() && !self.bus.is_sending(0) {
+            self.senders.clear();
+        }
+    }
+
+    /// Everybody hears a frame; `from` is the bus that sent it.
+    pub(crate) fn hear(&mut self, at: Instant, what: What, from: Option<u32>) {
+        for one in &mut self.listeners {
+            let own = from == Some(one.id);
+            let passes = match what {
+                What::Frame(frame) => passes(one.filters.as_deref(), frame.id()),
+                What::Error => true,
+            };
+            if !passes || (own && !one.own) {
+                continue;
+            }
+            if one.queue.len() < QUEUED {
+                one.queue.push_back(Heard { at, what, own });
+            }
+        }
+        self.journal.add(at, from.is_some(), what);
+    }
+
+    /// Forgets all that happened: the bench is another one now.
+    pub(crate) fn forget(&mut self) {
+        self.journal.clear();
+        self.senders.clear();
+        (self.seen, self.acted) = (0, self.now());
+        self.listeners.iter_mut().for_each(|one| one.queue.clear());
+        self.real = self.real.map(|_| Clock::now());
+    }
+
+    /// The listener with this number.
+    pub(crate) fn listener(&mut self, id: u32) -> Option<&mut Listener> {
+        self.listeners.iter_mut().find(|one| one.id == id)
+    }
+
+    /// Has what this wait is for happened?
+    pub(crate) fn is_over(&self, wait: Wait) -> bool {
+        let heard = |port| match self.listeners.iter().find(|one| one.id == port) {
+            Some(one) => !one.queue.is_empty(),
+            // It was closed.
+            None => true,
+        };
+        wait.until.is_some_and(|until| until <= self.now()) || wait.port.is_some_and(heard)
+    }
+
+    /// The threads whose waits are over, but for this one.
+    pub(crate) fn over(&self) -> Vec<Thread> {
+        let own = thread::current().id();
+        let others = self.parties.iter().filter(|party| party.id != own);
+        let over = others.filter(|party| party.wait.is_some_and(|wait| self.is_over(wait)));
+        over.map(|party| party.thread.clone()).collect()
+    }
+
+    /// Wakes the threads whose waits are over.
+    pub(crate) fn wake(&self) {
+        if self.parties.len() > 1 {
+            self.over().iter().for_each(Thread::unpark);
+        }
+    }
+
+    /// A thread does something, or ends a wait.
+    pub(crate) fn touch(&mut self, id: ThreadId) -> bool {
+        // Of the threads before a fork only one is there.
+        let process = std::process::id();
+        if std::mem::replace(&mut self.process, process) != process {
+            self.parties.retain(|party| party.id == id);
+        }
+        self.changes += 1;
+        let Some(own) = self.parties.iter_mut().find(|party| party.id == id) else {
+            return false;
+        };
+        own.touch();
+        if own.leads {
+            self.follows = None;
+        }
+        true
+    }
+
+    /// A thread ends its wait.
+    pub(crate) fn leave(&mut self, id: ThreadId) {
+        let own = self.parties.iter_mut().find(|party| party.id == id);
+        if let Some(own) = own.filter(|own| own.wait.is_some()) {
+            own.wait = None;
+            self.touch(id);
+        }
+    }
+
+    /// Notes what `odkit._who` found of the threads with these numbers.
+    pub(crate) fn learn(&mut self, idents: &[u64], found: &[f64]) -> Known {
+        let now = self.now();
+        for (ident, found) in idents.iter().zip(found) {
+            let is = |party: &Party| party.ident == *ident;
+            let Some(party) = self.parties.iter_mut().find(|party| is(party)) else {
+                continue;
+            };
+            match *found {
+                GONE => self.parties.retain(|party| !is(party)),
+                RUNS if party.outside != Outside::Runs => party.touch(),
+                RUNS => {}
+                same if same.is_nan() => {}
+                seconds => {
+                    let micros = (seconds * 1e6).round();
+                    let until = (micros < 1e18).then(|| now.plus_micros(micros as u64));
+                    party.outside = Outside::Waits(until);
+                }
+            }
+        }
+        let own = thread::current().id();
+        let others = self.parties.iter().filter(|party| party.id != own && party.wait.is_none());
+        let mut known = Known::WaitForEver;
+        for party in others {
+            known = match (party.outside, known) {
+                (Outside::Runs, _) => return Known::Run,
+                (Outside::Waits(Some(until)), Known::Wait(first)) => Known::Wait(until.min(first)),
+                (Outside::Waits(Some(until)), _) => Known::Wait(until),
+                (Outside::Waits(None), known) => known,
+            };
+        }
+        self.follows = None;
+        known
+    }
+
+    /// The moment that the clock shows, on a wire in real time.
+    pub(crate) fn clock(&self) -> Option<Instant> {
+        let micros = self.real?.elapsed().as_micros();
+        Some(Instant::from_micros(u64::try_from(micros).unwrap_or(u64::MAX)))
+    }
+}

@@ -1,0 +1,107 @@
+//! A wire that several threads and buses share.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyDict;
+
+use crate::faults::Fault;
+use crate::party::Party;
+use crate::state::State;
+
+/// A wire with a name. Its lock is held with the interpreter attached, and never while a thread
+/// waits, so that a fork finds it free.
+pub(crate) struct Wire {
+    /// The name by which buses share it.
+    pub(crate) name: String,
+    /// Seconds since 1970 at which its time began, in real time; else 0.
+    pub(crate) epoch: f64,
+    /// A channel opened it, so it ends with the last bus.
+    pub(crate) of_channel: bool,
+    state: Mutex<State>,
+    /// The waits that `odkit._who` has seen.
+    waits: Py<PyDict>,
+    /// What makes the frames of tasks, by their numbers.
+    makers: Py<PyDict>,
+}
+
+impl Wire {
+    pub(crate) fn new(py: Python<'_>, name: String, epoch: f64, state: State) -> Self {
+        Self {
+            of_channel: false,
+            name,
+            epoch,
+            state: Mutex::new(state),
+            waits: PyDict::new(py).unbind(),
+            makers: PyDict::new(py).unbind(),
+        }
+    }
+
+    /// What the threads with these numbers do, as `odkit._who.waits` says it.
+    ///
+    /// # Errors
+    /// An exception in Python.
+    pub(crate) fn look(&self, py: Python<'_>, threads: &[u64]) -> PyResult<Vec<f64>> {
+        static WHO: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        let load = || PyResult::Ok(py.import("odkit._who")?.getattr("waits")?.unbind());
+        let who = WHO.get_or_try_init(py, load)?;
+        who.call1(py, (threads.to_vec(), &self.waits))?.extract(py)
+    }
+
+    /// What makes the frames of a task.
+    pub(crate) fn maker(&self, py: Python<'_>, task: u32) -> Option<Py<PyAny>> {
+        self.makers.bind(py).get_item(task).ok()?.map(Bound::unbind)
+    }
+
+    /// Lets Python make the frames of a task; `None` ends that.
+    pub(crate) fn set_maker(&self, py: Python<'_>, task: u32, maker: Option<Py<PyAny>>) -> PyResult<()> {
+        let makers = self.makers.bind(py);
+        match maker {
+            Some(maker) => makers.set_item(task, maker),
+            None if makers.contains(task)? => makers.del_item(task),
+            None => Ok(()),
+        }
+    }
+
+    /// Its state, for a look.
+    pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Its state for a thread that takes part from now on.
+    ///
+    /// # Errors
+    /// Python does not say which thread this is.
+    pub(crate) fn enter(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, State>> {
+        let id = thread::current().id();
+        let mut state = self.lock();
+        if state.touch(id) {
+            return Ok(state);
+        }
+        drop(state);
+        let (ident, native, daemon) = py.import("odkit._who")?.call_method0("this")?.extract()?;
+        let party = Party::this(ident, native, daemon);
+        let mut state = self.lock();
+        state.parties.push(party);
+        Ok(state)
+    }
+
+    /// Seconds of a moment, as timestamps have them.
+    pub(crate) fn seconds(&self, at: od_wire::Instant) -> f64 {
+        self.epoch + at.as_micros() as f64 / 1e6
+    }
+}
+
+/// Microseconds of a number of seconds.
+///
+/// # Errors
+/// It is negative or not a number.
+pub(crate) fn micros(seconds: f64, what: &str) -> Result<u64, Fault> {
+    match seconds {
+        // What is too long becomes the longest; 2^63 µs are 292,000 years.
+        _ if seconds >= 0.0 => Ok((seconds * 1e6).round().min(9e18) as u64),
+        _ => Err(Fault::value(format!("{what} is {seconds}; it must be 0 s or more"))),
+    }
+}

@@ -1,0 +1,47 @@
+"""The plugin of pytest, in a pytest of its own."""
+
+import os
+
+import pytest
+
+pytest_plugins = ["pytester"]
+EDS = os.path.abspath(os.path.join(os.path.dirname(__file__), "../../devices/eds/GXMM.eds"))
+
+
+def test_fixtures(odkit_bench, odkit_bus):
+    assert [device.name for device in odkit_bench.devices] == ["gxmm"]
+    assert odkit_bus.recv(1) is None and odkit_bench.now == 1
+
+
+@pytest.mark.odkit_devices("gxmm@1", "eam_mt@2")
+def test_devices(odkit_bench):
+    assert [device.node_id for device in odkit_bench.devices] == [1, 2]
+
+
+@pytest.mark.odkit_eds("../../devices/eds/GXMM.eds", node_id=5)
+def test_eds(odkit_bench):
+    assert odkit_bench[5].name == "GXMM.eds"
+
+
+def test_a_failing_test_shows_its_frames_and_all_are_recorded(pytester):
+    pytester.makepyfile(
+        test_it="""
+        import pytest
+
+        @pytest.mark.odkit_devices("gxmm@3")
+        def test_fails(odkit_bench):
+            odkit_bench.run(0.1)
+            odkit_bench.expect("583#60 *", within=0.1)
+
+        def test_passes(odkit_bench, odkit_bus):
+            odkit_bench.expect("701#00")
+        """
+    )
+    result = pytester.runpytest("--odkit-record", "logs")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(
+        ["*AssertionError: 583#60 [*] did not come within 0.1 s*", "*odkit bus log*", "0.000000 <- 703#00*boot-up*"]
+    )
+    logs = {path.name: path.read_text() for path in (pytester.path / "logs").iterdir()}
+    assert logs["test_it.py-test_fails.log"] == "(0.000000) can0 703#00\n"
+    assert set(logs) == {"test_it.py-test_fails.log", "test_it.py-test_passes.log"}

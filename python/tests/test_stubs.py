@@ -1,0 +1,28 @@
+"""The types of the compiled part are those that it has."""
+
+import ast
+import os
+
+import odkit
+from odkit import _odkit
+
+STUBS = os.path.join(os.path.dirname(odkit.__file__), "_odkit.pyi")
+
+
+def test_the_stubs_name_every_member_and_no_other():
+    with open(STUBS) as file:
+        tree = ast.parse(file.read())
+    declared, found = {}, {}
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            members = {getattr(one, "name", None) or one.target.id for one in node.body}
+            declared[node.name] = {name for name in members if not name.startswith("__")}
+        elif isinstance(node, ast.FunctionDef):
+            declared[node.name] = set()
+    for name, value in vars(_odkit).items():
+        if name.startswith("_"):
+            continue
+        is_class = isinstance(value, type)
+        found[name] = {one for one in vars(value) if not one.startswith("_")} if is_class else set()
+    assert declared == found
+    assert os.path.exists(os.path.join(os.path.dirname(STUBS), "py.typed"))

@@ -1,0 +1,217 @@
+"""Several threads on one wire: time moves while all of them wait."""
+
+import os
+import queue
+import threading
+import time
+
+import can
+import canopen
+import pytest
+
+import odkit
+
+EDS = os.path.join(os.path.dirname(__file__), "../../devices/eds/GXMM.eds")
+RUNS = 1000 if os.environ.get("ODKIT_LONG") else 25
+
+
+@pytest.fixture(scope="module")
+def dictionary():
+    return canopen.import_od(EDS)
+
+
+def session(dictionary):
+    """What a program of python-canopen sees, and when."""
+    network = canopen.Network()
+    network.connect(interface="odkit", channel="gxmm@1")
+    node = network.add_node(1, dictionary)
+    log = []
+    for can_id in (0x581, 0x701, 0x181):
+        network.subscribe(can_id, lambda i, data, at: log.append((at, i, bytes(data))))
+    node.sdo[0x1017].raw = 1000
+    node.nmt.wait_for_heartbeat()
+    node.nmt.state = "OPERATIONAL"
+    node.nmt.wait_for_heartbeat()
+    log.append(node.nmt.state)
+    log.append(node.sdo[0x1018][1].raw)
+    node.sdo[0x1800][5].raw = 100
+    node.nmt.wait_for_heartbeat()
+    log.append(network.bus.bench.now)
+    seen = list(log)
+    network.disconnect()
+    return seen
+
+
+def test_python_canopen_sees_the_same_each_time(dictionary):
+    first = session(dictionary)
+    assert "OPERATIONAL" in first and first[-1] == 3.0
+    for _ in range(RUNS):
+        assert session(dictionary) == first
+
+
+def connected(dictionary):
+    network = canopen.Network()
+    network.connect(interface="odkit", channel="gxmm@1")
+    return network, network.add_node(1, dictionary)
+
+
+def test_an_hour_of_heartbeats_while_the_program_waits(dictionary):
+    network, node = connected(dictionary)
+    node.sdo[0x1017].raw = 1000
+    beats, done = [], threading.Event()
+
+    def beat(can_id, data, at):
+        beats.append(at)
+        if at >= 3600:
+            done.set()
+
+    network.subscribe(0x701, beat)
+    assert done.wait(5000)
+    assert beats == [float(second) for second in range(1, 3601)]
+    network.bus.bench.run(60)
+    assert len(beats) == 3660
+    network.disconnect()
+
+
+def test_no_time_passes_while_the_program_computes(dictionary):
+    network, node = connected(dictionary)
+    node.sdo[0x1017].raw = 10
+    before, end = network.bus.bench.now, time.perf_counter() + 0.2
+    while time.perf_counter() < end:
+        pass
+    assert network.bus.bench.now - before <= 0.2
+    network.disconnect()
+
+
+def test_time_follows_the_clock_while_the_program_sleeps(dictionary):
+    network, node = connected(dictionary)
+    node.sdo[0x1017].raw = 10
+    beats = []
+    network.subscribe(0x701, lambda i, data, at: beats.append(at))
+    clock = time.perf_counter()
+    while len(beats) < 10:
+        time.sleep(0.005)
+        assert time.perf_counter() - clock < 60
+    assert network.bus.bench.now <= time.perf_counter() - clock + 0.01
+    network.disconnect()
+
+
+def test_a_silent_node_takes_the_time_of_the_time_out(dictionary):
+    network, node = connected(dictionary)
+    network.bus.bench["gxmm"].power = False
+    with pytest.raises(canopen.SdoCommunicationError):
+        node.sdo.upload(0x1000, 0)
+    assert network.bus.bench.now == pytest.approx(0.3, abs=1e-9)
+    network.disconnect()
+
+
+def test_a_wait_lets_no_more_time_pass_than_its_time_out():
+    bus = can.Bus(interface="odkit", channel="gxmm@1")
+    reader = can.Notifier(bus, [lambda message: None])
+    with pytest.raises(queue.Empty):
+        queue.Queue().get(timeout=0.05)
+    assert bus.bench.now == pytest.approx(0.05, abs=1e-9)
+    assert not threading.Event().wait(0.1)
+    assert bus.bench.now == pytest.approx(0.15, abs=1e-9)
+    reader.stop()
+    bus.shutdown()
+
+
+def test_a_listener_that_answers_is_part_of_the_run():
+    """Time does not go on while a listener works, so its answer has the time of the question."""
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus, bench.bus() as other:
+        answers = []
+
+        def answer(message):
+            if message.arbitration_id == 0x200:
+                bus.send(can.Message(arbitration_id=0x300, is_extended_id=False, data=message.data))
+
+        reader = can.Notifier(bus, [answer])
+        other.send_periodic(can.Message(arbitration_id=0x200, is_extended_id=False), 0.1)
+        bench.run(1)
+        while (message := other.recv(0)) is not None:
+            if message.arbitration_id == 0x300:
+                answers.append(round(message.timestamp, 6))
+        assert answers[:10] == [round(n / 10, 6) for n in range(10)]
+        reader.stop()
+
+
+def test_two_threads_send_while_a_third_closes():
+    bus = can.Bus(interface="odkit", channel="gxmm@1")
+    errors = []
+
+    def send():
+        message = can.Message(arbitration_id=0x123, is_extended_id=False)
+        try:
+            while True:
+                bus.send(message)
+        except can.CanOperationError as error:
+            errors.append(str(error))
+
+    def receive():
+        try:
+            while True:
+                bus.recv(None)
+        except can.CanOperationError as error:
+            errors.append(str(error))
+
+    threads = [threading.Thread(target=one) for one in (send, send, receive)]
+    for one in threads:
+        one.start()
+    while bus.bench.now < 0 or len(bus.bench.log) < 50:
+        pass
+    bus.shutdown()
+    for one in threads:
+        one.join(60)
+    assert len(errors) == 3 and all("closed" in one for one in errors)
+
+
+def test_an_exception_in_a_listener_leaves_the_wire_usable():
+    class Failing(can.Listener):
+        seen = []
+
+        def on_message_received(self, message):
+            raise RuntimeError("no")
+
+        def on_error(self, error):
+            self.seen.append(error)
+
+    bus = can.Bus(interface="odkit", channel="gxmm@1")
+    failing = Failing()
+    reader = can.Notifier(bus, [failing])
+    bus.bench.run(1)
+    assert [str(one) for one in failing.seen] == ["no"]
+    reader.stop()
+    bus.bench.run(1)
+    bus.shutdown()
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork")
+def test_a_fork_has_a_bus_of_its_own():
+    bus = can.Bus(interface="odkit", channel="gxmm@1")
+    reader = can.Notifier(bus, [lambda message: None])
+    child = os.fork()
+    if child == 0:
+        # The reader is not in this process, and the time of the bus is its own.
+        bus.bench.run(5)
+        os._exit(0 if bus.bench.now == 5 else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert bus.bench.now < 5
+    reader.stop()
+    bus.shutdown()
+
+
+def test_asyncio():
+    import asyncio
+
+    async def main():
+        bus = can.Bus(interface="odkit", channel="gxmm@1")
+        bus.send(can.Message(arbitration_id=0x601, is_extended_id=False, data=bytes.fromhex("2B171000E8030000")))
+        reader = can.AsyncBufferedReader()
+        notifier = can.Notifier(bus, [reader], loop=asyncio.get_running_loop())
+        times = [(await reader.get_message()).timestamp for _ in range(12)]
+        notifier.stop()
+        bus.shutdown()
+        return times
+
+    assert asyncio.run(main()) == [0.0, 0.0] + [float(second) for second in range(1, 11)]
