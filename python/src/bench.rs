@@ -74,7 +74,9 @@ impl Bench {
         let mut state = State::default();
         let snapshot = devices.and_then(|devices| devices.cast::<Snapshot>().ok());
         match snapshot {
-            Some(_) if real => return Err(Fault::value("a snapshot goes on in virtual time").into()),
+            Some(_) if real => {
+                return Err(Fault::value("a snapshot goes on in virtual time").into());
+            }
             Some(snapshot) => snapshot.get().restore(&mut state)?,
             None => {
                 for list in lists(devices)? {
@@ -130,10 +132,17 @@ impl Bench {
     fn __getitem__(&self, device: &Bound<'_, PyAny>) -> PyResult<Device> {
         let state = self.wire.lock();
         let place = match device.extract::<u8>() {
-            Ok(id) => state.bus.devices().iter().position(|one| one.is_configured() && one.node_id().raw() == id),
+            Ok(id) => state
+                .bus
+                .devices()
+                .iter()
+                .position(|one| one.is_configured() && one.node_id().raw() == id),
             Err(_) => {
                 let wanted: String = device.extract()?;
-                state.names.iter().position(|name| name.eq_ignore_ascii_case(&wanted))
+                state
+                    .names
+                    .iter()
+                    .position(|name| name.eq_ignore_ascii_case(&wanted))
             }
         };
         let known = state.names.join(", ");
@@ -230,7 +239,9 @@ impl Bench {
         let keywords = keywords.unwrap_or_else(|| pyo3::types::PyDict::new(py));
         keywords.set_item("channel", slf.get().name())?;
         keywords.set_item("bench", &slf)?;
-        py.import("odkit.bus")?.getattr("OdkitBus")?.call((), Some(&keywords))
+        py.import("odkit.bus")?
+            .getattr("OdkitBus")?
+            .call((), Some(&keywords))
     }
 
     /// The bit rate of the programs in kbit/s. A device with another one does not hear them and is
@@ -320,9 +331,14 @@ impl Bench {
     fn journal<'p>(&self, py: Python<'p>, format: &str) -> PyResult<Bound<'p, PyBytes>> {
         let known = Format::of_ending(if format == "candump" { "log" } else { format });
         let known = known.ok_or_else(|| {
-            Fault::value(format!("format `{format}` is not known; write `log`, `asc`, `trc` or `pcapng`"))
+            Fault::value(format!(
+                "format `{format}` is not known; write `log`, `asc`, `trc` or `pcapng`"
+            ))
         })?;
-        Ok(PyBytes::new(py, &known.write(self.wire.lock().journal.records())))
+        Ok(PyBytes::new(
+            py,
+            &known.write(self.wire.lock().journal.records()),
+        ))
     }
 
     /// Saves the frames so far; the ending of the file is the format: `.log`, `.asc`, `.trc`,
@@ -330,14 +346,21 @@ impl Bench {
     ///
     /// Raises `ValueError` if the ending is not one of them, `OSError` if the file cannot be written.
     fn save_log(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let ending = path.extension().map_or_else(String::new, |it| it.to_string_lossy().into_owned());
+        let ending = path
+            .extension()
+            .map_or_else(String::new, |it| it.to_string_lossy().into_owned());
         let bytes = self.journal(py, &ending)?;
         Ok(fs::write(path, bytes.as_bytes())?)
     }
 
     fn __repr__(&self) -> String {
         let state = self.wire.lock();
-        format!("<odkit.Bench {}: {} at {:?} s>", self.wire.name, state.names.join(", "), state.now())
+        format!(
+            "<odkit.Bench {}: {} at {:?} s>",
+            self.wire.name,
+            state.names.join(", "),
+            state.now()
+        )
     }
 }
 
@@ -347,7 +370,8 @@ fn lists(devices: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         return Ok(Vec::new());
     };
     let text = |one: &Bound<'_, PyAny>| one.str()?.extract::<String>();
-    let is_list = devices.is_instance_of::<PyList>() || devices.is_instance_of::<pyo3::types::PyTuple>();
+    let is_list =
+        devices.is_instance_of::<PyList>() || devices.is_instance_of::<pyo3::types::PyTuple>();
     if !is_list {
         return Ok(vec![text(devices)?]);
     }

@@ -105,7 +105,13 @@ impl Device {
     /// The NMT state: `Initialising`, `Pre-operational`, `Operational`, `Stopped`, or `off`.
     #[getter]
     fn state(&self) -> PyResult<&'static str> {
-        self.look(|device, _| if device.is_powered() { device.state().name() } else { "off" })
+        self.look(|device, _| {
+            if device.is_powered() {
+                device.state().name()
+            } else {
+                "off"
+            }
+        })
     }
 
     /// The bit rate of the device in kbit/s; `None` for one that adapts itself.
@@ -210,7 +216,10 @@ impl Device {
             return Ok(());
         }
         let known = self.faults()?.join(", ");
-        Err(Fault::value(format!("this device does not support the fault `{name}`; it supports {known}")).into())
+        Err(Fault::value(format!(
+            "this device does not support the fault `{name}`; it supports {known}"
+        ))
+        .into())
     }
 
     /// Whether a fault is active.
@@ -224,7 +233,9 @@ impl Device {
     /// Raises `ValueError` if the device has no power or no EMCY messages, or if the error is active.
     #[pyo3(signature = (code, register=1, info=None))]
     fn emcy(&self, py: Python<'_>, code: u16, register: u8, info: Option<[u8; 5]>) -> PyResult<()> {
-        let result = self.act(py, |device, now| device.raise_error(code, register, info, now))?;
+        let result = self.act(py, |device, now| {
+            device.raise_error(code, register, info, now)
+        })?;
         Ok(result.map_err(Fault::Value)?)
     }
 
@@ -247,7 +258,9 @@ impl Device {
     #[setter]
     fn set_node_switch(&self, py: Python<'_>, number: u8) -> PyResult<()> {
         if number > 99 {
-            return Err(Fault::value(format!("the rotary switches have 0 to 99, not {number}")).into());
+            return Err(
+                Fault::value(format!("the rotary switches have 0 to 99, not {number}")).into(),
+            );
         }
         self.act(py, |device, now| device.set_node_switch(number, now))
     }
@@ -271,11 +284,16 @@ impl Device {
     /// It is what an SDO upload would return now: `bool`, `int`, `float`, `str` or `bytes`.
     ///
     /// Raises `ValueError` if the object does not exist.
-    fn __getitem__<'p>(&self, py: Python<'p>, object: &Bound<'p, PyAny>) -> PyResult<Bound<'p, PyAny>> {
+    fn __getitem__<'p>(
+        &self,
+        py: Python<'p>,
+        object: &Bound<'p, PyAny>,
+    ) -> PyResult<Bound<'p, PyAny>> {
         let mut state = self.wire.lock();
         let found = state.bus.with(self.place, |device, now| {
             let address = address(device, object)?;
-            let entry = values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+            let entry =
+                values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
             PyResult::Ok((entry.data_type, device.read(address, now)))
         });
         drop(state);
@@ -288,10 +306,16 @@ impl Device {
     ///
     /// Raises `ValueError` if the object does not exist, the device computes it, or it cannot have
     /// this value.
-    fn __setitem__<'p>(&self, py: Python<'p>, object: &Bound<'p, PyAny>, value: &Bound<'p, PyAny>) -> PyResult<()> {
+    fn __setitem__<'p>(
+        &self,
+        py: Python<'p>,
+        object: &Bound<'p, PyAny>,
+        value: &Bound<'p, PyAny>,
+    ) -> PyResult<()> {
         let (address, data_type) = self.look(|device, _| {
             let address = address(device, object)?;
-            let entry = values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
+            let entry =
+                values::find(device.dictionary(), &address.to_string()).map_err(Fault::Value)?;
             PyResult::Ok((address, entry.data_type))
         })??;
         let bytes = from_python(data_type, value)?;
@@ -343,13 +367,19 @@ impl Device {
 
     #[setter]
     fn set_plugged(&self, py: Python<'_>, plugged: bool) -> PyResult<()> {
-        self.wire.enter(py)?.bus.line.set_plugged(self.place + 1, plugged);
+        self.wire
+            .enter(py)?
+            .bus
+            .line
+            .set_plugged(self.place + 1, plugged);
         Ok(())
     }
 
     fn __repr__(&self) -> PyResult<String> {
         let (name, state) = (self.name()?, self.state()?);
-        let node = self.node_id()?.map_or(String::from("without node ID"), |id| format!("node {id}"));
+        let node = self
+            .node_id()?
+            .map_or(String::from("without node ID"), |id| format!("node {id}"));
         Ok(format!("<odkit.Device {name}, {node}, {state}>"))
     }
 }

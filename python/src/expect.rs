@@ -25,7 +25,10 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
         let now = state.now();
         let is_recent = now.micros_since(state.acted) <= time;
         let first = if is_recent { state.acted } else { now };
-        (state.seen.max(state.journal.at(first)), now.plus_micros(time))
+        (
+            state.seen.max(state.journal.at(first)),
+            now.plus_micros(time),
+        )
     };
     let (mut next, mut found) = (from, None);
     let wait = Wait {
@@ -34,7 +37,8 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
     };
     let end = pass(py, wire, wait, None, &mut |state| {
         let mut records = state.journal.since(next).enumerate();
-        let at = records.find(|(_, record)| frame(record).is_some_and(|frame| pattern.matches(&frame)));
+        let at =
+            records.find(|(_, record)| frame(record).is_some_and(|frame| pattern.matches(&frame)));
         found = at.map(|(at, _)| next + at);
         next = state.journal.end();
         Ok(found.is_some())
@@ -53,7 +57,11 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
                 0 => String::new(),
                 more => format!("\n  and {more} more"),
             };
-            let shown: Vec<String> = came.into_iter().take(SHOWN).map(|line| format!("  {line}")).collect();
+            let shown: Vec<String> = came
+                .into_iter()
+                .take(SHOWN)
+                .map(|line| format!("  {line}"))
+                .collect();
             format!("what came instead:\n{}{more}", shown.join("\n"))
         }
     };

@@ -105,6 +105,10 @@ impl Party {
         let Some(spent) = self.spent() else {
             return (so_far > UNKNOWN).then_some(self.since);
         };
+        let Some(spent) = spent else {
+            self.sample = None;
+            return (so_far > BUSY).then_some(now);
+        };
         let (at, before) = *self.sample.get_or_insert((now, spent));
         let elapsed = now.duration_since(at);
         if elapsed < NAP / 2 {
@@ -117,12 +121,17 @@ impl Party {
         }
     }
 
-    /// Time that the thread spent on a processor or waited for one, where the system has it.
-    fn spent(&self) -> Option<Duration> {
-        let path = format!("/proc/self/task/{}/schedstat", self.native);
-        let text = std::fs::read_to_string(path).ok()?;
+    /// Time that the thread spent on a processor or waited for one, where the system has it;
+    /// `Some(None)`: it does so now.
+    fn spent(&self) -> Option<Option<Duration>> {
+        let folder = format!("/proc/self/task/{}", self.native);
+        let stat = std::fs::read_to_string(format!("{folder}/stat")).ok()?;
+        if !stat.rsplit_once(") ")?.1.starts_with('S') {
+            return Some(None);
+        }
+        let text = std::fs::read_to_string(format!("{folder}/schedstat")).ok()?;
         let mut numbers = text.split_whitespace().map(str::parse::<u64>);
         let (ran, waited) = (numbers.next()?.ok()?, numbers.next()?.ok()?);
-        Some(Duration::from_nanos(ran.saturating_add(waited)))
+        Some(Some(Duration::from_nanos(ran.saturating_add(waited))))
     }
 }

@@ -103,7 +103,10 @@ impl<'w> Pass<'w> {
                 let next = [state.next(), wait.until].into_iter().flatten().min();
                 let left = next.map(|next| next.micros_since(state.now()));
                 drop(state);
-                self.sleep(py, left.map_or(NAP * 25, Duration::from_micros).min(NAP * 25))?;
+                self.sleep(
+                    py,
+                    left.map_or(NAP * 25, Duration::from_micros).min(NAP * 25),
+                )?;
                 continue;
             }
             drop(state);
@@ -111,7 +114,13 @@ impl<'w> Pass<'w> {
             let state = self.wire.lock();
             let to = match way {
                 Way::Free(to) => to,
-                Way::Frames(to) if state.next().is_some_and(|next| to.is_none_or(|to| next <= to)) => to,
+                Way::Frames(to)
+                    if state
+                        .next()
+                        .is_some_and(|next| to.is_none_or(|to| next <= to)) =>
+                {
+                    to
+                }
                 // Nothing will come, or another thread is about to act.
                 _ if self.is_out_of_patience() => {
                     if let Some(until) = wait.until {
@@ -131,7 +140,8 @@ impl<'w> Pass<'w> {
                 self.rest(py)?;
                 continue;
             };
-            if to < state.now() || (to == state.now() && state.next().is_none_or(|next| next > to)) {
+            if to < state.now() || (to == state.now() && state.next().is_none_or(|next| next > to))
+            {
                 drop(state);
                 self.rest(py)?;
                 continue;
@@ -146,7 +156,8 @@ impl<'w> Pass<'w> {
         let id = thread::current().id();
         let mut limit = own.until;
         let mut state = self.wire.lock();
-        let (mut outside, mut knows, mut wanted, mut daemon) = (Vec::new(), true, own.port.is_none(), false);
+        let (mut outside, mut knows, mut wanted, mut daemon) =
+            (Vec::new(), true, own.port.is_none(), false);
         for party in &state.parties {
             match party.wait {
                 _ if party.id == id => daemon = party.daemon,
@@ -200,7 +211,7 @@ impl<'w> Pass<'w> {
             call(py, self.wire, task, place)?;
         }
         self.steps += 1;
-        if self.steps % STEPS == 0 {
+        if self.steps.is_multiple_of(STEPS) {
             py.check_signals()?;
             py.detach(|| ());
         }
@@ -211,8 +222,7 @@ impl<'w> Pass<'w> {
     fn advance(&mut self, py: Python<'_>, to: Instant) -> PyResult<()> {
         loop {
             let state = self.wire.lock();
-            let follows = state.real.is_some();
-            if self.step(py, state, to)? == Step::Reached || follows && self.steps % STEPS == 0 {
+            if self.step(py, state, to)? == Step::Reached {
                 return Ok(());
             }
         }
@@ -230,7 +240,8 @@ impl<'w> Pass<'w> {
     }
 
     fn is_out_of_patience(&self) -> bool {
-        self.patience.is_some_and(|most| self.began.elapsed() >= most)
+        self.patience
+            .is_some_and(|most| self.began.elapsed() >= most)
     }
 
     /// Lets the others run: the longer it takes, the longer the rest.
@@ -243,7 +254,10 @@ impl<'w> Pass<'w> {
 
     fn sleep(&mut self, py: Python<'_>, time: Duration) -> PyResult<()> {
         let time = match self.patience {
-            Some(most) => time.min(most.saturating_sub(self.began.elapsed()).max(Duration::from_micros(50))),
+            Some(most) => time.min(
+                most.saturating_sub(self.began.elapsed())
+                    .max(Duration::from_micros(50)),
+            ),
             None => time,
         };
         py.detach(|| thread::park_timeout(time));
@@ -264,11 +278,18 @@ fn follow(state: &mut State) -> Option<Instant> {
     if state.follows.is_none() {
         let own = thread::current().id();
         let mut latest = None;
-        for party in state.parties.iter_mut().filter(|party| party.id != own && party.runs()) {
+        for party in state
+            .parties
+            .iter_mut()
+            .filter(|party| party.id != own && party.runs())
+        {
             latest = latest.max(Some(party.lets_time_follow()?));
         }
         let now = state.now();
-        state.parties.iter_mut().for_each(|party| party.leads = party.id != own && party.runs());
+        state
+            .parties
+            .iter_mut()
+            .for_each(|party| party.leads = party.id != own && party.runs());
         state.follows = Some((latest?, now));
     }
     let (clock, from) = state.follows?;
@@ -280,9 +301,16 @@ fn call(py: Python<'_>, wire: &Wire, task: u32, place: usize) -> PyResult<()> {
     let Some(maker) = wire.maker(py, task) else {
         return Ok(());
     };
-    let frame = maker.call1(py, (place,))?.extract::<crate::value::Parts>(py)?.frame()?;
+    let frame = maker
+        .call1(py, (place,))?
+        .extract::<crate::value::Parts>(py)?
+        .frame()?;
     let mut state = wire.lock();
-    let port = state.cyclics.iter().find(|one| one.id == task).map(|one| one.port);
+    let port = state
+        .cyclics
+        .iter()
+        .find(|one| one.id == task)
+        .map(|one| one.port);
     if let Some(port) = port {
         // A frame that the line does not take is lost, as that of a timer would be.
         drop(state.transmit(port, &frame));

@@ -36,7 +36,8 @@ pub(crate) struct Port {
 impl Port {
     fn wire(&self) -> Result<Arc<Wire>, Fault> {
         let wire = self.wire.lock().unwrap_or_else(PoisonError::into_inner);
-        wire.clone().ok_or_else(|| Fault::system("the bus is closed"))
+        wire.clone()
+            .ok_or_else(|| Fault::system("the bus is closed"))
     }
 }
 
@@ -95,41 +96,63 @@ impl Port {
 
     /// The next frame as the arguments of `can.Message`, or `None` when the time is over.
     #[pyo3(signature = (timeout=None))]
-    fn recv<'p>(&self, py: Python<'p>, timeout: Option<f64>) -> PyResult<Option<Bound<'p, PyTuple>>> {
+    fn recv<'p>(
+        &self,
+        py: Python<'p>,
+        timeout: Option<f64>,
+    ) -> PyResult<Option<Bound<'p, PyTuple>>> {
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
-        let heard = state.listener(self.id).and_then(|own| own.queue.pop_front());
+        let heard = state
+            .listener(self.id)
+            .and_then(|own| own.queue.pop_front());
         let now = state.now();
         drop(state);
         let mut heard = heard;
         if heard.is_none() {
-            let time = timeout.map(|seconds| micros(seconds.max(0.0), "the time-out")).transpose()?;
+            let time = timeout
+                .map(|seconds| micros(seconds.max(0.0), "the time-out"))
+                .transpose()?;
             let wait = Wait {
                 port: Some(self.id),
                 until: time.map(|micros| now.plus_micros(micros)),
             };
             let mut is_closed = false;
-            pass(py, &wire, wait, time.map(Duration::from_micros), &mut |state| {
-                match state.listener(self.id) {
-                    Some(own) => heard = own.queue.pop_front(),
-                    None => is_closed = true,
-                }
-                Ok(heard.is_some() || is_closed)
-            })?;
+            pass(
+                py,
+                &wire,
+                wait,
+                time.map(Duration::from_micros),
+                &mut |state| {
+                    match state.listener(self.id) {
+                        Some(own) => heard = own.queue.pop_front(),
+                        None => is_closed = true,
+                    }
+                    Ok(heard.is_some() || is_closed)
+                },
+            )?;
             if is_closed {
                 return Err(Fault::system("the bus was closed while it received").into());
             }
         }
-        heard.map(|heard| self.message(py, &wire, heard)).transpose()
+        heard
+            .map(|heard| self.message(py, &wire, heard))
+            .transpose()
     }
 
     /// Lets only frames through that pass one of the filters: CAN-ID, mask, extended.
-    fn set_filters(&self, py: Python<'_>, filters: Option<Vec<(u32, u32, Option<bool>)>>) -> PyResult<()> {
+    fn set_filters(
+        &self,
+        py: Python<'_>,
+        filters: Option<Vec<(u32, u32, Option<bool>)>>,
+    ) -> PyResult<()> {
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
         let filters = filters.map(|all| {
             let filters = all.into_iter();
-            filters.map(|(id, mask, extended)| Filter { id, mask, extended }).collect()
+            filters
+                .map(|(id, mask, extended)| Filter { id, mask, extended })
+                .collect()
         });
         if let Some(own) = state.listener(self.id) {
             own.filters = filters;
@@ -155,16 +178,23 @@ impl Port {
         duration: Option<f64>,
         maker: Option<Py<PyAny>>,
     ) -> PyResult<u32> {
-        let frames = frames.into_iter().map(Parts::frame).collect::<Result<Vec<Frame>, _>>()?;
+        let frames = frames
+            .into_iter()
+            .map(Parts::frame)
+            .collect::<Result<Vec<Frame>, _>>()?;
         let times = (
             micros(period, "the period")?,
-            duration.map(|time| micros(time, "the duration")).transpose()?,
+            duration
+                .map(|time| micros(time, "the duration"))
+                .transpose()?,
         );
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
         let id = state.number();
         let calls = maker.is_some();
-        state.cyclics.push(Cyclic::new(id, self.id, frames, times, calls));
+        state
+            .cyclics
+            .push(Cyclic::new(id, self.id, frames, times, calls));
         drop(state);
         wire.set_maker(py, id, maker)?;
         Ok(id)
@@ -176,17 +206,22 @@ impl Port {
         let mut state = wire.enter(py)?;
         let now = state.now();
         let own = state.cyclics.iter_mut().find(|one| one.id == id);
-        own.ok_or_else(|| Fault::value("the task has ended"))?.start(now);
+        own.ok_or_else(|| Fault::value("the task has ended"))?
+            .start(now);
         Ok(())
     }
 
     /// Gives a task other frames.
     fn change_task(&self, py: Python<'_>, id: u32, frames: Vec<Parts>) -> PyResult<()> {
-        let frames = frames.into_iter().map(Parts::frame).collect::<Result<Vec<Frame>, _>>()?;
+        let frames = frames
+            .into_iter()
+            .map(Parts::frame)
+            .collect::<Result<Vec<Frame>, _>>()?;
         let wire = self.wire()?;
         let mut state = wire.enter(py)?;
         let own = state.cyclics.iter_mut().find(|one| one.id == id);
-        own.ok_or_else(|| Fault::value("the task has ended"))?.frames = frames;
+        own.ok_or_else(|| Fault::value("the task has ended"))?
+            .frames = frames;
         Ok(())
     }
 
@@ -194,18 +229,24 @@ impl Port {
     fn stop_task(&self, py: Python<'_>, id: u32) -> PyResult<()> {
         if let Ok(wire) = self.wire() {
             let mut state = wire.enter(py)?;
-            state.cyclics.iter_mut().filter(|one| one.id == id).for_each(Cyclic::stop);
+            state
+                .cyclics
+                .iter_mut()
+                .filter(|one| one.id == id)
+                .for_each(Cyclic::stop);
         }
         Ok(())
     }
 
     /// Condition of the CAN controller of the programs: 0 error active, 1 error passive, 2 bus-off.
     fn condition(&self) -> PyResult<u8> {
-        Ok(match self.wire()?.lock().bus.line.controller(0).condition() {
-            Condition::BusOff => 2,
-            Condition::ErrorPassive => 1,
-            _ => 0,
-        })
+        Ok(
+            match self.wire()?.lock().bus.line.controller(0).condition() {
+                Condition::BusOff => 2,
+                Condition::ErrorPassive => 1,
+                _ => 0,
+            },
+        )
     }
 
     /// The bench of the wire.
@@ -215,14 +256,19 @@ impl Port {
 
     /// Leaves the wire; nothing happens the second time.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        let wire = self.wire.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let wire = self
+            .wire
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .take();
         let Some(wire) = wire else {
             return Ok(());
         };
         let mut state = wire.lock();
         state.changes += 1;
         state.listeners.retain(|one| one.id != self.id);
-        let (own, others): (Vec<_>, _) = state.cyclics.drain(..).partition(|one| one.port == self.id);
+        let (own, others): (Vec<_>, _) =
+            state.cyclics.drain(..).partition(|one| one.port == self.id);
         state.cyclics = others;
         let is_empty = state.listeners.is_empty();
         state.wake();
@@ -230,18 +276,31 @@ impl Port {
         if is_empty && wire.of_channel {
             registry::release(&wire);
         }
-        own.iter().try_for_each(|one| wire.set_maker(py, one.id, None))
+        own.iter()
+            .try_for_each(|one| wire.set_maker(py, one.id, None))
     }
 }
 
 impl Port {
-    fn message<'p>(&self, py: Python<'p>, wire: &Wire, heard: Heard) -> PyResult<Bound<'p, PyTuple>> {
+    fn message<'p>(
+        &self,
+        py: Python<'p>,
+        wire: &Wire,
+        heard: Heard,
+    ) -> PyResult<Bound<'p, PyTuple>> {
         let at = wire.seconds(heard.at);
         let (id, extended, remote, is_error, dlc, data) = match &heard.what {
             What::Frame(frame) => {
                 let id = frame.id();
                 let remote = frame.is_remote();
-                (id.raw(), id.is_extended(), remote, false, frame.dlc(), frame.data())
+                (
+                    id.raw(),
+                    id.is_extended(),
+                    remote,
+                    false,
+                    frame.dlc(),
+                    frame.data(),
+                )
             }
             What::Error => (PROTOCOL_ERROR, false, false, true, 8, &ERROR_DATA[..]),
         };
@@ -250,6 +309,9 @@ impl Port {
             false => PyByteArray::new(py, data),
         };
         let channel = self.channel.bind(py);
-        (at, id, extended, remote, is_error, channel, dlc, data, false, !heard.own, false, false).into_pyobject(py)
+        (
+            at, id, extended, remote, is_error, channel, dlc, data, false, !heard.own, false, false,
+        )
+            .into_pyobject(py)
     }
 }

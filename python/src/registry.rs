@@ -24,13 +24,18 @@ fn open_wires() -> MutexGuard<'static, Vec<Weak<Wire>>> {
 #[pyfunction]
 pub(crate) fn wires() -> Vec<String> {
     let open = open_wires();
-    open.iter().filter_map(Weak::upgrade).map(|wire| wire.name.clone()).collect()
+    open.iter()
+        .filter_map(Weak::upgrade)
+        .map(|wire| wire.name.clone())
+        .collect()
 }
 
 /// The wire with this name, if it is open.
 pub(crate) fn find(name: &str) -> Option<Arc<Wire>> {
     let open = open_wires();
-    open.iter().filter_map(Weak::upgrade).find(|wire| wire.name == name)
+    open.iter()
+        .filter_map(Weak::upgrade)
+        .find(|wire| wire.name == name)
 }
 
 /// Frees the name of a wire.
@@ -53,8 +58,14 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
     let name = name.unwrap_or(devices).trim();
     if let Some(wire) = find(name) {
         if real.is_some_and(|real| real != wire.lock().real.is_some()) {
-            let other = if real == Some(true) { "virtual" } else { "real" };
-            let why = format!("the wire `{name}` is open in {other} time; open all its buses with the same `time`");
+            let other = if real == Some(true) {
+                "virtual"
+            } else {
+                "real"
+            };
+            let why = format!(
+                "the wire `{name}` is open in {other} time; open all its buses with the same `time`"
+            );
             return Err(Fault::Value(why).into());
         }
         return Ok(wire);
@@ -70,7 +81,13 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
 }
 
 /// Makes a wire known by its name.
-pub(crate) fn add(py: Python<'_>, name: String, mut state: State, real: bool, of_channel: bool) -> Arc<Wire> {
+pub(crate) fn add(
+    py: Python<'_>,
+    name: String,
+    mut state: State,
+    real: bool,
+    of_channel: bool,
+) -> Arc<Wire> {
     let mut epoch = 0.0;
     if real {
         state.real = Some(Clock::now());
@@ -93,6 +110,8 @@ pub(crate) fn is_real(time: Option<&str>) -> Result<Option<bool>, Fault> {
         None => Ok(None),
         Some("virtual") => Ok(Some(false)),
         Some("real") => Ok(Some(true)),
-        Some(other) => Err(Fault::value(format!("time `{other}` is not known; write `virtual` or `real`"))),
+        Some(other) => Err(Fault::value(format!(
+            "time `{other}` is not known; write `virtual` or `real`"
+        ))),
     }
 }

@@ -44,7 +44,8 @@ impl Snapshot {
 }
 
 fn copy(bus: &Bus) -> Result<Bus, Fault> {
-    bus.copy().ok_or_else(|| Fault::value("a device of the bench cannot be copied"))
+    bus.copy()
+        .ok_or_else(|| Fault::value("a device of the bench cannot be copied"))
 }
 
 #[pymethods]

@@ -34,7 +34,9 @@ pub(crate) fn split(channel: &str) -> (Option<&str>, &str) {
 
 /// Whether this can be the name of a wire that has no devices in its name.
 pub(crate) fn is_list(devices: &str) -> bool {
-    devices.contains(['@', ',', '+']) || od_devices::find(devices.trim()).is_some() || fs::metadata(devices.trim()).is_ok()
+    devices.contains(['@', ',', '+'])
+        || od_devices::find(devices.trim()).is_some()
+        || fs::metadata(devices.trim()).is_ok()
 }
 
 /// Puts the devices of a list on a bus, and adds their names to `names`. They have no power yet.
@@ -43,7 +45,11 @@ pub(crate) fn is_list(devices: &str) -> bool {
 /// A device that does not exist, a file that cannot be read, a node ID that is not valid.
 pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<Vec<usize>, Fault> {
     let mut added = Vec::new();
-    for word in list.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+    for word in list
+        .split(',')
+        .map(str::trim)
+        .filter(|word| !word.is_empty())
+    {
         let (name, node) = match word.rsplit_once('@') {
             Some((name, node)) => (name, Some(node_id(word, node)?)),
             None => (word, None),
@@ -54,7 +60,9 @@ pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<
             let number = |id: NodeId| NodeId::new(id.raw().checked_add(channel)?);
             let wanted = match node {
                 Some(id) => Some(number(id).ok_or_else(|| {
-                    Fault::value(format!("`{word}` needs two node IDs, and the second is 128"))
+                    Fault::value(format!(
+                        "`{word}` needs two node IDs, and the second is 128"
+                    ))
                 })?),
                 None => None,
             };
@@ -74,7 +82,9 @@ pub(crate) fn add(bus: &mut Bus, names: &mut Vec<String>, list: &str) -> Result<
 fn node_id(word: &str, node: &str) -> Result<NodeId, Fault> {
     let id = node.trim().parse().ok().and_then(NodeId::new);
     id.ok_or_else(|| {
-        Fault::value(format!("`{word}`: `{node}` is not a node ID; write 1 to 127"))
+        Fault::value(format!(
+            "`{word}`: `{node}` is not a node ID; write 1 to 127"
+        ))
     })
 }
 
@@ -88,7 +98,8 @@ fn free_name(names: &[String], base: &str, channel: u8) -> String {
         _ => format!("{base}-{number}"),
     };
     let mut all = (1..=names.len() + 1).map(numbered);
-    all.find(|name| !names.contains(name)).unwrap_or_else(|| base.to_owned())
+    all.find(|name| !names.contains(name))
+        .unwrap_or_else(|| base.to_owned())
 }
 
 /// Where devices come from.
@@ -115,7 +126,11 @@ impl Made {
 
     /// The device with a node ID, with its own if that is free, or else with the next free one.
     fn device(&self, bus: &Bus, wanted: Option<NodeId>) -> Result<VirtualDevice, Fault> {
-        let used: Vec<u8> = bus.devices().iter().map(|one| one.node_id().raw()).collect();
+        let used: Vec<u8> = bus
+            .devices()
+            .iter()
+            .map(|one| one.node_id().raw())
+            .collect();
         let mut device = self.make(wanted)?;
         if wanted.is_none() && used.contains(&device.node_id().raw()) {
             let last = used.last().copied().unwrap_or(0);
@@ -128,9 +143,14 @@ impl Made {
         // Devices of one LSS address could not be told apart.
         let own = device.lss_address();
         let others = bus.devices().iter().map(VirtualDevice::lss_address);
-        let alike: Vec<u32> = others.filter(|one| one[..3] == own[..3]).map(|one| one[3]).collect();
+        let alike: Vec<u32> = others
+            .filter(|one| one[..3] == own[..3])
+            .map(|one| one[3])
+            .collect();
         Ok(match alike.iter().max() {
-            Some(last) if alike.contains(&own[3]) => device.with_serial_number(last.wrapping_add(1)),
+            Some(last) if alike.contains(&own[3]) => {
+                device.with_serial_number(last.wrapping_add(1))
+            }
             _ => device,
         })
     }
@@ -164,7 +184,10 @@ pub(crate) fn text(name: &str) -> Result<String, Fault> {
             };
             let made = od_eds::overlay(&base, &text(over)?);
             made.map(|made| made.text).map_err(|faults| {
-                let faults: Vec<_> = faults.iter().map(|(line, why)| format!("line {line}: {why}")).collect();
+                let faults: Vec<_> = faults
+                    .iter()
+                    .map(|(line, why)| format!("line {line}: {why}"))
+                    .collect();
                 Fault::value(format!("{over}: {}", faults.join("; ")))
             })
         }
@@ -186,7 +209,9 @@ fn errors(findings: &[Finding]) -> String {
         .iter()
         .take(SHOWN)
         .map(|finding| {
-            let line = finding.span().map_or(String::new(), |span| format!("line {}: ", span.line));
+            let line = finding
+                .span()
+                .map_or(String::new(), |span| format!("line {}: ", span.line));
             format!("{line}{} {}", finding.code(), say(finding, &Eds).message)
         })
         .collect();

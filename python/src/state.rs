@@ -114,7 +114,10 @@ impl State {
             return Step::Moved;
         }
         let now = self.now();
-        let Some(at) = self.cyclics.iter().position(|one| one.due().is_some_and(|due| due <= now))
+        let Some(at) = self
+            .cyclics
+            .iter()
+            .position(|one| one.due().is_some_and(|due| due <= now))
         else {
             return Step::Reached;
         };
@@ -278,7 +281,10 @@ impl State {
             }
         }
         let own = thread::current().id();
-        let others = self.parties.iter().filter(|party| party.id != own && party.wait.is_none());
+        let others = self
+            .parties
+            .iter()
+            .filter(|party| party.id != own && party.wait.is_none());
         let mut known = Known::WaitForEver;
         for party in others {
             known = match (party.outside, known) {
@@ -295,6 +301,8 @@ impl State {
     /// The moment that the clock shows, on a wire in real time.
     pub(crate) fn clock(&self) -> Option<Instant> {
         let micros = self.real?.elapsed().as_micros();
-        Some(Instant::from_micros(u64::try_from(micros).unwrap_or(u64::MAX)))
+        Some(Instant::from_micros(
+            u64::try_from(micros).unwrap_or(u64::MAX),
+        ))
     }
 }

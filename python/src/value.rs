@@ -23,7 +23,9 @@ impl Parts {
         let most = if extended { 0x1FFF_FFFF } else { 0x7FF };
         if id > most {
             let bits = if extended { 29 } else { 11 };
-            return Err(Fault::value(format!("CAN-ID {id:X}h has more than {bits} bits")));
+            return Err(Fault::value(format!(
+                "CAN-ID {id:X}h has more than {bits} bits"
+            )));
         }
         if remote {
             data = vec![0; length];
@@ -43,7 +45,12 @@ pub(crate) fn to_python<'p>(
     if data_type.size().is_some_and(|size| size != bytes.len()) {
         return PyBytes::new(py, bytes).into_bound_py_any(py);
     }
-    let number = || bytes.iter().rev().fold(0_u64, |value, byte| value << 8 | u64::from(*byte));
+    let number = || {
+        bytes
+            .iter()
+            .rev()
+            .fold(0_u64, |value, byte| value << 8 | u64::from(*byte))
+    };
     match data_type.kind() {
         Kind::Boolean => (bytes != [0]).into_bound_py_any(py),
         Kind::Unsigned => number().into_bound_py_any(py),

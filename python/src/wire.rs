@@ -56,7 +56,12 @@ impl Wire {
     }
 
     /// Lets Python make the frames of a task; `None` ends that.
-    pub(crate) fn set_maker(&self, py: Python<'_>, task: u32, maker: Option<Py<PyAny>>) -> PyResult<()> {
+    pub(crate) fn set_maker(
+        &self,
+        py: Python<'_>,
+        task: u32,
+        maker: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
         let makers = self.makers.bind(py);
         match maker {
             Some(maker) => makers.set_item(task, maker),
@@ -102,6 +107,8 @@ pub(crate) fn micros(seconds: f64, what: &str) -> Result<u64, Fault> {
     match seconds {
         // What is too long becomes the longest; 2^63 µs are 292,000 years.
         _ if seconds >= 0.0 => Ok((seconds * 1e6).round().min(9e18) as u64),
-        _ => Err(Fault::value(format!("{what} is {seconds}; it must be 0 s or more"))),
+        _ => Err(Fault::value(format!(
+            "{what} is {seconds}; it must be 0 s or more"
+        ))),
     }
 }

@@ -17,8 +17,13 @@ pub(crate) const PEER: &str = "od-benches-zencan";
 /// What is fuzzed, for the tests from outside and for libFuzzer.
 pub(crate) const FUZZ: &str = "od-fuzz";
 
-/// Packages that are not for crates.io; the playground is for npm.
-pub(crate) const UNPUBLISHED: [&str; 7] = [BENCHES, PEER, PAGE.0, TESTS, COMPILE, FUZZ, "xtask"];
+/// The Python module.
+const PYTHON: &str = "odkit-python";
+
+/// Packages that are not for crates.io; the playground is for npm, the Python module for PyPI.
+#[rustfmt::skip]
+pub(crate) const UNPUBLISHED: [&str; 8] =
+    [BENCHES, PEER, PAGE.0, PYTHON, TESTS, COMPILE, FUZZ, "xtask"];
 
 /// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
 /// tests from outside that have to notice them, beside the package's own.

@@ -31,6 +31,19 @@ impl Counts {
                     sum.add(&words, 1, ["pass", "fail", "skipped"]);
                     sum.add(&words, 1, ["", "cancelled", "todo"]);
                 }
+                // pytest: `1 failed, 46 passed in 7.77s`.
+                [
+                    number,
+                    "passed" | "failed" | "error" | "errors" | "skipped",
+                    ..,
+                    "in",
+                    _,
+                    _,
+                ] if number.parse::<u64>().is_ok() => {
+                    sum.add(&words, -1, ["passed", "failed", "skipped"]);
+                    sum.add(&words, -1, ["", "error", ""]);
+                    sum.add(&words, -1, ["", "errors", ""]);
+                }
                 ["Ran", number, "test" | "tests", ..] => ran = number.parse().unwrap_or(0),
                 ["OK", ..] | ["FAILED", ..] if ran > 0 => {
                     let mut counts = Counts::default();
@@ -128,6 +141,8 @@ mod tests {
         check(tap, 3, 1, 1);
         check("ℹ tests 2\nℹ pass 1\nℹ fail 0\nℹ cancelled 1\n", 1, 1, 0);
         check("Ran 12 tests in 3.4s\n\nOK (skipped=2)\n", 10, 0, 2);
+        check("====== 46 passed in 7.77s ======\n", 46, 0, 0);
+        check("1 failed, 3 passed, 2 skipped, 1 error in 0.50s\n", 3, 2, 2);
         let python = "FAILED (failures=1, errors=2, skipped=3)\n";
         check(&format!("Ran 9 tests in 3.4s\n\n{python}"), 3, 3, 3);
         let all = "test result: ok. 1 passed; 0 failed\n# pass 2\nRan 3 tests in 1s\nOK\n";

@@ -3,6 +3,7 @@
 mod boards;
 mod c;
 mod page;
+mod python;
 mod release;
 mod rust;
 
@@ -81,6 +82,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
     stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Page),
     stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
+    stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
