@@ -83,8 +83,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         && let Ok((_, bytes)) = &one.result
     {
         output::write(path, bytes)?;
-        let count = crate::report::plural(bytes.len(), "byte");
-        return output::print(&format!("{}: {count} written", path.display()));
+        return output::print(&match args.bus.format {
+            Format::Text => {
+                let count = crate::report::plural(bytes.len(), "byte");
+                format!("{}: {count} written", path.display())
+            }
+            Format::Json => {
+                let file = path.display().to_string();
+                format!(
+                    "{:#}",
+                    serde_json::json!({ "file": file, "bytes": bytes.len() })
+                )
+            }
+        });
     }
     output::print(&match args.bus.format {
         Format::Text => value::lines(&shown),

@@ -102,10 +102,15 @@ impl Recorder {
     }
 
     /// Whatever is left goes out; says what was written.
-    pub(crate) fn finish(mut self) -> Result<String, Failure> {
+    pub(crate) fn finish(self) -> Result<String, Failure> {
+        let (name, count) = (self.name.clone(), self.count);
+        self.flush()?;
+        Ok(format!("{name}: {}", plural(count, "frame")))
+    }
+
+    fn flush(mut self) -> Result<(), Failure> {
         let flushed = self.file.flush();
-        flushed.map_err(|error| Failure::Failed(format!("{}: {error}", self.name)))?;
-        Ok(format!("{}: {}", self.name, plural(self.count, "frame")))
+        flushed.map_err(|error| Failure::Failed(format!("{}: {error}", self.name)))
     }
 }
 
@@ -135,7 +140,9 @@ pub(crate) fn record(args: &Args) -> Result<(), Failure> {
         }
     };
     drop(bus);
-    output::print(&recorder.finish()?)?;
+    let count = recorder.count;
+    recorder.flush()?;
+    said(&args.bus, &args.file, count, "recorded")?;
     result
 }
 
@@ -155,5 +162,18 @@ pub(crate) fn replay(args: &Replay) -> Result<(), Failure> {
     let mut bus = args.bus.open()?;
     let sent = replay::replay(&mut bus, &frames, args.speed)?;
     drop(bus);
-    output::print(&format!("{shown}: {} sent", plural(sent, "frame")))
+    said(&args.bus, &args.file, sent, "sent")
+}
+
+fn said(args: &bus::Args, file: &Path, count: usize, done: &str) -> Result<(), Failure> {
+    let file = file.display();
+    output::print(&match args.format {
+        bus::Format::Text => format!("{file}: {} {done}", plural(count, "frame")),
+        bus::Format::Json => {
+            format!(
+                "{:#}",
+                serde_json::json!({ "file": file.to_string(), "frames": count })
+            )
+        }
+    })
 }

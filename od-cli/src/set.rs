@@ -87,7 +87,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     drop(master);
     bar.clear();
-    if args.file.is_some() && shown.iter().all(|one| one.result.is_ok()) {
+    if args.file.is_some()
+        && args.bus.format == Format::Text
+        && shown.iter().all(|one| one.result.is_ok())
+    {
         return output::print(&format!("{} written", crate::report::plural(total, "byte")));
     }
     output::print(&match args.bus.format {

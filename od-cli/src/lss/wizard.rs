@@ -1,8 +1,12 @@
 //! The wizard: new encoders, one after the other.
 
 use std::collections::BTreeSet;
-use std::io::{self, BufRead, IsTerminal};
+use std::io::{self, IsTerminal};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
 
+use od_bus::fault::Fault;
 use od_bus::lss::Lss;
 use od_bus::scan::{self, Options};
 use od_client::lss::Identity;
@@ -42,6 +46,7 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
             "no LSS slave without a node ID is on the bus; check power and bit rate".into(),
         ));
     }
+    let answers = answers();
     let mut set_up = Vec::new();
     for (at, slave) in (1..).zip(&slaves) {
         tell("");
@@ -55,7 +60,7 @@ pub(super) fn run(args: &bus::Args, first: NodeId, yes: bool, store: bool) -> Re
         };
         let reply = match yes {
             true => Reply::Take(proposed),
-            false => ask(proposed, &used)?,
+            false => ask(&answers, proposed, &used)?,
         };
         let node = match reply {
             Reply::Take(node) => node,
@@ -81,18 +86,48 @@ fn free(first: NodeId, used: &BTreeSet<NodeId>) -> Option<NodeId> {
         .find(|node| !used.contains(node))
 }
 
-fn ask(proposed: NodeId, used: &BTreeSet<NodeId>) -> Result<Reply, Failure> {
-    let mut input = io::stdin().lock();
+/// The lines of standard input, read by a thread: Ctrl-C does not end a read.
+fn answers() -> Receiver<String> {
+    let (send, answers) = channel();
+    std::thread::spawn(move || {
+        let lines = io::stdin().lines().map_while(Result::ok);
+        // Nobody takes them when the wizard is done.
+        let _ = lines.map(|line| send.send(line)).all(|sent| sent.is_ok());
+    });
+    answers
+}
+
+/// The next line; `None`: there is none.
+fn answer(answers: &Receiver<String>) -> Result<Option<String>, Failure> {
+    let stop = bus::stop()?;
+    loop {
+        match answers.recv_timeout(Duration::from_millis(50)) {
+            Ok(line) => return Ok(Some(line)),
+            Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            Err(RecvTimeoutError::Timeout) if stop.load(Ordering::Relaxed) => {
+                return Err(Failure::from(Fault::Interrupted));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+    }
+}
+
+fn ask(
+    answers: &Receiver<String>,
+    proposed: NodeId,
+    used: &BTreeSet<NodeId>,
+) -> Result<Reply, Failure> {
     loop {
         let question = format!("node ID [{}], `s` to skip, `q` to stop: ", proposed.raw());
         output::note_text(&question);
-        let mut line = String::new();
-        let read = input.read_line(&mut line)?;
+        let line = answer(answers)?;
         if !io::stdin().is_terminal() {
             output::note_text("\n");
         }
+        let Some(line) = line else {
+            return Ok(Reply::Quit);
+        };
         match line.trim() {
-            _ if read == 0 => return Ok(Reply::Quit),
             "" => return Ok(Reply::Take(proposed)),
             "s" => return Ok(Reply::Skip),
             "q" => return Ok(Reply::Quit),

@@ -94,7 +94,7 @@ impl Stats {
         bits as f64 / (f64::from(kbit.max(1)) * 1e3) * 100.0
     }
 
-    /// A line for each COB-ID, under a head.
+    /// A line for each COB-ID, under a head: frames per second, jitter in ms.
     pub(super) fn table(&self) -> Vec<String> {
         self.filtered(&Filter::default())
     }
@@ -102,8 +102,8 @@ impl Stats {
     /// As [`table`](Self::table), of the COB-IDs whose last frame passes.
     pub(super) fn filtered(&self, filter: &Filter) -> Vec<String> {
         let mut lines = vec![format!(
-            "{:>8}  {:>7}  {:>8}  {:>8}  {:>8}  {:<23}  last frame",
-            "COB-ID", "frames", "per s", "ms", "jitter", "data"
+            "{:>8} {:>7} {:>7} {:>7}  {:<16}  last frame",
+            "COB-ID", "frames", "per s", "jitter", "data"
         )];
         let rows = self.rows.values().filter(|row| {
             filter.passes(&Seen {
@@ -120,13 +120,12 @@ impl Stats {
                 .filter(|period| *period > 0.0)
                 .map(|period| 1e3 / period);
             format!(
-                "{:>8}  {:>7}  {:>8}  {:>8}  {:>8}  {:<23}  {}",
+                "{:>8} {:>7} {:>7} {:>7}  {:<16}  {}",
                 row.frame.id().to_string(),
                 row.count,
                 number(rate),
-                number(row.period()),
                 number(row.jitter()),
-                values::hex(row.frame.data()),
+                values::hex(row.frame.data()).replace(' ', ""),
                 row.words
             )
         }));
