@@ -278,7 +278,7 @@ impl Server {
         let seen = file.seen(&*self.host);
         let diagnostics = match file.kind {
             Kind::Rust => check::of(file, &|path| self.find(path)),
-            Kind::Eds | Kind::Xdd | Kind::Overlay => diagnostics::of(file, &seen.findings),
+            Kind::Eds | Kind::Xdd | Kind::Overlay => diagnostics::of(file, seen),
         };
         let params = PublishDiagnostics {
             uri: &file.uri,

@@ -28,6 +28,15 @@ pub(crate) fn name(description: &Description, address: Address) -> Option<&str> 
     (!name.is_empty()).then_some(name.value.as_str())
 }
 
+/// An object with its name: `2001h "Gain"`.
+pub(crate) fn object(description: &Description, at: Address) -> String {
+    let shown = address(description, at);
+    match name(description, at) {
+        Some(name) => format!("{shown} {name:?}"),
+        None => shown,
+    }
+}
+
 /// A mapping entry: `2000h:00, 16 bits`.
 pub(crate) fn mapping(mapped: Mapped) -> String {
     let bits = if mapped.bits == 1 { "bit" } else { "bits" };

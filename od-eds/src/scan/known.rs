@@ -26,9 +26,9 @@ pub enum Form {
 
 /// A section with its keys; a `#` in a name is a number.
 pub struct Known {
-    /// Its name.
+    /// Name.
     pub name: &'static str,
-    /// Its keys and the forms of their values.
+    /// Keys and the forms of their values.
     pub keys: &'static [(&'static str, Form)],
 }
 
@@ -204,13 +204,10 @@ pub fn key(known: &Known, key: &str) -> Option<(&'static str, Form)> {
 
 /// Other sections that have a meaning: those of objects of modules and of links.
 pub(crate) fn is_of_objects(name: &str) -> bool {
-    if let Some((index, rest)) = name.split_at_checked(4) {
-        let links = rest.eq_ignore_ascii_case("ObjectLinks");
-        if links && matches!(place(index), Place::Object(_)) {
-            return true;
-        }
-    }
-    module_part(name).is_some()
+    let links = name.split_at_checked(4).is_some_and(|(index, rest)| {
+        rest.eq_ignore_ascii_case("ObjectLinks") && matches!(place(index), Place::Object(_))
+    });
+    links || module_part(name).is_some()
 }
 
 /// The subject of a section `[M1Fixed2000]`, `[M1Fixed2000sub1]` or `[M1SubExt6000]`.

@@ -41,7 +41,7 @@ pub(crate) fn of(
             lines.contains(&file.text.line_at(start))
         });
         let here: Vec<&Finding> = here.collect();
-        actions.extend(here.iter().filter_map(|finding| fixed(file, finding)));
+        actions.extend(here.iter().filter_map(|finding| fixed(file, seen, finding)));
         actions.extend(
             here.iter()
                 .filter_map(|finding| allowed(file, seen, finding)),
@@ -87,7 +87,7 @@ pub(crate) fn fix_all(file: &File, host: &dyn Host) -> WorkspaceEdit {
 }
 
 /// The fix of a finding.
-fn fixed(file: &File, finding: &Finding) -> Option<CodeAction> {
+fn fixed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     let fix = finding.fix.as_ref()?;
     let edits = fix
         .text_edits(file.str())?
@@ -96,7 +96,7 @@ fn fixed(file: &File, finding: &Finding) -> Option<CodeAction> {
             range: file.text.range(edit.start as usize..edit.end as usize),
             new_text: edit.text,
         });
-    let diagnostic = diagnostics::one(file, finding);
+    let diagnostic = diagnostics::one(file, &seen.description, finding);
     let is_safe = fix.applicability == Applicability::Safe;
     let help = od_eds::say(finding, &od_eds::Eds).help;
     let how = match is_safe {
@@ -141,7 +141,7 @@ fn allowed(file: &File, seen: &Seen, finding: &Finding) -> Option<CodeAction> {
     Some(CodeAction {
         title: format!("Allow {code} in [{name}]; replace `reason`"),
         kind: QUICK_FIX,
-        diagnostics: vec![diagnostics::one(file, finding)],
+        diagnostics: vec![diagnostics::one(file, &seen.description, finding)],
         is_preferred: false,
         edit: Some(WorkspaceEdit::of(&file.uri, vec![edit])),
         data: None,

@@ -1,18 +1,22 @@
 //! Findings as diagnostics of the protocol.
 
-use od_eds::{Eds, Finding, Severity, say};
+use od_eds::{Description, Eds, Finding, Severity, say};
 
-use crate::file::File;
+use crate::file::{File, Seen};
 use crate::layout::bytes;
 use crate::types::{Diagnostic, Location, Range, RelatedInformation};
+use crate::words;
 
 /// The findings of a text.
-pub(crate) fn of(file: &File, findings: &[Finding]) -> Vec<Diagnostic> {
-    findings.iter().map(|finding| one(file, finding)).collect()
+pub(crate) fn of(file: &File, seen: &Seen) -> Vec<Diagnostic> {
+    let findings = seen.findings.iter();
+    findings
+        .map(|finding| one(file, &seen.description, finding))
+        .collect()
 }
 
 /// One finding; without a place it is at the start of the text.
-pub(crate) fn one(file: &File, finding: &Finding) -> Diagnostic {
+pub(crate) fn one(file: &File, description: &Description, finding: &Finding) -> Diagnostic {
     let said = say(finding, &Eds);
     let place = |span| file.text.range(bytes(span));
     let related = said.labels.iter().map(|label| RelatedInformation {
@@ -22,9 +26,12 @@ pub(crate) fn one(file: &File, finding: &Finding) -> Diagnostic {
         },
         message: label.text.clone(),
     });
-    let mut message = match said.address {
-        Some(address) => format!("object {address}: {}", said.message),
-        None => said.message.clone(),
+    let about = said
+        .address
+        .map(|address| words::object(description, address));
+    let mut message = match about {
+        Some(about) => format!("{about}: {}", said.message),
+        None => said.message,
     };
     if !said.help.is_empty() {
         message.push_str("\nhelp: ");

@@ -1,6 +1,6 @@
 //! Objects of CiA 402: drives and motion control.
 
-use super::Row;
+use crate::standard::row::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! Objects of CiA 406: encoders.
 
-use super::Row;
+use crate::standard::row::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

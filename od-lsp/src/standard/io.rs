@@ -1,6 +1,6 @@
 //! Objects of CiA 401: input and output modules.
 
-use super::Row;
+use crate::standard::row::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

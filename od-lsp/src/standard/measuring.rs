@@ -1,6 +1,6 @@
 //! Objects of CiA 404: measuring devices and closed-loop controllers.
 
-use super::Row;
+use crate::standard::row::Row;
 
 /// By ascending index.
 #[rustfmt::skip]

@@ -4,13 +4,13 @@ use od_eds::Description;
 use od_eds::outline::specified;
 use od_model::Address;
 
+use crate::standard::row::Row;
+
 mod drive;
 mod encoder;
 mod io;
 mod measuring;
-
-/// An index, or the first and last one of a range, and the name of the objects there.
-type Row = (u16, u16, &'static str);
+mod row;
 
 /// Number of the device profile in 1000h; `None` if there is none.
 pub(crate) fn profile(description: &Description) -> Option<u16> {

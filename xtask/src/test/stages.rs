@@ -2,6 +2,7 @@
 
 mod boards;
 mod c;
+mod editor;
 mod page;
 mod python;
 mod release;
@@ -96,6 +97,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards),
+    stage("editor", Check, "with --long: a session in Neovim, the extension, hooks and action", editor::editor),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench),

@@ -36,6 +36,9 @@ pub(crate) struct Client {
     pub(crate) others: Vec<Value>,
 }
 
+/// A small device.
+pub(crate) const TEXT: &str = include_str!("device.eds");
+
 pub(crate) const URI: &str = "file:///w/a.eds";
 
 impl Client {
@@ -197,4 +200,23 @@ pub(crate) fn edited(text: &str, edits: &Value) -> String {
         out.replace_range(start..end, &new);
     }
     out
+}
+
+/// The labels of a list.
+pub(crate) fn labels(found: &Value) -> Vec<&str> {
+    let items = found.get("items").unwrap_or(found).as_array().unwrap();
+    items
+        .iter()
+        .map(|item| item["label"].as_str().unwrap())
+        .collect()
+}
+
+/// The text that a range covers.
+pub(crate) fn covered<'t>(text: &'t str, range: &Value) -> &'t str {
+    let line = text
+        .lines()
+        .nth(range["start"]["line"].as_u64().unwrap() as usize)
+        .unwrap();
+    let at = |place: &Value| place["character"].as_u64().unwrap() as usize;
+    &line[at(&range["start"])..at(&range["end"])]
 }

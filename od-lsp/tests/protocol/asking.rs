@@ -1,0 +1,171 @@
+//! Hover, completion, jumps, outline and hints.
+
+use serde_json::{Value, json};
+
+use crate::support::{Client, TEXT, URI, covered, edited, labels, place};
+
+#[test]
+fn a_hover_says_what_is_there() {
+    let mut client = Client::with(TEXT);
+    for (mark, expected) in [
+        (
+            "[1000|]",
+            &["1000h", "device type (CiA 301)", "device profile CiA 406"][..],
+        ),
+        ("[60|04]", &["Position value (CiA 406)", "UNSIGNED32, ro"]),
+        ("0x6004002|0", &["maps 6004h:00, 32 bits", "Position value"]),
+        ("$NODEID+|0x180", &["COB-ID 180h + node ID"]),
+        ("DataTyp|e=0x0007", &["the index of its definition"]),
+        ("DataType=0x00|07", &["UNSIGNED32, 0 to 4294967295"]),
+        (
+            "ObjectType=0x|9",
+            &["RECORD: sub-objects of different types"],
+        ),
+        ("AccessType=c|onst", &["never changes"]),
+        ("[FileInf|o]", &["its name, version"]),
+        ("1=0x10|00", &["device type"]),
+        ("LowLimi|t", &["Smallest valid value"]),
+    ] {
+        let found = client.at("textDocument/hover", TEXT, mark);
+        let said = found["contents"]["value"]
+            .as_str()
+            .unwrap_or_else(|| panic!("{mark}"));
+        for expected in expected {
+            assert!(said.contains(expected), "{mark}: {said}");
+        }
+        assert!(found["range"]["start"].is_object(), "{mark}");
+    }
+    assert_eq!(
+        client.at("textDocument/hover", TEXT, "|\n[FileInfo]"),
+        Value::Null
+    );
+    let text = "[2000]\nParameterName=a\nDataType=5\nDefaultValue=300\n";
+    client.change(URI, json!({ "text": text }));
+    let found = client.at("textDocument/hover", text, "=3|00");
+    let said = found["contents"]["value"].as_str().unwrap();
+    assert!(
+        said.contains("**E0412**") && said.contains("Source: CiA"),
+        "{said}"
+    );
+}
+
+#[test]
+fn completion_offers_what_is_missing() {
+    let mut client = Client::with(TEXT);
+    let found = client.at("textDocument/completion", TEXT, "DataType=|0x0007");
+    assert!(labels(&found).contains(&"0x001B"));
+    let type_edit = &found["items"][0]["textEdit"];
+    assert_eq!(covered(TEXT, &type_edit["range"]), "0x0007");
+    let found = client.at("textDocument/completion", TEXT, "AccessType=|const");
+    assert_eq!(labels(&found), ["ro", "wo", "rw", "rwr", "rww", "const"]);
+    let found = client.at("textDocument/completion", TEXT, "DefaultValue=|0x60040020");
+    assert_eq!(labels(&found), ["0x60000010", "0x60040020"]);
+    // Mandatory objects first, with their keys.
+    let text = "[1000]\nParameterName=a\n\n[";
+    client.change(URI, json!({ "text": text }));
+    let found = client.at("textDocument/completion", text, "\n[|");
+    assert_eq!(&labels(&found)[..2], ["1001", "1018"]);
+    let identity = edited(text, &json!([found["items"][1]["textEdit"]]));
+    let parsed = od_eds::parse(&identity);
+    assert_eq!(
+        parsed.description.objects[&0x1018].entries.len(),
+        2,
+        "{identity}"
+    );
+    assert!(labels(&found).contains(&"FileInfo") && labels(&found).contains(&"1017"));
+    let text = "[1000]\nParameterName=a\nDataType=7\nAc";
+    client.change(URI, json!({ "text": text }));
+    let found = client.at("textDocument/completion", text, "\nAc|");
+    let keys = labels(&found);
+    assert!(
+        keys.contains(&"AccessType")
+            && !keys.contains(&"DataType")
+            && !keys.contains(&"ParameterValue")
+    );
+    let text = "[OptionalObjects]\nSupportedObjects=1\n1=0x6000\n2=\n[6000]\nParameterName=a\n[6001]\nParameterName=b\n";
+    client.change(URI, json!({ "text": text }));
+    let found = client.at("textDocument/completion", text, "2=|");
+    assert_eq!(labels(&found), ["0x6001"]);
+    let found = client.at("textDocument/completion", text, "|2=");
+    assert!(labels(&found).contains(&"2"));
+}
+
+#[test]
+fn jumps_between_objects_lists_mappings_and_cob_ids() {
+    let mut client = Client::with(TEXT);
+    let covered = |found: &Value| -> Vec<String> {
+        let found = found.as_array().unwrap().iter();
+        found
+            .map(|one| covered(TEXT, &one["range"]).to_owned())
+            .collect()
+    };
+    for (mark, expected) in [
+        ("1=0x10|00", "[1000]"),
+        ("0x60040|020", "[6004]"),
+        ("[1018su|b1]", "[1018]"),
+        ("$NODEID+0x|180", "[1A00]"),
+    ] {
+        let found = client.at("textDocument/definition", TEXT, mark);
+        assert_eq!(covered(&found), [expected], "{mark}");
+    }
+    let found = client.at("textDocument/references", TEXT, "[60|04]");
+    assert_eq!(covered(&found), ["0x6004", "0x60040020", "6004"]);
+    let position = place(TEXT, "[60|04]");
+    let params = json!({ "textDocument": { "uri": URI }, "position": position, "context": { "includeDeclaration": false } });
+    let found = client.request("textDocument/references", params);
+    assert_eq!(covered(&found), ["0x6004", "0x60040020"]);
+    let found = client.at("textDocument/references", TEXT, "$NODEID+0x|200");
+    assert_eq!(covered(&found), ["$NODEID+0x200", "$NODEID+0x200"]);
+    let found = client.at("textDocument/documentHighlight", TEXT, "[60|04]");
+    assert_eq!(found.as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn outline_folding_and_hints() {
+    let mut client = Client::with(TEXT);
+    let symbols = client.of("textDocument/documentSymbol");
+    let symbols = symbols.as_array().unwrap();
+    let identity = symbols
+        .iter()
+        .find(|one| one["name"] == "1018h Identity object")
+        .unwrap();
+    assert_eq!(identity["detail"], "RECORD");
+    assert_eq!(identity["children"][1]["name"], "1018h:01 Vendor-ID");
+    let line = |mark: &str| place(TEXT, mark)["line"].clone();
+    let folds = client.of("textDocument/foldingRange");
+    let folds = folds.as_array().unwrap();
+    let own = folds
+        .iter()
+        .find(|fold| fold["startLine"] == line("[|1018]"))
+        .unwrap();
+    assert!(own["endLine"].as_u64() > line("[|1018sub1]").as_u64());
+    assert!(
+        folds
+            .iter()
+            .any(|fold| fold["kind"] == "comment" && fold["startLine"] == 0)
+    );
+    let all =
+        json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 9999, "character": 0 } });
+    let hints = client.request(
+        "textDocument/inlayHint",
+        json!({ "textDocument": { "uri": URI }, "range": all }),
+    );
+    let said = labels(&hints);
+    for expected in [
+        "6004h:00, 32 bits",
+        "UNSIGNED32",
+        "RECORD",
+        "180h + node ID",
+        "Device type",
+    ] {
+        assert!(said.contains(&expected), "{expected}: {said:?}");
+    }
+    let at = line("DefaultValue=|0x60040020");
+    let one =
+        json!({ "start": { "line": at, "character": 0 }, "end": { "line": at, "character": 99 } });
+    let hints = client.request(
+        "textDocument/inlayHint",
+        json!({ "textDocument": { "uri": URI }, "range": one }),
+    );
+    assert_eq!(labels(&hints), ["6004h:00, 32 bits"]);
+}

@@ -1,0 +1,60 @@
+//! Calls of `object_dictionary!`.
+
+use serde_json::{Value, json};
+
+use crate::support::{Client, Files, TEXT, covered, labels, place};
+
+#[test]
+fn calls_of_the_macro_know_the_objects_of_their_file() {
+    let mut files = Files::default();
+    files.0.insert("/w/eds/a.eds".into(), TEXT.into());
+    let mut client = Client::new(files, json!({}));
+    let uri = "file:///w/src/lib.rs";
+    let text = "object_dictionary! {\n    pub mod a {\n        eds = \"../eds/a.eds\";\n        \
+        rename 0x6004 = POSITION;\n        modify 0x2001 { default = 300 }\n        remove 0x7777;\n        \
+        modify 0x\n        variant v { modify 0x1018sub1 { access =  } }\n    }\n}\n";
+    client.open(uri, text);
+    let found = client.diagnostics(uri);
+    let said: Vec<_> = found
+        .iter()
+        .map(|one| (one["code"].as_str().unwrap(), covered(text, &one["range"])))
+        .collect();
+    assert_eq!(said, [("E0707", "300"), ("E0701", "0x7777")]);
+    let at = |client: &mut Client, method: &str, mark: &str| {
+        client.request(
+            method,
+            json!({ "textDocument": { "uri": uri }, "position": place(text, mark) }),
+        )
+    };
+    let hover = at(&mut client, "textDocument/hover", "0x60|04");
+    assert!(
+        hover["contents"]["value"]
+            .as_str()
+            .unwrap()
+            .contains("Position value (CiA 406)")
+    );
+    let jump = at(&mut client, "textDocument/definition", "0x1018|sub1");
+    assert_eq!(jump["uri"], "file:///w/eds/a.eds");
+    assert_eq!(covered(TEXT, &jump["range"]), "[1018sub1]");
+    let found = at(&mut client, "textDocument/completion", "modify 0x|\n");
+    assert!(labels(&found).contains(&"0x6004") && labels(&found).contains(&"0x1018sub1"));
+    assert_eq!(
+        labels(&at(&mut client, "textDocument/completion", "access = |")),
+        ["ro", "wo", "rw", "rwr", "rww", "const"]
+    );
+    assert!(
+        labels(&at(
+            &mut client,
+            "textDocument/completion",
+            "        |remove"
+        ))
+        .contains(&"variant")
+    );
+    assert_eq!(
+        at(&mut client, "textDocument/hover", "object_dict|ionary"),
+        Value::Null
+    );
+    client.change(uri, json!({ "text": text.replace("a.eds", "b.eds") }));
+    let found = client.diagnostics(uri);
+    assert_eq!(found[0]["message"], "../eds/b.eds cannot be read");
+}

@@ -1,0 +1,8 @@
+//! The server over its messages, in one process.
+
+mod asking;
+mod calls;
+mod findings;
+mod life;
+mod support;
+mod writing;
