@@ -18,7 +18,7 @@ pub(crate) const PEER: &str = "od-benches-zencan";
 pub(crate) const FUZZ: &str = "od-fuzz";
 
 /// The Python module.
-const PYTHON: &str = "odkit-python";
+pub(crate) const PYTHON: &str = "odkit-python";
 
 /// Packages that are not for crates.io; the playground is for npm, the Python module for PyPI.
 #[rustfmt::skip]

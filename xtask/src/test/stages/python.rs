@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::rust::{ALL, long};
+use super::rust::long;
 use crate::console::cargo;
 use crate::error::{Error, Result};
+use crate::packages::PYTHON;
 use crate::setup::python;
 use crate::test::context::Context;
 
@@ -14,14 +15,15 @@ use crate::test::context::Context;
 const INFO: &str = "odkit-0.1.0.dist-info";
 const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 
-/// The tests of the Python package, in the environment of the stage `interop`. The module is built as
-/// all else is, so that nothing is compiled twice; a long run installs the package with pip, too.
+/// The tests of the Python package, in the environment of the stage `interop`; a long run installs the
+/// package with pip, too. The module has its own features: defmt, which is one of all, gives symbols
+/// names that no shared library can export.
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let requirements = repo.root.join("tests/interop/requirements.txt");
     let python = python::environment(repo, console, &requirements)?;
-    let mut build = cargo(&repo.root, &["build", "--lib"]);
-    console.run("building the module", build.args(ALL))?;
+    let mut build = cargo(&repo.root, &["build", "--package", PYTHON]);
+    console.run("building the module", &mut build)?;
     let site = repo.cache().join("python");
     lay(&repo.root.join("python"), &site, &repo.target.join("debug"))?;
     tests(context, &python, Some(&site))?;
