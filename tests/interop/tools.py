@@ -3,7 +3,8 @@
     python tools.py TOOL DIR            each disagreement, and the sums
     python tools.py TOOL DIR --count    the sums only
 
-TOOL is python-canopen or dcf-tools. A verdict is right if the tool rejects what odkit says it rejects, and if all
+TOOL is python-canopen, dcf-tools, npm-canopen (NODE_PATH has the package `canopen`) or canopen-rs (ODKIT_CANOPEN_RS is
+the program of `tools/canopen-rs`). A verdict is right if the tool rejects what odkit says it rejects, and if all
 that it reads of another file is what odkit says it reads.
 """
 
@@ -86,47 +87,67 @@ def python_canopen(path):
 
 
 def dcf_tools(path):
-    """{(index, sub): fields}, or what it raises."""
+    """{(index, sub): fields}, or what it raises; without names, and without values that are no numbers."""
     import dcf
 
+    node = {"NODEID": NODE_ID}
     with contextlib.redirect_stderr(io.StringIO()):
-        device = dcf.Device.from_dcf(str(path), {"NODEID": NODE_ID})
+        device = dcf.Device.from_dcf(str(path), node)
     read = {}
     for index, entry in device.items():
         for sub, var in entry.items():
-            value = default = None
-            try:
-                value = var.parse_value()
-                default = var.default_value.parse(device.env)
-            except Exception:  # a value that dcfgen fails at when it needs it
-                pass
+            values = (var.default_value, var.value)
+            basic = var.data_type.is_basic()
+            default, value = (shown(it.parse(node)) if basic else "-" for it in values)
             read[index, sub] = (
                 str(clamped(var.data_type.index)), escaped(var.access_type.name), str(int(var.pdo_mapping)),
-                shown(default), "-", "-", shown(value), "t" + escaped(var.name),
+                default, "-", "-", value, "-",
             )
     return read
+
+
+def outside(tool, folder, names):
+    """file -> {(index, sub): fields}, or what went wrong, by a program that reads names."""
+    programs = {
+        "npm-canopen": ["node", Path(__file__).with_name("tools") / "npm-canopen.js"],
+        "canopen-rs": [os.environ.get("ODKIT_CANOPEN_RS", "read-canopen-rs")],
+    }
+    out = subprocess.run(
+        [*programs[tool], folder], input="\n".join(names) + "\n",
+        check=True, capture_output=True, encoding="utf-8",
+    ).stdout
+    files = {}
+    for line in out.split("\n"):
+        fields = line.split("\t")
+        if line.startswith("\t"):
+            values[int(fields[1], 16), int(fields[2], 16)] = tuple(fields[3:])
+        elif line:
+            values = {}
+            files[fields[0]] = values if fields[1] == "read" else fields[2]
+    return files
 
 
 READERS = {"python-canopen": python_canopen, "dcf-tools": dcf_tools}
 
 
 def alike(ours, theirs):
-    if isinstance(theirs, tuple):
-        try:
-            number = float(ours[1:])
-        except ValueError:
-            return False
-        other = theirs[1]
-        return number == other or (number != number and other != other)
-    return ours == theirs
-
-
-def disagreement(tool, path, verdict, values):
-    """Why odkit is wrong about a file, or None."""
+    if "-" in (ours, theirs):
+        return True
+    if ours == theirs:
+        return True
     try:
-        read = READERS[tool](path)
-    except Exception as error:  # whatever it is, it is what users of the tool get
-        return None if verdict == "rejects" else f"it raises {type(error).__name__}: {error}"[:150]
+        a, b = float(ours[1:]), theirs[1] if isinstance(theirs, tuple) else float(theirs[1:])
+    except ValueError:
+        return False
+    # A REAL32 has seven digits. A NaN that is stored as an integer is 0.
+    near = 1e-15 if ours.startswith("i") else 1e-6
+    return abs(a - b) <= near * max(abs(a), abs(b)) or a != a and b != b or b != b and a == 0
+
+
+def disagreement(read, verdict, values):
+    """Why odkit is wrong about a file, or None."""
+    if isinstance(read, str):
+        return None if verdict == "rejects" else f"it raises {read}"[:150]
     if verdict == "rejects":
         return "it reads the file"
     for at in sorted(set(read) | set(values)):
@@ -136,14 +157,24 @@ def disagreement(tool, path, verdict, values):
     return None
 
 
+def reading(tool, path):
+    try:
+        return READERS[tool](path)
+    except Exception as error:  # whatever it is, it is what users of the tool get
+        return f"{type(error).__name__}: {error}"
+
+
 def disagreements(tool, folder):
     """(number of files, of each verdict, [(file, why, first finding)])"""
     logging.disable(logging.CRITICAL)
     warnings.simplefilter("ignore")
     counts, wrong = {}, []
-    for name, (verdict, _, first, values) in expected(tool, folder).items():
+    files = expected(tool, folder)
+    of_program = {} if tool in READERS else outside(tool, folder, files)
+    for name, (verdict, _, first, values) in files.items():
         counts[verdict] = counts.get(verdict, 0) + 1
-        why = disagreement(tool, Path(folder) / name, verdict, values)
+        read = reading(tool, Path(folder) / name) if tool in READERS else of_program[name]
+        why = disagreement(read, verdict, values)
         if why:
             wrong.append((name, why, first))
     return counts, wrong
@@ -151,7 +182,7 @@ def disagreements(tool, folder):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("tool", choices=READERS)
+    parser.add_argument("tool", choices=[*READERS, "npm-canopen", "canopen-rs"])
     parser.add_argument("folder", type=Path)
     parser.add_argument("--count", action="store_true")
     args = parser.parse_args()

@@ -86,3 +86,23 @@ fn every_rule_has_its_place() {
     }
     assert!(RULES.len() >= 60);
 }
+
+/// The page about other tools names each of them, and each of their rules.
+#[test]
+fn the_page_about_tools_is_complete() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/COMPATIBILITY.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    for tool in od_eds::tools::TOOLS {
+        assert!(
+            page.contains(&format!("| `{}` |", tool.name)),
+            "{}",
+            tool.name
+        );
+        for rule in tool.rules {
+            let row = format!("| {} |", rule.code);
+            let found = page.lines().find(|line| line.starts_with(&row));
+            let found = found.unwrap_or_else(|| panic!("{} is missing", rule.code));
+            assert!(found.contains(rule.title), "{found}");
+        }
+    }
+}

@@ -119,6 +119,24 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     })
 }
 
+/// The lines of a text for a reader to which `\n` alone ends one; counted as [`lines`] counts them.
+#[cfg(feature = "tools")]
+pub(crate) fn lines_by_newline(text: &str) -> impl Iterator<Item = Line<'_>> {
+    let body = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    let (mut start, mut number) = (text.len() - body.len(), 1);
+    body.split_inclusive('\n').map(move |line| {
+        let text = line.strip_suffix('\n').unwrap_or(line);
+        let found = Line {
+            text,
+            start,
+            number,
+        };
+        start += line.len();
+        number += with_ends(line).count() as u32;
+        found
+    })
+}
+
 /// The lines of a text, each with its end.
 pub(crate) fn with_ends(text: &str) -> impl Iterator<Item = &str> {
     let newline = move |from: usize| text[from..].find('\n').map(|at| from + at + 1);

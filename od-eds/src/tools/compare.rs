@@ -24,6 +24,8 @@ pub(crate) struct Compare<'a> {
     /// The tools that a fix has to suit.
     pub(crate) tools: &'a [&'static Tool],
     pub(crate) rules: &'static Differences,
+    /// The node ID of the tool.
+    pub(crate) node_id: i128,
     pub(crate) found: Vec<Finding>,
 }
 
@@ -124,14 +126,14 @@ impl Compare<'_> {
         data_type: Option<DataType>,
         read: Option<&Read>,
     ) {
-        if read.is_some_and(|read| same(own, data_type, read)) {
+        if read.is_some_and(|read| same(own, data_type, read, self.node_id)) {
             return;
         }
         let code = data_type.map_or(0, |it| i128::from(it.code()));
         let suits = |text: &String| {
             let known = self.tools.iter().filter_map(|tool| tool.value);
             let mut read = known.map(|value| value(key, text, code));
-            read.all(|read| read.is_some_and(|read| same(own, data_type, &read)))
+            read.all(|read| read.is_some_and(|read| same(own, data_type, &read, NODE_ID)))
         };
         let text = candidates(own, data_type).into_iter().find(suits);
         let finding = rule.at(own.span).about(address).key(key);
@@ -214,7 +216,7 @@ fn key_before(text: &str, value: Span) -> Option<(Span, &str)> {
 }
 
 /// Is it the same value?
-fn same(own: &Value, data_type: Option<DataType>, read: &Read) -> bool {
+fn same(own: &Value, data_type: Option<DataType>, read: &Read, node_id: i128) -> bool {
     match (own, read) {
         (Value::Real(own), Read::Real(read)) => {
             own == read
@@ -224,7 +226,7 @@ fn same(own: &Value, data_type: Option<DataType>, read: &Read) -> bool {
         (Value::Real(own), Read::Number(read)) => *own == *read as f64,
         (Value::Bytes(own), Read::Bytes(read)) => own == read,
         (own, Read::Text(read)) => values::text(own, data_type) == *read,
-        (own, Read::Number(read)) => own.integer(NODE_ID as u8) == Some(*read),
+        (own, Read::Number(read)) => own.integer(node_id as u8) == Some(*read),
         _ => false,
     }
 }

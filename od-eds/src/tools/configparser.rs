@@ -3,6 +3,7 @@
 use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::scan::lines::{Line, lines};
@@ -124,6 +125,32 @@ impl<'a> Ini<'a> {
             section.pairs.get(*at)
         };
         find(section).or_else(|| find(&self.sections[self.default?]))
+    }
+
+    /// Adds a section that the file lacks.
+    pub(crate) fn add(&mut self, name: String, header: Span, pairs: &[(&str, String)]) {
+        let mut section = Section {
+            name: Cow::Owned(name.clone()),
+            header,
+            ..Section::default()
+        };
+        for (key, value) in pairs {
+            let key = Cow::Owned(String::from(*key));
+            section.set(key, Cow::Owned(value.clone()), header, header, self.folds);
+        }
+        let key = folded(Cow::Owned(name), self.folds);
+        self.names.insert(key, self.sections.len());
+        self.sections.push(section);
+    }
+
+    /// Sets a key of a section.
+    pub(crate) fn set(&mut self, section: &str, key: String, value: String) {
+        let name = folded(Cow::Borrowed(section), self.folds);
+        if let Some(at) = self.names.get(name.as_ref()) {
+            let section = &mut self.sections[*at];
+            let span = section.header;
+            section.set(Cow::Owned(key), Cow::Owned(value), span, span, self.folds);
+        }
     }
 }
 

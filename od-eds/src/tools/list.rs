@@ -1,11 +1,21 @@
 //! The tools, and their rules.
 
 use crate::finding::Rule;
-use crate::tools::python_canopen;
 use crate::tools::tool::Tool;
+use crate::tools::{
+    canopen_rs, canopennode_editor, codesys, dcf_tools, npm_canopen, python_canopen, twincat,
+};
 
 /// Every tool, those that were tried first.
-pub static TOOLS: &[&Tool] = &[&python_canopen::TOOL];
+pub static TOOLS: &[&Tool] = &[
+    &python_canopen::TOOL,
+    &dcf_tools::TOOL,
+    &npm_canopen::TOOL,
+    &canopen_rs::TOOL,
+    &canopennode_editor::TOOL,
+    &codesys::TOOL,
+    &twincat::TOOL,
+];
 
 /// The tool of this name, in any case.
 pub fn tool(name: &str) -> Option<&'static Tool> {

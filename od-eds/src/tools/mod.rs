@@ -14,6 +14,8 @@
 //! ```
 
 use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use crate::allow::Allows;
@@ -24,13 +26,19 @@ use crate::load::is_xml;
 use crate::tools::compare::Compare;
 use crate::tools::tool::Input;
 
+mod canopen_rs;
+mod canopennode_editor;
+mod codesys;
 mod compare;
 mod configparser;
+mod dcf_tools;
 pub(crate) mod list;
+mod npm_canopen;
 mod python;
 mod python_canopen;
 mod shared;
 mod tool;
+mod twincat;
 
 pub use list::{TOOLS, rules, tool, tool_of};
 pub use tool::{Read, ReadEntry, Reading, Tool};
@@ -78,6 +86,7 @@ pub fn reading(document: &Document, tool: &Tool) -> Reading {
     let body = bytes.strip_prefix(mark).unwrap_or(bytes);
     let input = Input {
         text: core::str::from_utf8(body).ok(),
+        bytes: body,
         decoded: document.text(),
         has_mark: body.len() < bytes.len(),
     };
@@ -113,6 +122,7 @@ pub fn check(
                 text: document.text(),
                 tools,
                 rules,
+                node_id: reading.node_id.unwrap_or(shared::NODE_ID),
                 found: Vec::new(),
             };
             compare.all(description, &reading);
@@ -121,11 +131,14 @@ pub fn check(
         let rejected = reading.is_rejected();
         let of_text = reading.findings.into_iter();
         own.extend(of_text.filter(|finding| !rejected || finding.is_error()));
-        // Members of CompactSubObj come from one section.
+        // Members of CompactSubObj come from one section, and some tools look at a value twice.
         let mut known = BTreeSet::new();
         own.retain(|finding| {
-            let span = finding.span().filter(|_| finding.object.is_some());
-            span.is_none_or(|span| known.insert((finding.code(), span)))
+            let is_name = |fact: &&(&str, _)| finding.object.is_none() && fact.0 == "name";
+            let name = finding.facts.iter().find(is_name);
+            let facts = name.map_or(String::new(), |name| format!("{name:?}"));
+            let at = finding.span();
+            at.is_none() || known.insert((finding.code(), at, facts))
         });
         found.extend(
             own.into_iter()

@@ -126,6 +126,54 @@ fn python_canopen() {
     );
 }
 
+/// What each other tool stops at, or drops.
+#[test]
+fn other_tools() {
+    let file = "[FileInfo]\n[DeviceInfo]\n[MandatoryObjects]\nSupportedObjects=0\n[OptionalObjects]\n\
+        SupportedObjects=2\n1=0x1000\n2=0x1018\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
+        [1000]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=1\n[1018]\nParameterName=b\nObjectType=9\n\
+        SubNumber=2\n[1018sub0]\nParameterName=c\nDataType=5\nAccessType=ro\nDefaultValue=1\n[1018sub1]\n\
+        ParameterName=d\nDataType=7\nAccessType=ro\nDefaultValue=0x5\n";
+    for (tool, more, expected) in [
+        ("dcf-tools", "", ""),
+        ("dcf-tools", "DefaultValue=0xFF\nLowLimit=010\n", "T0206:37"),
+        ("dcf-tools", "DefaultValue=300\n", "T0209:36"),
+        ("dcf-tools", "Unit=mm\n", "T0204:36"),
+        ("dcf-tools", "[Tools]\n", "T0204:36"),
+        ("dcf-tools", "[2000sub1]\n", "T0205:36 T0205:36"),
+        ("npm-canopen", "", ""),
+        ("npm-canopen", "DefaultValue=010\n", "T0312:36"),
+        ("npm-canopen", "DefaultValue=300\n", "T0306:36"),
+        ("npm-canopen", "[2001]\nParameterName=x\n", "T0301:36"),
+        (
+            "npm-canopen",
+            "[2000sub1]\nParameterName=x\nDataType=5\n",
+            "T0304:36",
+        ),
+        ("canopen-rs", "", ""),
+        ("canopen-rs", "DefaultValue=0x10 ; sixteen\n", "T0403:36"),
+        ("canopen-rs", "DefaultValue=010\n", "T0412:36"),
+        ("canopennode-editor", "", ""),
+        (
+            "canopennode-editor",
+            "[2001]\nParameterName=x\nDataType=5\n",
+            "T0611:36 T0603:36",
+        ),
+        ("codesys", "", ""),
+        ("twincat", "", ""),
+    ] {
+        let text = format!("{file}{OBJECT}{more}");
+        let expected: Vec<&str> = expected.split_whitespace().collect();
+        assert_eq!(codes(tool, &text), expected, "{tool}: {more}");
+    }
+    assert_eq!(codes("canopennode-editor", OBJECT).len(), 3);
+    assert_eq!(codes("codesys", "<?xml version='1.0'?>\n"), ["T0701:1"]);
+    assert_eq!(
+        codes("twincat", &file.replace("DefaultValue=1\n[1018]", "[1018]")),
+        ["T0801:12"]
+    );
+}
+
 /// A fix that one tool reads and another does not is none for both.
 #[test]
 fn a_fix_suits_every_chosen_tool() {

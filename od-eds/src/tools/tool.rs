@@ -40,8 +40,9 @@ impl PartialEq for Tool {
 pub(crate) struct Input<'a> {
     /// The text behind a byte order mark; `None` if it is not UTF-8.
     pub(crate) text: Option<&'a str>,
+    /// The bytes of the file behind the mark.
+    pub(crate) bytes: &'a [u8],
     /// The text as odkit reads it, whatever the encoding.
-    #[allow(dead_code)]
     pub(crate) decoded: &'a str,
     /// Does it begin with the byte order mark of UTF-8?
     pub(crate) has_mark: bool,
@@ -83,6 +84,8 @@ pub struct Reading {
     pub entries: BTreeMap<(u32, u32), ReadEntry>,
     /// Objects whose members it makes when a program asks for them.
     pub on_demand: Vec<u32>,
+    /// The node ID for which it makes values; `None` for the one that it was given.
+    pub node_id: Option<i128>,
 }
 
 impl Reading {

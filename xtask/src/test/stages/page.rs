@@ -1,5 +1,6 @@
 //! Stages that need Node.js, a browser or Python.
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -89,7 +90,7 @@ pub(super) fn interop(context: &Context<'_>) -> Result<()> {
     context.console.run("building odkit", &mut build)?;
     let built = context.repo.target.join("debug");
     let example = |name| built.join("examples").join(program(name));
-    let mut command = Command::new(python);
+    let mut command = Command::new(&python);
     command
         .args(["-m", "unittest", "discover", "-s", "tests/interop", "-v"])
         .current_dir(&context.repo.root)
@@ -97,8 +98,47 @@ pub(super) fn interop(context: &Context<'_>) -> Result<()> {
         .env("ODKIT_READING", example("corpus"))
         .env("ODKIT_TOOLS", example("tools"))
         .env("PYTHONDONTWRITEBYTECODE", "1");
+    if context.long {
+        other_tools(context, &python, &mut command)?;
+    }
     long(context, &mut command);
     context.console.run("python-canopen", &mut command)
+}
+
+/// What `tests/interop/test_tools.py` needs to hold odkit's verdicts against other tools than python-canopen.
+fn other_tools(context: &Context<'_>, python: &Path, command: &mut Command) -> Result<()> {
+    let (repo, console) = (context.repo, context.console);
+    let mut pip = Command::new(python);
+    pip.args(["-m", "pip", "install", "--quiet", "dcf-tools==2.4.2"]);
+    console.run("installing dcf-tools", &mut pip)?;
+    let modules = repo.cache().join("npm-canopen");
+    fs::create_dir_all(&modules).map_err(|e| Error::io("create", &modules, &e))?;
+    let mut install = node::npm(
+        &modules,
+        &[
+            "install",
+            "--silent",
+            "--no-audit",
+            "--no-fund",
+            "canopen@6.2.1",
+        ],
+    );
+    console.run("installing the package canopen of npm", &mut install)?;
+    let manifest = [
+        "build",
+        "--quiet",
+        "--manifest-path",
+        "tests/interop/tools/canopen-rs/Cargo.toml",
+    ];
+    let mut build = cargo(&repo.root, &manifest);
+    console.run(
+        "building canopen-rs",
+        build.arg("--target-dir").arg(&repo.target),
+    )?;
+    let reader = repo.target.join("debug").join(program("read-canopen-rs"));
+    command.env("ODKIT_CANOPEN_RS", reader);
+    command.env("NODE_PATH", modules.join("node_modules"));
+    Ok(())
 }
 
 /// `playground/package-test` on the package in a folder, which `ODKIT_PKG` names.
