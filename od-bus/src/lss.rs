@@ -53,7 +53,7 @@ impl<L: Link> Lss<L> {
         }
     }
 
-    /// Finds the slaves that have no node ID, by fastscan; `found` is told each at once.
+    /// Finds the slaves that have no node ID, by fastscan; `found` gets each at once.
     ///
     /// # Errors
     /// The link is lost, or a slave answers and then does not confirm its LSS address.

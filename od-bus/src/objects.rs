@@ -186,7 +186,7 @@ pub fn encode(entry: &Entry, node: u8, text: &str) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// The bytes of a value for an object of so many bytes, without a dictionary.
+/// The bytes of a value for an object of this size, without a dictionary.
 ///
 /// # Errors
 /// A sentence: the value does not fit.
@@ -204,7 +204,7 @@ pub fn encode_by_size(size: usize, text: &str) -> Result<Vec<u8>, String> {
     let bits = 8 * size as u32;
     if !(1..=64).contains(&bits) {
         return Err(format!(
-            "the object has {size} bytes, which is no number; write \"a text\" or [01 02 03]"
+            "the object has {size} bytes, so it is not a number; write \"a text\" or [01 02 03]"
         ));
     }
     if value < -(1 << (bits - 1)) || value >= 1 << bits {

@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::link::Link;
 
 /// Sends these frames with their distances in time, `speed` times as fast; 0: without waiting. Frames
-/// of the bus are left out meanwhile. Returns how many were sent.
+/// of the bus are ignored. Returns the number of frames that were sent.
 ///
 /// # Errors
 /// The link is lost.

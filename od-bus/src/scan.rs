@@ -1,4 +1,4 @@
-//! Who is on the bus: heartbeats, boot-up messages, and an SDO request to each node ID.
+//! The nodes of a bus: heartbeats, boot-up messages, and an SDO request to each node ID.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,9 +20,9 @@ const SERIAL: Address = Address::new(0x1018, 4);
 /// Times of a scan.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Options {
-    /// How long to listen before the first request.
+    /// Time to listen before the first request.
     pub listen: Duration,
-    /// How long a node has for its answer.
+    /// Longest time for an answer.
     pub answer: Duration,
 }
 
@@ -43,7 +43,7 @@ pub struct Found {
     pub node: NodeId,
     /// State in its last heartbeat; `None`: it sent none while odkit listened.
     pub state: Option<State>,
-    /// It sent a boot-up message meanwhile.
+    /// It sent a boot-up message during the scan.
     pub has_booted: bool,
     /// It answers SDO requests; in Stopped it does not.
     pub answers: bool,
@@ -66,7 +66,7 @@ pub struct Scan {
     pub has_unconfigured: bool,
 }
 
-/// What was heard on the bus besides answers.
+/// Messages of the nodes so far.
 #[derive(Default)]
 struct Heard {
     states: BTreeMap<NodeId, State>,
@@ -78,7 +78,7 @@ struct Heard {
 /// Looks for the nodes of a bus: listens, asks each of the 127 node IDs for 1000h, and those that
 /// answer for who they are. It changes nothing on the bus.
 ///
-/// `progress` is told the share that is done, 0 to 100.
+/// `progress` gets the share that is done, 0 to 100.
 ///
 /// # Errors
 /// The link is lost.
@@ -173,7 +173,7 @@ impl Found {
     }
 }
 
-/// An object that a device may lack; a node that falls silent meanwhile lacks it, too.
+/// An object that a device may lack; so does a node that falls silent.
 fn optional(read: Result<Result<Vec<u8>, u32>, Fault>) -> Result<Option<Vec<u8>>, Fault> {
     match read {
         Ok(bytes) => Ok(bytes.ok()),
@@ -255,7 +255,7 @@ fn number(answer: &[u8; 8]) -> Option<u32> {
 /// Bit rates of CiA 301 in kbit/s, the most common ones first.
 pub const RATES: [u16; 8] = [500, 250, 125, 1000, 800, 50, 20, 10];
 
-/// Finds the bit rate by listening: the first at which a frame comes. `try_` is told each bit rate
+/// Finds the bit rate by listening: the first at which a frame comes. `try_` gets each bit rate
 /// before it listens there for `wait`. `None`: no frame came at any.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ const GRACE: Duration = Duration::from_secs(1);
 const NOT_VALID: u32 = 1 << 31;
 const EXTENDED: u32 = 1 << 29;
 
-/// Where a value comes from.
+/// Origin of a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum By {
     /// A TPDO.
@@ -39,7 +39,7 @@ pub enum By {
 pub struct Source {
     /// Its address.
     pub address: Address,
-    /// Where it comes from.
+    /// Its origin.
     pub by: By,
 }
 
@@ -50,7 +50,7 @@ pub struct Sample {
     pub at: Instant,
     /// Its place among the sources.
     pub source: usize,
-    /// The value, or why there is none.
+    /// The value, or the reason why it is missing.
     pub value: Result<Vec<u8>, SdoError>,
 }
 

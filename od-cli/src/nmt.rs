@@ -66,7 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return output::print(&format!("{:#}", json!({ "sent": true, "states": states })));
     }
     if states.is_empty() {
-        return output::print("sent; no heartbeat or boot-up message came meanwhile");
+        return output::print("sent; no heartbeat or boot-up message confirmed it");
     }
     let lines = states
         .iter()

@@ -24,7 +24,7 @@ pub(crate) struct Args {
     /// Stop after this time, in seconds
     #[arg(long = "for", value_name = "SECONDS")]
     time: Option<f64>,
-    /// Stop after so many frames
+    /// Stop after this number of frames
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     #[command(flatten)]

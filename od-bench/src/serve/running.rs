@@ -10,8 +10,8 @@ use super::ready::Ready;
 /// Beginning of the files' names.
 const NAME: &str = "odkit-sim-";
 
-/// Tells programs of this user that this bench runs; it does so until the value goes. `None`: there
-/// is no place for it.
+/// Tells programs of this user that this bench runs; it does so until the value goes. `None`: the
+/// file cannot be written.
 pub(super) fn enrol(report: &str) -> Option<Ready> {
     let path = folder().join(format!("{NAME}{}{}.json", user(), std::process::id()));
     let ready = Ready::at(&path).ok()?;

@@ -22,12 +22,12 @@ pub struct Seen<'f> {
     pub words: &'f str,
 }
 
-/// What a filter's text gets wrong.
+/// A mistake in the text of a filter.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Mistake {
-    /// Where, in bytes from the start.
+    /// Its place, in bytes from the start.
     pub at: usize,
-    /// What, in words.
+    /// The mistake in words.
     pub what: String,
 }
 

@@ -5,7 +5,7 @@ use od_model::{Address, values};
 
 use super::{Mistake, Seen, mistake};
 
-/// What a term asks of a frame.
+/// A condition for a frame.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Term {
     /// Names of services, as a tag has them.

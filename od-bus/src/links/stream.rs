@@ -23,7 +23,7 @@ pub(super) trait Port {
     fn write(&mut self, bytes: &[u8]) -> io::Result<()>;
 }
 
-/// What the other side said.
+/// A message of the other side.
 pub(super) enum Said {
     /// A frame of the bus.
     Frame(Frame),

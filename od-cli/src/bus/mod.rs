@@ -1,4 +1,4 @@
-//! What all commands on a bus share: the link, the names, Ctrl-C.
+//! The common part of all commands on a bus: the link, the names, Ctrl-C.
 
 pub(crate) mod names;
 pub(crate) mod value;

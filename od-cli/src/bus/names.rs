@@ -31,7 +31,7 @@ pub(crate) struct Known<'n> {
     pub(crate) dictionary: Dictionary<'n>,
 }
 
-/// How well a dictionary fits a node by 1018h.
+/// Quality of a match between a dictionary and a node by 1018h.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum Fit {
     /// Vendor-ID and product code.
@@ -93,7 +93,7 @@ impl Names {
         Ok(self.fitting(Some(master.node()), identity))
     }
 
-    /// What fits an identity best. Files for another node ID do not count; without one, those for
+    /// The dictionary that fits an identity best. Files for another node ID do not count; without one, those for
     /// any node ID do not.
     pub(crate) fn fitting(
         &self,
@@ -144,7 +144,7 @@ impl File {
     }
 }
 
-/// How well a dictionary fits; `None`: not at all.
+/// Quality of a match; `None`: the dictionary does not fit.
 pub(crate) fn fit(dictionary: Dictionary<'_>, identity: [Option<u32>; 4]) -> Option<Fit> {
     let default = |sub| {
         let entry = dictionary.entry(0x1018, sub)?;

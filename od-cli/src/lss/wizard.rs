@@ -20,7 +20,7 @@ use crate::output::{self, Bar};
 use crate::report::plural;
 use crate::source;
 
-/// What somebody says to a proposal.
+/// Answer to a proposal.
 enum Reply {
     Take(NodeId),
     Skip,
@@ -97,7 +97,7 @@ fn answers() -> Receiver<String> {
     answers
 }
 
-/// The next line; `None`: there is none.
+/// The next line; `None` at the end of the input.
 fn answer(answers: &Receiver<String>) -> Result<Option<String>, Failure> {
     let stop = bus::stop()?;
     loop {
@@ -105,6 +105,7 @@ fn answer(answers: &Receiver<String>) -> Result<Option<String>, Failure> {
             Ok(line) => return Ok(Some(line)),
             Err(RecvTimeoutError::Disconnected) => return Ok(None),
             Err(RecvTimeoutError::Timeout) if stop.load(Ordering::Relaxed) => {
+                output::note_text("\n");
                 return Err(Failure::from(Fault::Interrupted));
             }
             Err(RecvTimeoutError::Timeout) => {}

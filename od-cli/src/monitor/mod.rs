@@ -42,7 +42,7 @@ pub(crate) struct Args {
     /// Stop after this time, in seconds
     #[arg(long = "for", value_name = "SECONDS")]
     time: Option<f64>,
-    /// Stop after so many frames that are shown
+    /// Stop after this number of frames that are shown
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     #[command(flatten)]

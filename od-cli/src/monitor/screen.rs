@@ -28,7 +28,7 @@ const PAUSE: u64 = 100;
 /// Longest wait for a frame before keys are looked at, in ms.
 const KEYS: u64 = 20;
 
-/// What is shown.
+/// Settings of the picture.
 pub(super) struct View {
     pub(super) title: String,
     /// In kbit/s.

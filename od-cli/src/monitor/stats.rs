@@ -1,4 +1,4 @@
-//! What the frames of each COB-ID have in common, and the load of the bus.
+//! Figures of each COB-ID, and the load of the bus.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -90,7 +90,7 @@ impl Stats {
     pub(super) fn load(&mut self, now: Instant, kbit: u16) -> f64 {
         self.forget(now);
         let bits: u64 = self.recent.iter().map(|(_, bits)| bits).sum();
-        // Bits per second, of so many.
+        // Of the bits that fit into a second.
         bits as f64 / (f64::from(kbit.max(1)) * 1e3) * 100.0
     }
 

@@ -39,7 +39,7 @@ pub(crate) struct Args {
     /// Stop after this time, in seconds
     #[arg(long = "for", value_name = "SECONDS")]
     time: Option<f64>,
-    /// Stop after so many values
+    /// Stop after this number of values
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// File for all values as CSV; `-` is standard output
@@ -52,7 +52,7 @@ pub(crate) struct Args {
     bus: bus::Args,
 }
 
-/// Where values go.
+/// Destination of values.
 enum Sink {
     Plot(Plot),
     Lines(Output),

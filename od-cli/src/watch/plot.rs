@@ -42,7 +42,7 @@ impl Plot {
         }
     }
 
-    /// Adds a value, and draws if the last picture is old enough. A value that is no number has none
+    /// Adds a value, and draws if the last picture is old enough. A value that is not a number has none
     /// in its plot.
     pub(super) fn add(&mut self, series: usize, at: Instant, text: String, value: Option<f64>) {
         if let Some(one) = self.series.get_mut(series) {
