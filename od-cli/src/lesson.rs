@@ -5,11 +5,12 @@ mod check;
 mod file;
 mod list;
 mod play;
+mod progress;
 mod show;
 
 use crate::failure::Failure;
 
-/// List, show, take and check lessons
+/// List, show, take and check lessons, and read the progress of a class
 ///
 /// A lesson is a Markdown file, or the name of one that comes with odkit (`odkit lesson list`);
 /// LESSONS.md describes the format. Exit code 0: no mistakes, or all steps done; 1: a checkpoint is
@@ -32,6 +33,8 @@ enum Command {
     /// Check lessons: no checkpoint holds at the start, the solution reaches every checkpoint,
     /// and each of its lines is needed
     Check(check::Args),
+    /// Make a table of a class from the codes that learners export from the page
+    Progress(progress::Args),
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -40,5 +43,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Command::Show(args) => show::run(args),
         Command::Run(args) => play::run(args),
         Command::Check(args) => check::run(args),
+        Command::Progress(args) => progress::run(args),
     }
 }

@@ -2,6 +2,7 @@
 //! services, and transfers of several frames.
 
 use od_bench::script::{Known, frame_of, typed};
+use od_bench::wire::bits::{Bit, Part, bits};
 use od_bench::words::fold::{Folder, State};
 use od_bench::words::{TAGS, tag};
 use od_model::{Address, DataType};
@@ -172,4 +173,30 @@ impl Transfers {
     pub fn clear(&mut self) {
         self.0.clear();
     }
+}
+
+/// The bits of a packed frame on the wire, a byte each: 128 if it is recessive, 64 if it was stuffed, and the number of
+/// its field: 0 start of frame, 1 identifier, 2 SRR, 3 IDE, 4 identifier extension, 5 RTR, 6 reserved, 7 DLC, 8 CRC,
+/// 9 CRC delimiter, 10 acknowledge slot, 11 acknowledge delimiter, 12 end of frame, 16 and more a data byte.
+#[wasm_bindgen(js_name = frameBits)]
+pub fn frame_bits(frame: &[u8]) -> Vec<u8> {
+    let part = |part| match part {
+        Part::Start => 0,
+        Part::Identifier => 1,
+        Part::Substitute => 2,
+        Part::Extension => 3,
+        Part::IdentifierExtension => 4,
+        Part::Remote => 5,
+        Part::Reserved => 6,
+        Part::Length => 7,
+        Part::Crc => 8,
+        Part::CrcDelimiter => 9,
+        Part::Acknowledge => 10,
+        Part::AcknowledgeDelimiter => 11,
+        Part::End => 12,
+        Part::Data(number) => 16 + number,
+    };
+    let code =
+        |bit: &Bit| u8::from(bit.recessive) << 7 | u8::from(bit.stuffed) << 6 | part(bit.part);
+    packed::frame(frame).map_or(Vec::new(), |frame| bits(&frame).iter().map(code).collect())
 }

@@ -38,10 +38,13 @@ impl Bus {
         };
         let requirements = progress.requirements(bus);
         let requirement = |one: &od_bench::lesson::Requirement| {
-            Record::new()
+            let record = Record::new()
                 .with("holds", one.holds)
-                .with("text", one.text.as_str())
-                .done()
+                .with("text", one.text.as_str());
+            match one.lost {
+                true => record.with("lost", true).done(),
+                false => record.done(),
+            }
         };
         let reached = progress.reached().iter();
         let micros = |at: &Instant| JsValue::from_f64(at.as_micros() as f64);

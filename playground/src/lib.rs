@@ -47,7 +47,9 @@ mod types;
 mod values;
 
 pub use bus::Bus;
-pub use codec::{Transfers, decode_value, encode_value, read_line, tag_names, tags, type_range};
+pub use codec::{
+    Transfers, decode_value, encode_value, frame_bits, read_line, tag_names, tags, type_range,
+};
 pub use device::builtin_devices;
 #[cfg(feature = "eds")]
 pub use eds::{check_eds, decode_eds, mend_eds};

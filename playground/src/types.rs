@@ -56,6 +56,8 @@ export interface LessonResult {
 
 /** One thing that the present step asks for. */
 export interface LessonRequirement {
+  /** It held since the step began, and no longer does. */
+  lost?: boolean;
   holds: boolean;
   /** What it is, and what is missing of it. */
   text: string;

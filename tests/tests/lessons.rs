@@ -56,7 +56,18 @@ fn every_lesson_helps() {
                 "{name}:{line}: hints come in tiers, here {hints}"
             );
         }
-        assert!(!lesson.intro.trim().is_empty(), "{name}: it begins somehow");
+        assert!(
+            !lesson.summary.is_empty(),
+            "{name}: the list shows a summary"
+        );
+        let why = lesson.intro.trim().split("\n\n").next().unwrap_or_default();
+        assert_eq!(
+            why.split(['.', '?'])
+                .filter(|one| !one.trim().is_empty())
+                .count(),
+            2,
+            "{name}: two sentences say why it matters, what it is about follows"
+        );
     }
 }
 
@@ -67,6 +78,24 @@ fn every_link_leads_to_a_file() {
             assert!(
                 folder().join(file).is_file(),
                 "{name}:{line}: there is no {file}"
+            );
+        }
+    }
+}
+
+/// What the learner sees before an answer does not contain it, and a wrong answer is told by its parts.
+#[test]
+fn no_question_tells_its_answer() {
+    let plain = |text: &str| text.replace([' ', '`'], "").to_uppercase();
+    for (name, text) in lessons() {
+        for step in read(&name, &text).steps {
+            let Some(quiz) = step.quiz else { continue };
+            let answer = plain(&quiz.answer.to_string());
+            let seen = plain(&format!("{} {} {}", step.title, step.text, quiz.question));
+            assert!(
+                !seen.contains(answer.trim_end_matches('*')),
+                "{name}:{}: {answer} is shown beside its question",
+                quiz.line
             );
         }
     }

@@ -19,6 +19,8 @@ use crate::script::Origin;
 pub struct Requirement {
     /// It is so.
     pub holds: bool,
+    /// It held since the step began, and no longer does: the learner may have no way back.
+    pub lost: bool,
     /// The condition in words; while it is not met, its current state follows in parentheses.
     pub text: String,
 }
@@ -34,6 +36,9 @@ struct Note {
     done: Option<Instant>,
     /// Since when the fact holds.
     since: Option<Instant>,
+    /// The fact was looked at, and it held at some time.
+    looked: bool,
+    held: bool,
 }
 
 /// Watches a bench while somebody takes a lesson.
@@ -199,8 +204,8 @@ impl Progress {
         for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
             let mut any = false;
             for (one, note) in line.alternatives.iter().zip(notes) {
-                // What has to last is looked at each time; the rest only where it decides.
-                if one.lasting > 0 || (all && !any) {
+                // What has to last is looked at each time; the rest once, and where it decides.
+                if one.lasting > 0 || !note.looked || (all && !any) {
                     let device = device_of(&self.devices, one);
                     let turns = self.turns.get(device).copied().flatten();
                     any |= holds(one, note, bus, device, turns, since).0;
@@ -228,13 +233,14 @@ impl Progress {
         for (line, notes) in step.checkpoint.iter().zip(&mut self.notes) {
             let named = |name: &str| number(devices, Some(name)).unwrap_or(0);
             let mut text = line.words(bus.devices(), named);
-            let mut met = false;
+            let (mut met, mut held) = (false, false);
             let mut state = String::new();
             for (one, note) in line.alternatives.iter().zip(notes) {
                 let device = device_of(devices, one);
                 let turns = self.turns.get(device).copied().flatten();
                 let (holds, now) = holds(one, note, bus, device, turns, since);
                 met |= holds;
+                held |= note.held;
                 if !now.is_empty() {
                     state = now;
                 }
@@ -242,7 +248,11 @@ impl Progress {
             if !met && !state.is_empty() {
                 text.push_str(&format!(" ({state})"));
             }
-            requirements.push(Requirement { holds: met, text });
+            requirements.push(Requirement {
+                holds: met,
+                lost: held && !met,
+                text,
+            });
         }
         requirements
     }
@@ -315,6 +325,7 @@ fn holds(
     (began, disturbed): (Instant, Option<Instant>),
 ) -> (bool, String) {
     let now = bus.now();
+    note.looked = true;
     let fact = match &one.what {
         What::Seen(_) if one.not => return (true, String::new()),
         What::Seen(seen) => {
@@ -344,6 +355,7 @@ fn holds(
         Ok(found) => (found.holds != one.not, format!("it is {}", found.now)),
         Err(why) => (false, why),
     };
+    note.held |= is;
     if !is {
         note.since = None;
         return (false, state);

@@ -29,6 +29,25 @@ pub(super) const LESSONS: &[(&str, &str)] = &[
         "find-two-nodes",
         include_str!("../../lessons/15-find-two-nodes.md"),
     ),
+    ("byte-order", include_str!("../../lessons/16-byte-order.md")),
+    (
+        "new-encoder",
+        include_str!("../../lessons/17-new-encoder.md"),
+    ),
+    (
+        "preset-then-save",
+        include_str!("../../lessons/18-preset-then-save.md"),
+    ),
+    (
+        "silent-event-timer",
+        include_str!("../../lessons/19-silent-event-timer.md"),
+    ),
+    ("plc-1000h", include_str!("../../lessons/20-plc-1000h.md")),
+    (
+        "three-with-one-id",
+        include_str!("../../lessons/21-three-with-one-id.md"),
+    ),
+    ("bus-at-95", include_str!("../../lessons/22-bus-at-95.md")),
 ];
 
 /// The text of the one with this name.

@@ -166,3 +166,35 @@ fn mistakes_have_a_line_and_a_remedy() {
         gone.err
     );
 }
+
+/// The page writes the first one in playground/web/src/lessons/kept.test.ts.
+const CODES: &str = "From Ann:
+> odkit-progress/1 learner=Ann%20%C3%9C. nmt=5/5@2026-11-22
+> sdo=2/6@2026-11-23 sum=1AD6B914
+odkit-progress/1 learner=Bob sdo=6/6@2026-11-24 sum=CE8B1035 Regards
+";
+
+#[test]
+fn codes_of_learners_become_a_table_and_a_cut_one_is_told() {
+    let table = odkit(&["lesson", "progress", "-"], &CODES.replace("> ", ""));
+    assert_eq!(table.code, 0, "{}", table.err);
+    assert_eq!(
+        table.out,
+        "learner  lessons  steps      2      3\n\
+         Ann Ü.         1      7   done    2/6\n\
+         Bob            1      6      -   done\n\
+         \n2 learners, 22 lessons come with odkit\n  2  nmt\n  3  sdo\n"
+    );
+    let cut = odkit(
+        &["lesson", "progress", "-"],
+        &CODES.replace("sdo=2/6", "sdo=6/6"),
+    );
+    assert_eq!(cut.code, 1);
+    assert!(cut.err.contains("a code is cut or changed"), "{}", cut.err);
+    assert!(cut.out.contains("Bob"), "{}", cut.out);
+    let none = odkit(&["lesson", "progress", "-"], "Dear trainer,\n");
+    assert_eq!((none.code, none.out.as_str()), (1, ""));
+    assert!(none.err.contains("contains no code"), "{}", none.err);
+    let missing = odkit(&["lesson", "progress", "nosuch.txt"], "");
+    assert_eq!(missing.code, 2);
+}

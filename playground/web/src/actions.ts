@@ -195,8 +195,11 @@ export async function begin(wanted: { source: Source; nodeId: number }[]): Promi
   select(0);
 }
 
-/** Begins a lesson on a bench of its own; false, with `lessonFailed`, where it is wrong. */
-export async function openLesson(name: string, text: string): Promise<boolean> {
+/**
+ * Begins a lesson on a bench of its own, at the step behind these solutions; false, with `lessonFailed`, where it is
+ * wrong.
+ */
+export async function openLesson(name: string, text: string, solutions: string[] = []): Promise<boolean> {
   const { node, diagnostics } = await add({ op: 'lesson', text });
   if (node === null) {
     state.lessonFailed.value = { name, problems: diagnostics };
@@ -205,7 +208,8 @@ export async function openLesson(name: string, text: string): Promise<boolean> {
   dropFrames();
   state.tour.value = null;
   state.lessonFailed.value = null;
-  state.lessonRun.value = { name, count: state.lessonRun.value.count + 1 };
+  for (const solution of solutions) await playScript(solution);
+  state.lessonRun.value = { name, count: state.lessonRun.value.count + 1, step: solutions.length };
   select(0);
   setSpeed(1);
   setRunning(true);

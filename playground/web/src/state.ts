@@ -79,8 +79,8 @@ export const savedValue = signal<Value>(null);
 /** The lesson that is taken, and how far it is. */
 export const lesson = signal<Lesson | null>(null);
 export const lessonState = signal<LessonState | null>(null);
-/** What it is called in the list or the address, and how often one was begun. */
-export const lessonRun = signal({ name: '', count: 0 });
+/** What it is called in the list or the address, how often one was begun, and at which step. */
+export const lessonRun = signal({ name: '', count: 0, step: 0 });
 /** A lesson that could not be opened, and why. */
 export const lessonFailed = signal<{ name: string; problems: Diagnostic[] } | null>(null);
 export const lessonDialog = signal(false);

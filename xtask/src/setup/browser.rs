@@ -34,3 +34,22 @@ pub(crate) fn chromium(console: &Console) -> Result<PathBuf> {
     apt::install(console, &packages, "no Chromium on PATH")?;
     on_path().ok_or_else(|| Error::Missing(String::from("apt-get installed no `chromium`")))
 }
+
+/// What starts Firefox and WebKit for a long run, and Debian's package of each. WebKit's window needs a display.
+const ENGINES: [(&str, &str); 3] = [
+    ("firefox-esr", "firefox-esr"),
+    ("WebKitWebDriver", "webkit2gtk-driver"),
+    ("xvfb-run", "xvfb"),
+];
+
+/// Sees to it that the other engines are on PATH.
+pub(crate) fn engines(console: &Console) -> Result<()> {
+    let missing = |(name, _): &&(&str, &str)| which(name).is_none();
+    let mut packages: Vec<&str> = ENGINES.iter().filter(missing).map(|(_, of)| *of).collect();
+    if packages.is_empty() {
+        return Ok(());
+    }
+    // `xvfb-run` calls it, and does not depend on it.
+    packages.push("xauth");
+    apt::install(console, &packages, "no Firefox or WebKit on PATH")
+}

@@ -179,3 +179,18 @@ fn what_is_missing_is_said_in_words() {
     assert!(said[0].starts_with('1') && said[2].starts_with('1') && said[3].starts_with('1'));
     assert!(said[1].ends_with("3 times (2 of 3 so far)"), "{}", said[1]);
 }
+
+#[test]
+fn what_held_and_no_longer_does_is_lost() {
+    let (mut bench, mut progress) = begin("came abort\nvalue 6001h = 8192");
+    let lost = |bench: &mut Bench, progress: &mut Progress| {
+        let all = progress.requirements(&mut bench.bus);
+        all.iter().map(|one| one.lost).collect::<Vec<_>>()
+    };
+    play("wait 1ms", &mut bench, &mut progress);
+    assert_eq!(lost(&mut bench, &mut progress), [false, false]);
+    play("sdo write 6001h = 1000", &mut bench, &mut progress);
+    assert_eq!(lost(&mut bench, &mut progress), [false, true]);
+    play("sdo write 6001h = 8192", &mut bench, &mut progress);
+    assert_eq!(lost(&mut bench, &mut progress), [false, false]);
+}

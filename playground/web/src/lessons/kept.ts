@@ -1,21 +1,51 @@
-// Which lessons were done in this browser.
+// What was done of the lessons in this browser, and the code that tells a trainer of it. Nothing is sent anywhere.
 
-const KEY = 'odkit.lessons';
+/** Steps done, all steps, and the day of the last one. */
+export type Done = [done: number, all: number, day: string];
+export type Progress = Record<string, Done>;
 
-export function finished(): Set<string> {
+/** Lessons that are done, as earlier versions of the page kept them. */
+const OLD = 'odkit.lessons';
+const KEY = 'odkit.progress';
+
+const read = <T>(key: string, none: T): T => {
   try {
-    return new Set(JSON.parse(localStorage.getItem(KEY) ?? '[]') as string[]);
+    return (JSON.parse(localStorage.getItem(key) ?? 'null') as T | null) ?? none;
   } catch {
-    return new Set();
+    return none;
   }
-}
+};
 
-export function finish(name: string): void {
-  const all = finished();
-  if (all.has(name)) return;
+export const progress = (): Progress => read<Progress>(KEY, {});
+
+export const finished = (): Set<string> =>
+  new Set([...read<string[]>(OLD, []), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
+
+/** So many steps of a lesson are done; a lesson that is taken again loses nothing. */
+export function reached(name: string, done: number, all: number): void {
+  const known = progress();
+  const [before = 0, of] = known[name] ?? [];
+  if (done === 0 || (done <= before && of === all)) return;
   try {
-    localStorage.setItem(KEY, JSON.stringify([...all.add(name)]));
+    localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10)] }));
   } catch {
     // Storage is off: nothing is kept.
   }
+}
+
+/** FNV-1a of 32 bits: a code that was cut or retyped is told from a whole one. */
+function sum(text: string): string {
+  let hash = 0x811c9dc5;
+  for (const byte of new TextEncoder().encode(text)) hash = Math.imul(hash ^ byte, 0x01000193) >>> 0;
+  return hash.toString(16).toUpperCase().padStart(8, '0');
+}
+
+/** A word of the code: no white space, no `=`. */
+const word = (text: string): string => encodeURIComponent(text.trim()).replaceAll(/[!'()*]/g, (one) => `%${one.charCodeAt(0).toString(16).toUpperCase()}`);
+
+/** The code of a learner, which `odkit lesson progress` reads. */
+export function codeOf(learner: string, known: Progress): string {
+  const lessons = Object.entries(known).map(([name, [done, all, day]]) => `${word(name)}=${done}/${all}@${day}`);
+  const text = ['odkit-progress/1', `learner=${word(learner)}`, ...lessons].join(' ');
+  return `${text} sum=${sum(text)}`;
 }

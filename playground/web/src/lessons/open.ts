@@ -83,6 +83,12 @@ let last = '';
 /** Begins the lesson of the moment anew. */
 export const again = (): Promise<boolean> => tried(state.lessonRun.value.name, last);
 
+/** Begins a step of it again, with those before it done as their solutions do them. */
+export async function backTo(step: number): Promise<void> {
+  const steps = state.lesson.value?.steps ?? [];
+  await openLesson(state.lessonRun.value.name, last, steps.slice(0, step).map(({ solution }) => solution));
+}
+
 /** A lesson that is wrong is told of where lessons are chosen. */
 async function tried(name: string, text: string): Promise<boolean> {
   const isOpen = await openLesson(name, text);

@@ -55,6 +55,16 @@ export const bus = {
     unreadable: (name: string, why: string) => `${name} cannot be read: ${why}.`,
     replay: 'Send these frames',
   },
+  bits: {
+    title: 'Bits on the wire',
+    show: 'Bits',
+    words: (bits: number, stuffed: number, crc: string, time: string) =>
+      `${bits} bits, ${stuffed} stuff bit${stuffed === 1 ? '' : 's'}, CRC ${crc}${time ? `, ${time} ms` : ''}`,
+    byte: (number: number) => `Byte ${number}`,
+    stuffed: (count: number) => `+ ${count} stuff bit${count === 1 ? '' : 's'}`,
+    parts: ['Start', 'Identifier', 'SRR', 'IDE', 'Identifier extension', 'RTR', 'Reserved', 'DLC', 'CRC', 'CRC delimiter', 'ACK', 'ACK delimiter', 'End of frame'],
+    unloaded: 'The bits could not be loaded; try again when the network is there.',
+  },
   filter: {
     unreadable: 'This cannot be read',
     quote: 'The quotation mark is not closed',

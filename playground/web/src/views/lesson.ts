@@ -5,8 +5,8 @@ import { html, nothing, type TemplateResult } from 'lit';
 import { keyed } from 'lit/directives/keyed.js';
 import { effect } from '@preact/signals-core';
 import { leaveLesson, playScript, setRunning } from '../actions';
-import { finish } from '../lessons/kept';
-import { again } from '../lessons/open';
+import { reached } from '../lessons/kept';
+import { again, backTo } from '../lessons/open';
 import type { Lesson, LessonState } from '../sim/api';
 import * as state from '../state';
 import { T } from '../texts';
@@ -28,6 +28,8 @@ class LessonPanel extends View {
   /** The step that is shown: one that was just done stays until the learner goes on. */
   declare seen: number;
   declare hints: number;
+  /** The solution was played for this step. */
+  private isShown = false;
   private unfollow: (() => void) | undefined;
 
   constructor() {
@@ -39,9 +41,9 @@ class LessonPanel extends View {
   override connectedCallback(): void {
     super.connectedCallback();
     this.unfollow = effect(() => {
-      void state.lessonRun.value;
-      this.seen = 0;
+      this.seen = state.lessonRun.value.step;
       this.hints = 0;
+      this.isShown = false;
     });
   }
 
@@ -58,6 +60,7 @@ class LessonPanel extends View {
   private next(step: number): void {
     this.seen = step;
     this.hints = 0;
+    this.isShown = false;
     setRunning(true);
     void this.updateComplete.then(() => {
       const text = this.querySelector<HTMLElement>('.lesson');
@@ -83,15 +86,32 @@ class LessonPanel extends View {
           ${state.running.value ? nothing : html`<span class="still">${icons.pause} ${t.still}</span>`}</div>`;
   }
 
-  private open(step: Step, progress: LessonState): TemplateResult {
+  /** The bench as the step found it; hints that were taken stay. */
+  private async back(number: number): Promise<void> {
+    const { hints } = this;
+    await backTo(number);
+    this.hints = hints;
+  }
+
+  /** Plays the solution: on a bench made again, if this one has no way to it. */
+  private async show(step: Step, number: number, isLost: boolean): Promise<void> {
+    if (isLost || this.isShown) await this.back(number);
+    this.isShown = true;
+    await playScript(step.solution);
+  }
+
+  private open(step: Step, number: number, progress: LessonState): TemplateResult {
     const t = T.lessons;
+    const isLost = progress.step === number && progress.requirements.some(({ lost }) => lost);
     return html`${step.quiz ? html`<od-quiz .quiz=${step.quiz}></od-quiz>` : nothing}
       <div class="asked"><ul class="checks" aria-live="polite" aria-label=${t.checks}>${progress.requirements.map(
         (one) => html`<li data-done=${one.holds}>${one.holds ? icons.tick : html`<i></i>`}<span><span class="sr">${one.holds ? t.isDone : t.isOpen}</span>${one.text}</span></li>`,
       )}</ul>
       ${this.hints < step.hints.length
         ? html`<button class="small" @click=${this.hint}>${this.hints ? t.nextHint : t.hint}</button>`
-        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void playScript(step.solution)}>${t.show}</button>` : nothing}</div>`;
+        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void this.show(step, number, isLost)}>${t.show}</button>` : nothing}
+      ${isLost ? nothing : html`<button class="icon-button" aria-label=${t.back} title=${t.back} @click=${() => void this.back(number)}>${icons.reset}</button>`}</div>
+      ${isLost ? html`<div class="lost" role="status"><span>${t.lost}</span><button class="small" @click=${() => void this.back(number)}>${t.back}</button></div>` : nothing}`;
   }
 
   protected override render() {
@@ -107,7 +127,7 @@ class LessonPanel extends View {
     const isLast = shown === all - 1;
     // Why it matters comes first; the rest can be opened where a window is low.
     const [why, ...more] = lesson.intro.trim().split(/\n\s*\n/);
-    if (progress.done) finish(state.lessonRun.value.name);
+    reached(state.lessonRun.value.name, progress.step, all);
     return html`
       <header class="panel-head">
         <h2>${lesson.title}</h2>
@@ -132,7 +152,7 @@ class LessonPanel extends View {
           </section>`,
         )}
       </div>
-      <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, progress))}</footer>`;
+      <footer class="lesson-foot">${keyed(`${state.lessonRun.value.count}/${shown}`, isDone ? this.goOn(shown, isLast) : this.open(step, shown, progress))}</footer>`;
   }
 }
 

@@ -2,7 +2,7 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
-import { finished } from '../lessons/kept';
+import { codeOf, finished, progress } from '../lessons/kept';
 import { lessons, openFile, openNamed, type Listed } from '../lessons/open';
 import * as state from '../state';
 import { T } from '../texts';
@@ -10,14 +10,19 @@ import { icons } from './icons';
 import { View } from './view';
 
 class Lessons extends View {
-  static override properties = { list: { state: true } };
+  static override properties = { list: { state: true }, learner: { state: true }, isCopied: { state: true } };
   /** Null: it could not be loaded. */
   declare list: Listed[] | null;
+  /** A name for the code; it is kept nowhere. */
+  declare learner: string;
+  declare isCopied: boolean;
   private unopen: (() => void) | undefined;
 
   constructor() {
     super();
     this.list = [];
+    this.learner = '';
+    this.isCopied = false;
   }
 
   protected override firstUpdated(changed: PropertyValues): void {
@@ -50,6 +55,21 @@ class Lessons extends View {
     </section>`;
   }
 
+  /** One's own progress as a code, for a trainer. */
+  private code() {
+    const known = progress();
+    if (Object.keys(known).length === 0) return nothing;
+    const t = T.lessons.code;
+    const code = codeOf(this.learner, known);
+    return html`<section class="share-field progress-code" aria-label=${t.title}>
+      <label for="learner">${t.title}</label>
+      <p class="note">${t.hint}</p>
+      <input id="learner" placeholder=${t.learner} aria-label=${t.learner} autocomplete="name" maxlength="60" .value=${this.learner} @input=${(event: Event) => { this.learner = (event.target as HTMLInputElement).value; this.isCopied = false; }}>
+      <button ?disabled=${this.learner.trim() === ''} @click=${() => void navigator.clipboard.writeText(code).then(() => (this.isCopied = true), () => this.querySelector<HTMLInputElement>('#progress-code')?.select())}>${this.isCopied ? T.share.copied : t.copy}</button>
+      ${this.learner.trim() ? html`<input id="progress-code" class="num" readonly aria-label=${t.code} .value=${code} @focus=${(event: Event) => (event.target as HTMLInputElement).select()}>` : nothing}
+    </section>`;
+  }
+
   protected override render() {
     const t = T.lessons;
     const done = finished();
@@ -66,6 +86,7 @@ class Lessons extends View {
           <strong>${one.title}${done.has(one.name) ? html` <span class="done-mark" title=${t.done}>${icons.tick}<span class="sr">${t.done}</span></span>` : nothing}</strong>
           ${one.summary ? html`<span>${one.summary}</span>` : nothing}
           <span class="muted">${t.about(t.levels[one.level] ?? '', one.minutes)}</span></button></li>`)}</ol>
+        ${this.code()}
         <label class="drop">${icons.file}<span><strong>${t.open}</strong><span class="muted">${t.openHint}</span></span>
           <input class="sr" type="file" accept=".md,.markdown,text/markdown,text/plain" aria-label=${t.open} @change=${(event: Event) => {
             const input = event.target as HTMLInputElement;

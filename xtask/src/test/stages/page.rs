@@ -11,7 +11,8 @@ use crate::error::{Error, Result};
 use crate::packages::{CLI, PAGE};
 use crate::repo::program;
 use crate::serve::Server;
-use crate::setup::{browser as chromium, node, python};
+use crate::setup::browser::{chromium, engines};
+use crate::setup::{node, python};
 use crate::test::context::Context;
 
 /// The page's own checks, on the bundle that `play` would serve.
@@ -33,7 +34,10 @@ pub(super) fn page(context: &Context<'_>) -> Result<()> {
 pub(super) fn browser(context: &Context<'_>) -> Result<()> {
     let tests = context.repo.root.join("tests/browser");
     node::check()?;
-    let chromium = chromium::chromium(context.console)?;
+    let chromium = chromium(context.console)?;
+    if context.long {
+        engines(context.console)?;
+    }
     bundle::page(context.repo, context.console)?;
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
