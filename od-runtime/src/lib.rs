@@ -89,7 +89,8 @@ mod pdo;
 mod profile;
 pub mod program;
 mod real;
-mod rooms;
+#[doc(hidden)]
+pub mod rooms;
 mod sdo;
 pub mod storage;
 mod store;
@@ -113,8 +114,6 @@ pub use profile::{
     NmtProfile, Notice, PdoProfile, Profile, Restore, SaveAnswer, SavedCobIds, SdoProfile,
     StoreProfile,
 };
-#[doc(hidden)]
-pub use rooms::{Blank, Fit, Room, room};
 pub use rooms::{FullRooms, Rooms};
 pub use sdo::SdoServer;
 pub use store::{Store, StoreTooSmall, TextTooLong};

@@ -182,19 +182,19 @@ impl<
 #[macro_export]
 macro_rules! rooms {
     ($device:ty) => {
-        $crate::Fit<
-            { $crate::room::<$device>(0) },
-            { $crate::room::<$device>(1) },
-            { $crate::room::<$device>(2) },
-            { $crate::room::<$device>(3) },
-            { $crate::room::<$device>(4) },
-            { $crate::room::<$device>(5) },
-            { $crate::room::<$device>(6) },
-            { $crate::room::<$device>(7) },
-            { $crate::room::<$device>(8) },
-            { $crate::room::<$device>(9) },
-            { $crate::room::<$device>(10) },
-            { $crate::room::<$device>(11) },
+        $crate::rooms::Fit<
+            { $crate::rooms::room::<$device>(0) },
+            { $crate::rooms::room::<$device>(1) },
+            { $crate::rooms::room::<$device>(2) },
+            { $crate::rooms::room::<$device>(3) },
+            { $crate::rooms::room::<$device>(4) },
+            { $crate::rooms::room::<$device>(5) },
+            { $crate::rooms::room::<$device>(6) },
+            { $crate::rooms::room::<$device>(7) },
+            { $crate::rooms::room::<$device>(8) },
+            { $crate::rooms::room::<$device>(9) },
+            { $crate::rooms::room::<$device>(10) },
+            { $crate::rooms::room::<$device>(11) },
         >
     };
 }

@@ -39,6 +39,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// # Errors
     /// [`StoreTooSmall`] where `device.values` is too short for the dictionary. The node stays
     /// without power.
+    #[inline(never)]
     pub fn power_on_partly(
         &mut self,
         device: &mut Lent<'_>,
@@ -50,14 +51,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             Room::outbox(&mut self.outbox),
             self.saves.all_mut().first_mut(),
         );
-        let objects = device.objects(node.node_id, now, outbox, saving);
-        let mut objects = objects.ok_or(StoreTooSmall { needed })?;
+        let mut objects = device.objects(node.node_id, now, outbox, saving);
+        let objects = objects.as_mut().ok_or(StoreTooSmall { needed })?;
         node.now = now;
         node.next = Instant::ZERO;
         node.powered = true;
         node.mute = None;
         node.discard_frames();
-        node.reset(&mut objects, Reset::PowerOn);
+        node.reset(objects, Reset::PowerOn);
         Ok(())
     }
 
@@ -66,10 +67,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     ///
     /// [`NmtProfile::reset_node_us`]: crate::NmtProfile::reset_node_us
     pub fn boot_at_once(&mut self, device: &mut Lent<'_>, now: Instant) {
-        if let Some((node, mut objects)) = self.open(device, now)
+        if let Some((node, objects)) = &mut self.open(device, now)
             && node.boot_at.is_set()
         {
-            node.boot_up(&mut objects);
+            node.boot_up(objects);
         }
     }
 
@@ -91,6 +92,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 }
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
+    #[inline(never)]
     pub(super) fn reset(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let nmt = &objects.profile().nmt;
         let delay = match reset {
@@ -181,6 +183,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Defaults, then what storage holds. The node ID may be among it, and defaults hang
     /// on the node ID, so a new one means a second pass.
+    #[inline(never)]
     fn load(&mut self, objects: &mut Objects<'_, D>, reset: Reset) {
         let all = reset != Reset::Communication;
         // Reset communication takes 1000h–1FFFh back, and what the device starts on the
@@ -233,6 +236,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// The end of initialisation: services take their configuration, the boot-up message
     /// goes out, Pre-operational begins.
+    #[inline(never)]
     pub(super) fn boot_up(&mut self, objects: &mut Objects<'_, D>) {
         self.boot_at = Deadline::NEVER;
         if self.unconfigured {
@@ -263,6 +267,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// Every service reads its objects again.
+    #[inline(never)]
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
         self.sync_id = CobId::new(objects.store.word(0x1005, 0, 0x80)).can_id();

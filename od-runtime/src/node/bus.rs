@@ -18,7 +18,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// Reports a state change or frame loss of the CAN controller. A host that never calls
     /// this runs the node as on an error-free bus.
     pub fn handle_bus(&mut self, device: &mut Lent<'_>, now: Instant, event: BusEvent) {
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return;
         };
         // A controller that is being set up has no news.
@@ -35,20 +36,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
                 return;
             }
             if profile.off.boots {
-                node.reset(&mut objects, Reset::Communication);
+                node.reset(objects, Reset::Communication);
             } else {
-                node.come_back(&mut objects);
-                node.finish(&mut objects);
+                node.come_back(objects);
+                node.finish(objects);
             }
             return;
         }
         if event == BusEvent::Off {
-            node.fall_off(&mut objects, restarts);
+            node.fall_off(objects, restarts);
         } else {
-            node.take_state(&mut objects, event);
+            node.take_state(objects, event);
         }
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
+        node.finish(objects);
+        node.reset_if_due(objects);
     }
 }
 

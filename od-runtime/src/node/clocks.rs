@@ -15,11 +15,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// [`Signals::send_time`](crate::Signals::send_time) does. Returns whether it goes out: bit 30 of
     /// 1012h is set, and the NMT state is Pre-operational or Operational.
     pub fn send_time(&mut self, device: &mut Lent<'_>, now: Instant) -> bool {
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return false;
         };
-        let sent = D::TIME && node.produce_time(&mut objects);
-        node.finish(&mut objects);
+        let sent = D::TIME && node.produce_time(objects);
+        node.finish(objects);
         sent
     }
 }

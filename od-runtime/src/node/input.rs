@@ -66,16 +66,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     #[inline(never)]
     fn handle_seldom(&mut self, device: &mut Lent<'_>, frame: &Frame) {
         let now = self.machines.now;
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return;
         };
         if node.state == State::Initialising || node.mute.is_some() {
-            return node.handle_unconfigured(&mut objects, frame);
+            return node.handle_unconfigured(objects, frame);
         }
         let id = frame.id();
         if id == NMT {
             if !frame.is_remote() {
-                node.handle_nmt(&mut objects, frame);
+                node.handle_nmt(objects, frame);
             }
             return;
         }
@@ -83,7 +84,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             && id.raw() & 0x780 == 0x700
             && !id.is_extended();
         if D::LSS && id == CanId::standard(od_wire::lss::MASTER) {
-            node.handle_lss(&mut objects, frame);
+            node.handle_lss(objects, frame);
             return;
         }
         if node.state == State::Stopped && !is_error_control {
@@ -91,26 +92,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         if is_error_control {
             node.handle_error_control(frame, objects.now);
-            node.poll_monitor(&mut objects);
+            node.poll_monitor(objects);
         } else if frame.is_remote() {
-            node.handle_remote(&mut objects, frame);
+            node.handle_remote(objects, frame);
         } else if id == node.node_id.plus(0x600) {
-            if D::SERVERS && node.refuses(&mut objects, frame) {
-            } else if let Some(answer) = node.sdo.handle(&mut objects, frame.bytes(), frame.dlc()) {
+            if D::SERVERS && node.refuses(objects, frame) {
+            } else if let Some(answer) = node.sdo.handle(objects, frame.bytes(), frame.dlc()) {
                 node.answer(answer);
             }
-        } else if D::SERVERS && node.handle_server(&mut objects, frame) {
+        } else if D::SERVERS && node.handle_server(objects, frame) {
         } else if D::TIME && node.time_id() == Some(id) {
-            node.handle_time(&mut objects, frame);
+            node.handle_time(objects, frame);
         } else if node.state != State::Operational {
             return;
         } else if id == node.sync_id {
-            node.handle_sync(&mut objects, frame);
+            node.handle_sync(objects, frame);
         } else if D::RPDOS {
-            node.handle_rpdo(&mut objects, frame);
+            node.handle_rpdo(objects, frame);
         }
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
+        node.finish(objects);
+        node.reset_if_due(objects);
     }
 
     /// Does what is due by now; the moment is that of [`poll_timeout`](Self::poll_timeout), or
@@ -127,58 +128,61 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
 
     #[inline(never)]
     fn handle_due(&mut self, device: &mut Lent<'_>, now: Instant) {
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return;
         };
         let now = objects.now;
         if node.boot_at.is_due(now) {
-            node.boot_up(&mut objects);
+            node.boot_up(objects);
         }
         if node.mute.is_some_and(|mute| mute.until <= now) {
-            node.end_mute(&objects);
+            node.end_mute(objects);
         }
         if node.heartbeat.handle_timeout(now) {
             node.push_error_control(node.state as u8);
         }
         if (D::BLOCK || D::STREAMS)
-            && let Some(answer) = node.sdo.handle_timeout(&mut objects)
+            && let Some(answer) = node.sdo.handle_timeout(objects)
         {
             node.answer(answer);
         }
-        node.wake_servers(&mut objects, false);
+        node.wake_servers(objects, false);
         if Machines::<D, PDO, SDO, X>::HAS_MONITOR {
             node.monitor.handle_timeout::<D>(now);
-            node.poll_monitor(&mut objects);
+            node.poll_monitor(objects);
         }
         if node.save_at.all().iter().any(|at| at.is_due(now)) {
-            node.end_save(&mut objects);
+            node.end_save(objects);
         }
         if node.tick_at.is_due(now) {
-            node.tick(&mut objects);
+            node.tick(objects);
         }
-        node.produce_sync(&mut objects);
+        node.produce_sync(objects);
         if node.state == State::Operational {
-            node.each_tpdo(|pdo| pdo.handle_timeout(&mut objects));
+            node.each_tpdo(|pdo| pdo.handle_timeout(objects));
         }
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
+        node.finish(objects);
+        node.reset_if_due(objects);
         node.next = node.timers().moment();
     }
 
     /// Tells the application that the world outside the bus changed (shaft, faults, switches).
+    #[inline(never)]
     pub fn handle_change(&mut self, device: &mut Lent<'_>, now: Instant) {
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return;
         };
         if node.state == State::Initialising {
             return;
         }
-        node.tick(&mut objects);
-        if let Some(answer) = node.sdo.handle_change(&mut objects) {
+        node.tick(objects);
+        if let Some(answer) = node.sdo.handle_change(objects) {
             node.answer(answer);
         }
-        node.wake_servers(&mut objects, true);
-        node.finish(&mut objects);
+        node.wake_servers(objects, true);
+        node.finish(objects);
     }
 }
 

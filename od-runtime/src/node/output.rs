@@ -62,8 +62,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
                 Room::outbox(&mut self.outbox),
                 self.saves.all_mut().first_mut(),
             );
-            let mut objects: Objects<'_, D> = device.objects(node_id, now, outbox, saving)?;
-            pdo.refresh(&mut objects);
+            let mut objects = device.objects(node_id, now, outbox, saving);
+            let objects: &mut Objects<'_, D> = objects.as_mut()?;
+            pdo.refresh(objects);
             if !objects.outbox.is_empty() {
                 // What the application has to say of the values comes with the next call.
                 node.next = Instant::ZERO;
@@ -85,7 +86,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             Room::outbox(&mut self.outbox),
             self.saves.all_mut().first_mut(),
         );
-        let mut objects: Objects<'_, D> = device.objects(node.node_id, now, outbox, saving)?;
+        let mut objects = device.objects(node.node_id, now, outbox, saving);
+        let objects: &mut Objects<'_, D> = objects.as_mut()?;
         if node.sends_emcy() {
             let frame = node.emcy.poll(&objects.store, now);
             if frame.is_some() {
@@ -94,11 +96,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         if D::BLOCK {
             node.next = Instant::ZERO;
-            if let Some(segment) = node.sdo.poll(&mut objects) {
+            if let Some(segment) = node.sdo.poll(objects) {
                 return Some(node.response(segment));
             }
             if D::SERVERS {
-                return node.poll_servers(&mut objects);
+                return node.poll_servers(objects);
             }
         }
         None

@@ -24,13 +24,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         address: Address,
         bytes: &[u8],
     ) -> Result<(), AbortCode> {
-        let open = self.open(device, now);
-        let (node, mut objects) = open
+        let mut open = self.open(device, now);
+        let (node, objects) = open
+            .as_mut()
             .filter(|(node, _)| node.state != State::Initialising)
             .ok_or(AbortCode::DeviceState)?;
         objects.set(address, bytes)?;
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
+        node.finish(objects);
+        node.reset_if_due(objects);
         Ok(())
     }
 
@@ -53,7 +54,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         error: Emcy,
         comes: bool,
     ) -> bool {
-        let Some((node, mut objects)) = self.open(device, now) else {
+        let mut open = self.open(device, now);
+        let Some((node, objects)) = &mut open else {
             return false;
         };
         if node.state == State::Initialising || node.emcy.is_active(error) == comes {
@@ -68,8 +70,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             true => objects.outbox.signals.raise(error),
             false => objects.outbox.signals.clear_one(code, register, info),
         }
-        node.finish(&mut objects);
-        node.reset_if_due(&mut objects);
+        node.finish(objects);
+        node.reset_if_due(objects);
         true
     }
 }

@@ -252,6 +252,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
+    #[inline(never)]
     fn command(
         &mut self,
         address: Address,
@@ -284,6 +285,7 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// 1010h: the values of this moment, complete at once or in a while.
+    #[inline(never)]
     fn save(&mut self, sub: u8) -> Result<(), AbortCode> {
         let profile = &self.profile().store;
         self.refresh_life_record();

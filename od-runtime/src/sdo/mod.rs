@@ -11,6 +11,7 @@ mod late;
 mod request;
 mod segmented;
 mod streamed;
+mod under_way;
 mod window;
 
 use core::marker::PhantomData;
@@ -113,32 +114,6 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     fn reset(&mut self) {
         self.set_transfer(Transfer::None);
         self.deadline = Deadline::NEVER;
-    }
-
-    /// The transfer under way; a server without room for one has none.
-    #[inline]
-    fn transfer(&self) -> &Transfer {
-        self.transfers.all().first().unwrap_or(&Transfer::None)
-    }
-
-    #[inline]
-    fn set_transfer(&mut self, transfer: Transfer) {
-        if let Some(to) = self.transfers.all_mut().first_mut() {
-            *to = transfer;
-        }
-    }
-
-    /// The response that waits.
-    #[inline]
-    fn late(&self) -> &Late {
-        self.late.all().first().unwrap_or(&Late::BLANK)
-    }
-
-    #[inline]
-    fn set_late(&mut self, late: Late) {
-        if let Some(to) = self.late.all_mut().first_mut() {
-            *to = late;
-        }
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.

@@ -220,9 +220,9 @@ pub(super) fn in_chunks(
     len: usize,
     mut each: impl FnMut(&mut dyn Storage, &[u8]) -> Result<(), StorageError>,
 ) -> Result<(), StorageError> {
-    let mut chunk = [0; 64];
+    let mut chunk = [0; 32];
     for at in (0..len).step_by(chunk.len()) {
-        let part = chunk.get_mut(..(len - at).min(64)).unwrap_or_default();
+        let part = chunk.get_mut(..(len - at).min(32)).unwrap_or_default();
         storage.read(start + at, part)?;
         each(storage, part)?;
     }

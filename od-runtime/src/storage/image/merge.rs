@@ -7,7 +7,7 @@ use super::bank::{Banks, content};
 use super::cob_id;
 use super::covered::{is_life_record, is_saved};
 use super::layout::{
-    Code, ERASED, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, in_chunks, is_blank, whole_words,
+    Code, ERASED, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, is_blank, whole_words,
 };
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
@@ -147,7 +147,8 @@ impl Set<'_> {
         Ok(writer.at)
     }
 
-    /// Writes records and fields, and reads them back.
+    /// Writes records and fields, and reads them back. Its parts are apart for the sake of the stack.
+    #[inline(never)]
     fn write(&self, storage: &mut dyn Storage, len: usize) -> Result<(), StorageError> {
         let (layout, target) = (self.banks.layout, self.banks.target);
         let header = layout.header();
@@ -162,27 +163,35 @@ impl Set<'_> {
         writer.write_out(storage, layout.word)?;
         // Behind the records nothing stays of older sets; flash is erased there.
         let end = target + layout.size;
+        writer.buffer = [ERASED; BUFFER];
         while layout.page == 0 && writer.at < end {
             let part = (end - writer.at).min(writer.buffer.len());
             if !is_blank(storage, writer.at, part)? {
-                storage.write(writer.at, [ERASED; 64].get(..part).unwrap_or_default())?;
+                storage.write(writer.at, writer.buffer.get(..part).unwrap_or_default())?;
             }
             writer.at += part;
         }
-        let mut fields = [ERASED; MAX_HEADER];
         let crc = writer.crc.finish().to_le_bytes();
-        let known = [device, bytes, crc];
-        for (to, from) in fields.iter_mut().zip(known.as_flattened()) {
-            *to = *from;
-        }
-        let fields = fields.get(..header - 2 * layout.word).unwrap_or_default();
-        storage.write(target + 2 * layout.word, fields)?;
-        storage.flush()?;
+        self.fields(storage, &[device, bytes, crc])?;
         let whole = content(storage, &layout, target)?;
         match whole.is_some_and(|set| set.len == len) {
             true => Ok(()),
             false => Err(StorageError::NotWritten),
         }
+    }
+
+    /// Writes the fields of the header.
+    #[inline(never)]
+    fn fields(&self, storage: &mut dyn Storage, known: &[[u8; 4]; 3]) -> Result<(), StorageError> {
+        let (layout, target) = (self.banks.layout, self.banks.target);
+        let mut fields = [ERASED; MAX_HEADER];
+        for (to, from) in fields.iter_mut().zip(known.as_flattened()) {
+            *to = *from;
+        }
+        let len = layout.header() - 2 * layout.word;
+        let fields = fields.get(..len).unwrap_or_default();
+        storage.write(target + 2 * layout.word, fields)?;
+        storage.flush()
     }
 
     /// Goes through the newest set and the dictionary side by side, both by address.
@@ -232,9 +241,7 @@ impl Set<'_> {
                 }
                 (Fate::Keep, _, Some(old)) => {
                     writer.head(storage, address, old.len)?;
-                    in_chunks(storage, old.at, old.len, |storage, part| {
-                        writer.put(storage, part)
-                    })?;
+                    writer.copy(storage, old.at, old.len)?;
                 }
                 _ => {}
             }
@@ -248,13 +255,16 @@ impl Set<'_> {
     }
 }
 
+/// Bytes of a write: the longest word.
+const BUFFER: usize = 32;
+
 /// Gathers small writes and sums them up.
 struct Writer {
     /// Place of the next byte that is written.
     at: usize,
     /// Nothing is written.
     only_counts: bool,
-    buffer: [u8; 64],
+    buffer: [u8; BUFFER],
     filled: usize,
     crc: Crc32,
 }
@@ -264,7 +274,7 @@ impl Writer {
         Self {
             at,
             only_counts,
-            buffer: [0; 64],
+            buffer: [0; BUFFER],
             filled: 0,
             crc: Crc32::new(),
         }
@@ -284,6 +294,7 @@ impl Writer {
         self.put(storage, &head)
     }
 
+    #[inline(never)]
     fn put(&mut self, storage: &mut dyn Storage, mut bytes: &[u8]) -> Result<(), StorageError> {
         if self.only_counts {
             self.at += bytes.len();
@@ -298,6 +309,33 @@ impl Writer {
             }
             self.filled += part;
             bytes = bytes.get(part..).unwrap_or_default();
+            if self.filled == self.buffer.len() {
+                self.write_out(storage, 1)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts what the storage has at a place.
+    #[inline(never)]
+    fn copy(
+        &mut self,
+        storage: &mut dyn Storage,
+        mut from: usize,
+        mut len: usize,
+    ) -> Result<(), StorageError> {
+        if self.only_counts {
+            self.at += len;
+            return Ok(());
+        }
+        while len > 0 {
+            let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
+            let part = len.min(room.len());
+            let room = room.get_mut(..part).unwrap_or_default();
+            storage.read(from, room)?;
+            self.crc.update(room);
+            self.filled += part;
+            (from, len) = (from + part, len - part);
             if self.filled == self.buffer.len() {
                 self.write_out(storage, 1)?;
             }
