@@ -25,6 +25,7 @@ mod live;
 mod lsp;
 mod lss;
 mod monitor;
+mod network;
 mod new;
 mod nmt;
 mod output;
@@ -75,6 +76,7 @@ enum Command {
     Convert(convert::Args),
     Diff(diff::Args),
     Conform(conform::Args),
+    Network(network::Args),
     New(new::Args),
     Scan(scan::Args),
     Get(get::Args),
@@ -183,6 +185,7 @@ pub fn main() -> ExitCode {
         Command::Convert(args) => convert::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Conform(args) => conform::run(&args),
+        Command::Network(args) => network::run(&args),
         Command::New(args) => new::run(&args),
         Command::Scan(args) => scan::run(&args),
         Command::Get(args) => get::run(&args),

@@ -37,6 +37,7 @@ pub mod fix;
 pub mod identifiers;
 mod load;
 mod log;
+pub mod network;
 pub mod outline;
 mod overlay;
 pub mod patch;

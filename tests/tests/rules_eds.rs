@@ -8,7 +8,7 @@ use od_eds::Severity;
 use od_eds::check::RULES;
 use od_tests::scripts::{cell, compare_page};
 
-const FOLDERS: [(&str, &str); 10] = [
+const FOLDERS: [(&str, &str); 11] = [
     ("01", "Text and INI structure"),
     ("02", "Lists, sections and keys"),
     ("03", "Objects and their members"),
@@ -19,6 +19,7 @@ const FOLDERS: [(&str, &str); 10] = [
     ("08", "Findings that a file allows"),
     ("09", "Device profiles"),
     ("11", "What a target of `odkit convert` cannot express"),
+    ("12", "Networks"),
 ];
 
 fn page() -> String {

@@ -22,6 +22,7 @@ mod files;
 mod guests;
 mod lesson;
 mod links;
+mod network;
 mod new;
 mod new_firmware;
 mod overlay;

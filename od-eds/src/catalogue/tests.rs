@@ -166,7 +166,27 @@ fn faults_of_targets() -> Vec<Finding> {
         [1A02sub0]\nDataType=5\nDefaultValue=255\n[2000]\nDataType=9\n";
     let description = crate::load::parse(text).description;
     found.extend(crate::convert::dbc::write(&description, 1).1);
+    found.extend(faults_of_networks());
     found
+}
+
+/// The findings of nodes that do not fit together.
+fn faults_of_networks() -> Vec<Finding> {
+    let node = |name: &str, id, text: &str| {
+        let description = crate::load::parse(text).description;
+        crate::network::Node::new(name.into(), id, description)
+    };
+    let sender = "[1017]\nDataType=6\nDefaultValue=1\n[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nDefaultValue=0x1FF\n\
+        [1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\nDefaultValue=0x20000008\n";
+    let receiver = "[1016]\nObjectType=8\n[1016sub1]\nDataType=7\nDefaultValue=0x10001\n[1016sub2]\nDataType=7\nDefaultValue=0x70001\n\
+        [1400]\nObjectType=9\n[1400sub1]\nDataType=7\nDefaultValue=0x1FF\n\
+        [1600]\nObjectType=9\n[1600sub0]\nDataType=5\nDefaultValue=1\n[1600sub1]\nDataType=7\nDefaultValue=0x20000020\n";
+    let nodes = [
+        node("a", 1, sender),
+        node("b", 2, sender),
+        node("c", 2, receiver),
+    ];
+    crate::network::check(&nodes, None, 10, 0)
 }
 
 #[test]

@@ -71,7 +71,7 @@ macro_rules! folders {
     };
 }
 
-folders! { text lists structure values pdo standard edits allow profile convert }
+folders! { text lists structure values pdo standard edits allow profile convert network }
 
 const COUNT: usize = {
     let (mut count, mut at) = (0, 0);

@@ -189,7 +189,7 @@ fn sections(dictionary: Dictionary<'_>, about: &About<'_>) -> Vec<Section> {
 }
 
 /// A section with these keys and values, which stand in no text.
-pub(super) fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
+pub(crate) fn section(name: &str, pairs: impl IntoIterator<Item = (String, String)>) -> Section {
     Section {
         name: Spanned::from(name.to_string()),
         pairs: pairs

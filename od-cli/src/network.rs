@@ -1,0 +1,155 @@
+//! `odkit network`: a project or a node list, its files and its report.
+
+mod nodelist;
+mod project;
+mod table;
+mod yaml;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use od_eds::network::{self, Master, Node};
+use od_eds::{Description, Document, Finding};
+
+use crate::config::Config;
+use crate::failure::{Failure, read_error};
+use crate::output;
+use crate::report::{self, Names};
+
+/// Check a network: concise DCF of each node, DCF of the master, clashes, bus load
+#[derive(clap::Args)]
+#[command(
+    long_about = "Check a network: clashes, consumers without producers, heartbeat times, bus load\n\n\
+    FILE is a project of dcfgen (YAML, dcf-tools) or a node list (nodelist.cpj, CiA 306-3). With `-o` \
+    odkit writes the concise DCF of each node (NAME.bin, 1F22h) and, for a project, master.dcf and \
+    master.bin. Exit code 1 if an error is found."
+)]
+pub(crate) struct Args {
+    /// Project (.yml, .yaml) or node list (.cpj)
+    #[arg(value_name = "FILE")]
+    file: String,
+    /// Folder of the files that are written [default: none are]
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// A network as it was read.
+#[derive(Default)]
+struct Network {
+    /// Its name; empty if it has none.
+    name: String,
+    /// The master of a project; one of a node list is a node.
+    master: Option<Master>,
+    /// kbit/s, if the file of a node says so.
+    bit_rate: Option<u32>,
+    nodes: Vec<Node>,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let path = Path::new(&args.file);
+    let bytes = fs::read(path).map_err(|error| {
+        let why = read_error(&error);
+        Failure::Failed(format!("{}: {why}", args.file))
+    })?;
+    let document = Document::new(bytes);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let load = |name: &str| load(folder, name);
+    let is_list = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("cpj"));
+    let networks = match is_list {
+        true => nodelist::read(document.text(), &load),
+        false => project::read(document.text(), &load).map(|network| vec![network]),
+    };
+    let networks = networks.map_err(|why| Failure::Failed(format!("{}: {why}", args.file)))?;
+    let several = networks.len() > 1;
+    let mut errors = 0;
+    for (number, network) in (1..).zip(networks) {
+        let folder = match (&args.output, several) {
+            (Some(folder), true) => Some(folder.join(format!("network{number}"))),
+            (folder, _) => folder.clone(),
+        };
+        errors += one(args, network, folder.as_deref())?;
+    }
+    match errors {
+        0 => Ok(()),
+        _ => Err(Failure::Reported(1)),
+    }
+}
+
+/// Writes the files and the report of a network, and counts its errors.
+fn one(args: &Args, mut network: Network, folder: Option<&Path>) -> Result<usize, Failure> {
+    let mut files = Vec::new();
+    for node in &network.nodes {
+        if !node.writes.is_empty() {
+            files.push((format!("{}.bin", node.name), network::bytes(&node.writes)));
+        }
+    }
+    for node in &mut network.nodes {
+        node.apply();
+    }
+    let bit_rate = network
+        .master
+        .as_ref()
+        .map(|master| master.bit_rate)
+        .or(network.bit_rate);
+    let mut position = None;
+    let mut sync_period = 0;
+    if let Some(master) = &network.master {
+        let writes = network::writes(master, &network.nodes);
+        if !writes.is_empty() {
+            files.push(("master.bin".into(), network::bytes(&writes)));
+        }
+        let description = network::dcf(master, &network.nodes);
+        files.push((
+            "master.dcf".into(),
+            od_eds::canonical(&description).into_bytes(),
+        ));
+        sync_period = master.sync_period;
+        position = Some(network.nodes.len());
+        let mut own = Node::new("master".into(), master.node_id, description);
+        own.writes = writes;
+        network.nodes.push(own);
+    }
+    if let Some(folder) = folder {
+        for (name, bytes) in &files {
+            // A name of the file is no path out of the folder.
+            if name.contains(['/', '\\']) {
+                return Err(Failure::Failed(format!(
+                    "`{name}` is not valid as the name of a file"
+                )));
+            }
+            fs::create_dir_all(folder).map_err(|error| {
+                Failure::Failed(format!("{} cannot be written: {error}", folder.display()))
+            })?;
+            output::write(&folder.join(name), bytes)?;
+        }
+    }
+    let rate = bit_rate.unwrap_or(1000);
+    let mut findings = network::check(&network.nodes, position, rate, sync_period);
+    Config::of(&args.file)?.apply(&args.file, &mut findings);
+    let colours = output::error_colours();
+    let text = report::render(&args.file, "", &findings, &Names::new(), colours);
+    output::note_text(&text);
+    output::print(&table::table(&network, bit_rate, sync_period, &files))?;
+    Ok(findings
+        .iter()
+        .filter(|finding| Finding::is_error(finding))
+        .count())
+}
+
+/// The description of a node, from the folder of the project on, else from the current one.
+fn load(folder: &Path, name: &str) -> Result<Description, String> {
+    let beside = folder.join(name);
+    let path = if beside.exists() {
+        beside
+    } else {
+        PathBuf::from(name)
+    };
+    let bytes = fs::read(&path).map_err(|error| read_error(&error))?;
+    let description = od_eds::parse(Document::new(bytes).text()).description;
+    match description.objects.is_empty() {
+        true => Err("no object is defined; is it an EDS, DCF or XDD file?".into()),
+        false => Ok(description),
+    }
+}

@@ -1,0 +1,268 @@
+//! A project of dcfgen (dcf-tools) in YAML.
+
+use od_eds::network::{
+    Configuration, Master, Node, Options, PdoConfiguration, configure, consume_heartbeats,
+};
+use od_model::Address;
+
+use super::Network;
+use super::yaml::Yaml;
+
+/// A section of a project: its name and its keys.
+struct Section<'a> {
+    name: &'a str,
+    yaml: &'a Yaml,
+}
+
+impl Section<'_> {
+    fn wrong(&self, key: &str) -> String {
+        format!("{}: {key} is not valid", self.name)
+    }
+
+    /// A number of a key; `None` if the key is missing.
+    fn number<T: TryFrom<i128>>(&self, key: &str) -> Result<Option<T>, String> {
+        let Some(value) = self.yaml.get(key) else {
+            return Ok(None);
+        };
+        let number = value.integer().and_then(|number| T::try_from(number).ok());
+        number.map(Some).ok_or_else(|| self.wrong(key))
+    }
+
+    fn real(&self, key: &str) -> Result<Option<f64>, String> {
+        let Some(value) = self.yaml.get(key) else {
+            return Ok(None);
+        };
+        value.real().map(Some).ok_or_else(|| self.wrong(key))
+    }
+
+    fn flag(&self, key: &str) -> Option<bool> {
+        self.yaml.get(key).map(Yaml::is_true)
+    }
+
+    fn text(&self, key: &str) -> Option<String> {
+        self.yaml.get(key).map(Yaml::text)
+    }
+
+    /// The entries of a key, whose keys are numbers.
+    fn numbered<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, &Yaml)>, String> {
+        let entries = self.yaml.get(key).map_or(&[][..], Yaml::entries).iter();
+        let entries = entries.map(|(number, value)| {
+            let number = number.integer().and_then(|number| T::try_from(number).ok());
+            Ok((number.ok_or_else(|| self.wrong(key))?, value))
+        });
+        entries.collect()
+    }
+
+    /// The entries of a key, which are numbers.
+    fn numbers<T: TryFrom<i128>>(&self, key: &str) -> Result<Vec<(T, u32)>, String> {
+        let entries = self.numbered(key)?.into_iter().map(|(sub, value)| {
+            let number = value
+                .integer()
+                .and_then(|number| u32::try_from(number).ok());
+            Ok((sub, number.ok_or_else(|| self.wrong(key))?))
+        });
+        entries.collect()
+    }
+
+    fn address(&self) -> Result<Address, String> {
+        let index = self.number("index")?.ok_or_else(|| self.wrong("index"))?;
+        Ok(Address::new(index, self.number("sub_index")?.unwrap_or(0)))
+    }
+
+    fn list(&self, key: &str) -> &[Yaml] {
+        match self.yaml.get(key) {
+            Some(Yaml::List(list)) => list,
+            _ => &[],
+        }
+    }
+
+    fn pdo(&self) -> Result<PdoConfiguration, String> {
+        let cob_id = match self.text("cob_id").as_deref() {
+            None => None,
+            Some("auto") => Some(None),
+            Some(_) => Some(self.number("cob_id")?),
+        };
+        let mapping = self.yaml.get("mapping").map(|_| {
+            let entries = self.list("mapping").iter();
+            entries
+                .map(|yaml| {
+                    Section {
+                        name: self.name,
+                        yaml,
+                    }
+                    .address()
+                })
+                .collect()
+        });
+        Ok(PdoConfiguration {
+            cob_id,
+            transmission: self.number("transmission")?,
+            inhibit_time: self.number("inhibit_time")?,
+            event_timer: self.number("event_timer")?,
+            event_deadline: self.number("event_deadline")?,
+            sync_start: self.number("sync_start")?,
+            mapping: mapping.transpose()?,
+            enabled: self.flag("enabled").unwrap_or(true),
+        })
+    }
+
+    fn pdos(&self, key: &str) -> Result<Vec<(u16, PdoConfiguration)>, String> {
+        let pdos = self.numbered(key)?.into_iter().map(|(number, yaml)| {
+            if !(1..=512).contains(&number) {
+                return Err(self.wrong(key));
+            }
+            Ok((
+                number,
+                Section {
+                    name: self.name,
+                    yaml,
+                }
+                .pdo()?,
+            ))
+        });
+        pdos.collect()
+    }
+
+    fn configuration(&self) -> Result<Configuration, String> {
+        let sdo = self.list("sdo").iter().map(|yaml| {
+            let one = Section {
+                name: self.name,
+                yaml,
+            };
+            Ok((one.address()?, one.number("value")?.unwrap_or(0)))
+        });
+        Ok(Configuration {
+            dcf_path: self.text("dcf_path"),
+            revision_number: self.number("revision_number")?,
+            serial_number: self.number("serial_number")?,
+            time_cob_id: self.number("time_cob_id")?,
+            heartbeat_multiplier: self.real("heartbeat_multiplier")?,
+            heartbeat_consumer: self.flag("heartbeat_consumer").unwrap_or(false),
+            heartbeat_producer: self.number("heartbeat_producer")?,
+            retry_factor: self.number("retry_factor")?,
+            guard_time: self.number("guard_time")?,
+            life_time_factor: self.number("life_time_factor")?,
+            error_behavior: self.numbers("error_behavior")?,
+            rpdo: self.pdos("rpdo")?,
+            tpdo: self.pdos("tpdo")?,
+            boot: self.flag("boot"),
+            mandatory: self.flag("mandatory"),
+            reset_communication: self.flag("reset_communication"),
+            software_file: self.text("software_file").unwrap_or_default(),
+            software_version: self.number("software_version")?.unwrap_or(0),
+            restore_configuration: self.number("restore_configuration")?.unwrap_or(0),
+            sdo: sdo.collect::<Result<_, String>>()?,
+        })
+    }
+
+    fn master(&self, options: &Options) -> Result<Master, String> {
+        let default = Master::default();
+        let number = |key, default: u32| Ok::<u32, String>(self.number(key)?.unwrap_or(default));
+        let mut identity = [0; 4];
+        for (at, key) in [
+            "vendor_id",
+            "product_code",
+            "revision_number",
+            "serial_number",
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            identity[at] = number(key, 0)?;
+        }
+        let mut error_behavior = default.error_behavior;
+        for (sub, value) in self.numbers::<u8>("error_behavior")? {
+            error_behavior.retain(|(known, _)| *known != sub);
+            error_behavior.push((sub, value));
+        }
+        let flags = [
+            (self.flag("start_all_nodes").unwrap_or(false), 0x02),
+            (!self.flag("start").unwrap_or(true), 0x04),
+            (!self.flag("start_nodes").unwrap_or(true), 0x08),
+            (self.flag("reset_all_nodes").unwrap_or(false), 0x10),
+            (self.flag("stop_all_nodes").unwrap_or(false), 0x40),
+        ];
+        let flags = flags
+            .iter()
+            .filter(|(is_set, _)| *is_set)
+            .map(|(_, bit)| bit);
+        Ok(Master {
+            node_id: self.number("node_id")?.unwrap_or(default.node_id),
+            bit_rate: number("baudrate", default.bit_rate)?,
+            identity,
+            sync_period: number("sync_period", 0)?,
+            sync_window: number("sync_window", 0)?,
+            sync_overflow: number("sync_overflow", 0)?,
+            time_cob_id: number("time_cob_id", default.time_cob_id)?,
+            emcy_inhibit_time: number("emcy_inhibit_time", 0)?,
+            heartbeat_multiplier: self
+                .real("heartbeat_multiplier")?
+                .unwrap_or(options.heartbeat_multiplier),
+            consumes_heartbeat: self.flag("heartbeat_consumer").unwrap_or(true),
+            heartbeat_producer: number("heartbeat_producer", 0)?,
+            error_behavior,
+            nmt_inhibit_time: number("nmt_inhibit_time", 0)?,
+            startup: flags.sum(),
+            boot_time: number("boot_time", 0)?,
+        })
+    }
+}
+
+/// Reads a project; `load` reads the description at a path.
+///
+/// # Errors
+/// The text is not a project, a description cannot be read, or a value is not valid; in words.
+pub(super) fn read(
+    text: &str,
+    load: &dyn Fn(&str) -> Result<od_eds::Description, String>,
+) -> Result<Network, String> {
+    let whole = Yaml::read(text)?;
+    let mut options = Options::default();
+    if let Some(yaml) = whole.get("options") {
+        let own = Section {
+            name: "options",
+            yaml,
+        };
+        options.dcf_path = own.text("dcf_path").unwrap_or_default();
+        options.heartbeat_multiplier = own.real("heartbeat_multiplier")?.unwrap_or(3.0);
+        options.retry_factor = own.number("retry_factor")?.unwrap_or(3);
+    }
+    let master = whole
+        .get("master")
+        .ok_or("the section `master` is missing")?;
+    let master = Section {
+        name: "master",
+        yaml: master,
+    }
+    .master(&options)?;
+    let mut nodes = Vec::new();
+    for (name, yaml) in whole.entries() {
+        let name = name.text();
+        if name == "master" || name == "options" || name.starts_with('.') {
+            continue;
+        }
+        let section = Section { name: &name, yaml };
+        let path = section
+            .text("dcf")
+            .ok_or_else(|| format!("{name}: the key `dcf` is missing"))?;
+        let description = load(&path).map_err(|why| format!("{name}: {path}: {why}"))?;
+        let given = section.number("node_id")?;
+        let id = given
+            .or(description.commissioned_node_id())
+            .filter(|id| (1..=127).contains(id));
+        let Some(id) = id else {
+            return Err(format!(
+                "{name}: the node ID is missing; add `node_id`, 1 to 127"
+            ));
+        };
+        let mut node = Node::new(name.clone(), id, description);
+        configure(&mut node, &section.configuration()?, &mut options)?;
+        nodes.push(node);
+    }
+    consume_heartbeats(&master, &mut nodes)?;
+    Ok(Network {
+        master: Some(master),
+        nodes,
+        ..Network::default()
+    })
+}

@@ -1,0 +1,220 @@
+//! `odkit network`: projects of dcfgen, node lists, and what they report.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::support::{Done, odkit, repository};
+
+/// A folder of this test run, without files.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("network-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder for test files");
+    folder
+}
+
+/// Runs a project or node list of this text.
+fn network(name: &str, file: &str, text: &str) -> (Done, PathBuf) {
+    let folder = folder(name);
+    let path = folder.join(file);
+    fs::write(&path, text).expect("a file");
+    let out = folder.join("out");
+    let paths = [path.display().to_string(), out.display().to_string()];
+    (odkit(&["network", &paths[0], "-o", &paths[1]], ""), out)
+}
+
+#[test]
+fn concise_dcfs_are_those_of_dcfgen() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network");
+    let out = folder("dcfgen");
+    let project = own.join("project.yml").display().to_string();
+    let run = odkit(&["network", &project, "-o", &out.display().to_string()], "");
+    assert_eq!(run.code, 0, "{}", run.err);
+    for name in ["left.bin", "right.bin", "master.bin"] {
+        let expected = fs::read(own.join(name)).expect("what dcfgen wrote");
+        assert_eq!(fs::read(out.join(name)).ok(), Some(expected), "{name}");
+    }
+    let master = out.join("master.dcf").display().to_string();
+    let checked = odkit(&["check", &master], "");
+    assert_eq!(checked.code, 0, "{}", checked.out);
+    let text = fs::read_to_string(&master).expect("master.dcf");
+    let description = od_eds::parse(&text).description;
+    let number = |index, sub| {
+        let address = od_model::Address::new(index, sub);
+        let entry = description.entry(address).expect("an entry");
+        let value = entry.parameter.as_ref().or(entry.default.as_ref());
+        value.and_then(|value| value.integer(1)).expect("a number")
+    };
+    // Three TPDOs of the nodes and the one that is not enabled; heartbeats of 8 ms, watched for 20 ms.
+    for (index, sub, expected) in [
+        (0x1006, 0, 10_000),
+        (0x1016, 1, 0x10_0014),
+        (0x1400, 1, 0x190),
+        (0x1401, 1, 0x3F0),
+        (0x1402, 1, 0x191),
+        (0x1403, 1, 0x291),
+        (0x1F81, 0x10, 0x305),
+        (0x1F81, 0x11, 0x305),
+        (0x1600, 1, 0x2000_0120),
+        (0x1601, 1, 0x2000_0120),
+    ] {
+        assert_eq!(number(index, sub), expected, "{index:04X}h:{sub:02X}");
+    }
+    assert!(text.contains("UploadFile=left.bin"), "{text}");
+    for line in [
+        "Network: 3 nodes, 250 kbit/s",
+        "  16  left                         13  left.bin, 131 bytes",
+        "    3F0h  TPDO 2       left                         4  10 ms",
+        "    190h  TPDO 1       left                         4  100 ms",
+    ] {
+        assert!(
+            run.out.lines().any(|own| own == line),
+            "{line}\n{}",
+            run.out
+        );
+    }
+}
+
+/// A node of GXMM.eds with further keys.
+fn node(name: &str, id: u8, keys: &str) -> String {
+    let eds = repository("devices/eds/GXMM.eds");
+    format!("{name}:\n  dcf: {eds}\n  node_id: {id}\n{keys}")
+}
+
+#[test]
+fn what_does_not_fit_together_is_said() {
+    let fast = "  tpdo: {1: {transmission: 255, event_timer: 1}, 2: {transmission: 255, event_timer: 1}}\n";
+    let text = [
+        "master: {node_id: 9, baudrate: 125}\n".into(),
+        node("a", 5, fast),
+        node("b", 5, ""),
+        node("c", 6, "  tpdo: {1: {cob_id: 0x185}}\n"),
+        node("d", 7, "  heartbeat_producer: 100\n"),
+        node(
+            "e",
+            8,
+            "  sdo: [{index: 0x1016, sub_index: 1, value: 0x00070064}]\n",
+        ),
+        node(
+            "f",
+            10,
+            "  sdo: [{index: 0x1016, sub_index: 1, value: 0x00630064}]\n",
+        ),
+    ];
+    let (run, _) = network("odd", "odd.yml", &text.concat());
+    assert_eq!(run.code, 1, "{}", run.err);
+    for said in [
+        "error[E1201]: a and b have node ID 5",
+        "error[E1202]: TPDO 1 of a and TPDO 1 of c have CAN-ID 185h",
+        "error[E1204]: e waits 100 ms for the heartbeat of d, which comes every 100 ms",
+        "warning[W1203]: heartbeat consumer 1016h:01 of f waits for the heartbeat of node 99",
+        "warning[W1205]: periodic frames take up to ",
+    ] {
+        assert!(run.err.contains(said), "{said}\n{}", run.err);
+    }
+    let fits = [
+        "master: {node_id: 1, heartbeat_producer: 1000}\n".into(),
+        node("a", 5, "  heartbeat_consumer: true\n"),
+        node("b", 6, "  heartbeat_producer: 100\n"),
+    ];
+    let (run, out) = network("fits", "fits.yaml", &fits.concat());
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    // One write: 1016h:01 = node 1, 3000 ms.
+    let bytes = fs::read(out.join("a.bin")).expect("a.bin");
+    assert_eq!(
+        bytes,
+        [1, 0, 0, 0, 0x16, 0x10, 1, 4, 0, 0, 0, 0xB8, 0x0B, 1, 0]
+    );
+}
+
+#[test]
+fn what_is_not_a_project_is_said() {
+    for (name, text, said) in [
+        ("none", "a: 1\n", "the section `master` is missing"),
+        ("yaml", "a: [1\n", "none.yml"),
+        (
+            "dcf",
+            "master: {}\nx: {node_id: 5}\n",
+            "x: the key `dcf` is missing",
+        ),
+        (
+            "file",
+            "master: {}\nx: {dcf: none.eds, node_id: 5}\n",
+            "none.eds",
+        ),
+    ] {
+        let (run, _) = network(name, "none.yml", text);
+        assert_eq!(run.code, 1, "{}", run.err);
+        assert!(run.err.contains(said), "{said}\n{}", run.err);
+    }
+    let project = |keys: &str| ["master: {}\n".into(), node("x", 5, keys)].concat();
+    for (keys, said) in [
+        (
+            "  sdo: [{index: 0x5FFF}]\n",
+            "x: object 5FFFh:00 does not exist",
+        ),
+        (
+            "  sdo: [{index: 0x1017, value: 70000}]\n",
+            "x: 1017h:00: 70000 is not a valid UNSIGNED16",
+        ),
+        ("  rpdo: {1: {}}\n", "x: object 1400h does not exist"),
+        (
+            "  heartbeat_producer: fast\n",
+            "x: heartbeat_producer is not valid",
+        ),
+    ] {
+        let (run, _) = network("keys", "keys.yml", &project(keys));
+        assert_eq!(run.code, 1, "{}", run.err);
+        assert!(run.err.contains(said), "{said}\n{}", run.err);
+    }
+}
+
+#[test]
+fn a_node_list_is_its_dcfs() {
+    let folder = folder("list");
+    let eds = repository("devices/eds/GXMM.eds");
+    for (id, rest) in [
+        ("4", ["--set", "1017h=200"]),
+        ("5", ["--set", "1800sub2=1"]),
+    ] {
+        let path = folder.join(format!("n{id}.dcf")).display().to_string();
+        let make = [
+            "convert",
+            &eds,
+            "-o",
+            &path,
+            "--node-id",
+            id,
+            "--bit-rate",
+            "500",
+        ];
+        assert_eq!(odkit(&[&make[..], &rest].concat(), "").code, 0);
+    }
+    let list = folder.join("nodelist.cpj");
+    let text = "[TOPOLOGY]\nNetName=Line 4\nNodes=0x02\nNode4Present=0x01\nNode4Name=Left\n\
+        Node4DCFName=n4.dcf\nNode5Present=0x01\nNode5DCFName=.\\n5.dcf\nNode6Present=0x00\nNode6DCFName=none.dcf\n";
+    fs::write(&list, text).expect("a file");
+    let out = folder.join("out");
+    let paths = [list.display().to_string(), out.display().to_string()];
+    let run = odkit(&["network", &paths[0], "-o", &paths[1]], "");
+    // Two encoders wait for SYNC only if a PDO is synchronous, and nobody produces it.
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(
+        run.out
+            .starts_with("Network `Line 4`: 2 nodes, 500 kbit/s\n"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.err.contains("SYNC of node5 waits for CAN-ID 080h"),
+        "{}",
+        run.err
+    );
+    let left = fs::read(out.join("Left.bin")).expect("Left.bin");
+    assert_eq!(left, [1, 0, 0, 0, 0x17, 0x10, 0, 2, 0, 0, 0, 200, 0]);
+    let right = fs::read(out.join("node5.bin")).expect("node5.bin");
+    let first = [0, 0x18, 1, 4, 0, 0, 0, 0x85, 1, 0, 0x80];
+    assert_eq!(right[4..15], first, "the PDO is not valid while it changes");
+    let last = [0, 0x18, 1, 4, 0, 0, 0, 0x85, 1, 0, 0];
+    assert_eq!(right[right.len() - 11..], last);
+}

@@ -1,0 +1,115 @@
+//! Frames that a network sends periodically, and the bus load that they make.
+
+use alloc::vec::Vec;
+
+use super::node::Node;
+use crate::identifiers::{Service, mapping, used};
+
+/// Bit rates of CiA 301 in kbit/s.
+pub const BIT_RATES: [u32; 8] = [1000, 800, 500, 250, 125, 50, 20, 10];
+
+/// A frame that a node sends.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Frame {
+    /// Position of the node.
+    pub node: usize,
+    /// The service.
+    pub service: Service,
+    /// CAN-ID.
+    pub id: u32,
+    /// Bits on the bus line at most: with all stuff bits, and the 3 bits between frames.
+    pub bits: u32,
+    /// Bytes of data.
+    pub bytes: u8,
+    /// Frames per second; `None` if it is sent on an event.
+    pub rate: Option<f64>,
+}
+
+/// Bits of a frame on the bus line at most (ISO 11898-1): of `34 + 8n` bits, or `54 + 8n` with a CAN-ID of
+/// 29 bits, each fourth can be followed by a stuff bit.
+pub const fn frame_bits(is_extended: bool, bytes: u8) -> u32 {
+    let data = 8 * bytes as u32;
+    match is_extended {
+        false => data + 47 + (34 + data - 1) / 4,
+        true => data + 67 + (54 + data - 1) / 4,
+    }
+}
+
+/// The frames of the nodes but for SDO, EMCY and NMT, in the order of their nodes. `sync_period` is
+/// that of a SYNC producer, in microseconds; 0: none of the nodes given decides it.
+pub fn frames(nodes: &[Node], sync_period: u32) -> Vec<Frame> {
+    let mut found = Vec::new();
+    let per_second = |milliseconds: f64| match milliseconds {
+        0.0 => None,
+        time => Some(1000.0 / time),
+    };
+    let producer = nodes
+        .iter()
+        .find(|node| node.number(0x1005, 0) >> 30 & 1 != 0);
+    let own = producer.map_or(0, |node| node.number(0x1006, 0));
+    let sync = per_second(f64::from(if own > 0 { own } else { sync_period }) / 1000.0);
+    for (node, own) in nodes.iter().enumerate() {
+        for used in used(&own.description, own.id) {
+            if !used.sends || !used.is_valid {
+                continue;
+            }
+            let (bytes, rate) = match used.service {
+                Service::Sync => (u8::from(own.number(0x1019, 0) > 0), sync),
+                Service::Heartbeat => match own.number(0x1017, 0) {
+                    0 => continue,
+                    time => (1, per_second(time.into())),
+                },
+                Service::Tpdo(number) => {
+                    let mapped = mapping(&own.description, 0x19FF + number).unwrap_or_default();
+                    let bits: u32 = mapped.iter().map(|value| u32::from(value.bits)).sum();
+                    if bits == 0 {
+                        continue;
+                    }
+                    let index = 0x17FF + number;
+                    let timer = per_second(own.number(index, 5).into());
+                    let rate = match own.number(index, 2) {
+                        every @ 1..=240 => sync.map(|sync| sync / f64::from(every)),
+                        254 | 255 => timer,
+                        // Synchronous and acyclic, or on request.
+                        _ => None,
+                    };
+                    (bits.div_ceil(8).min(8) as u8, rate)
+                }
+                _ => continue,
+            };
+            let bits = frame_bits(used.is_extended, bytes);
+            let (service, id) = (used.service, used.id);
+            found.push(Frame {
+                node,
+                service,
+                id,
+                bits,
+                bytes,
+                rate,
+            });
+        }
+    }
+    found
+}
+
+/// The bus load of the periodic frames in percent, at a bit rate in kbit/s.
+pub fn load(frames: &[Frame], bit_rate: u32) -> f64 {
+    let bits = frames
+        .iter()
+        .map(|frame| frame.rate.unwrap_or(0.0) * f64::from(frame.bits));
+    bits.sum::<f64>() / f64::from(bit_rate.max(1)) / 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The longest frames of the literature: 55 + 10n bits, 80 + 10n with 29 bits (Davis et al., 2007).
+    #[test]
+    fn a_frame_has_all_its_stuff_bits() {
+        for bytes in 0..=8 {
+            assert_eq!(frame_bits(false, bytes), 55 + 10 * u32::from(bytes));
+            assert_eq!(frame_bits(true, bytes), 80 + 10 * u32::from(bytes));
+        }
+    }
+}

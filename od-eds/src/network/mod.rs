@@ -1,0 +1,26 @@
+//! A network of nodes: the concise DCF of each (1F22h, CiA 302-2), the DCF of its master, and what
+//! does not fit together.
+//!
+//! The order of the writes and the objects of the master are those of dcfgen (dcf-tools), so that a
+//! master of Lely core boots the network.
+
+mod concise;
+mod configure;
+mod dcf;
+mod load;
+mod master;
+mod node;
+mod objects;
+mod partners;
+mod pdo;
+mod report;
+mod saved;
+
+pub use concise::{Write, bytes};
+pub use configure::{Configuration, Options, PdoConfiguration, configure};
+pub use dcf::dcf;
+pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
+pub use master::{Master, consume_heartbeats, writes};
+pub use node::Node;
+pub use report::check;
+pub use saved::saved;

@@ -1,0 +1,134 @@
+//! The configuration of one PDO.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::concise::Write;
+use super::configure::PdoConfiguration;
+use super::node::Node;
+use od_model::Address;
+
+/// A PDO that is not valid (bit 31 of its COB-ID).
+const INVALID: u32 = 1 << 31;
+
+/// Appends the writes of a PDO; `next` is the next CAN-ID for PDOs without a pre-defined one.
+///
+/// # Errors
+/// An object is missing, or a value is not valid; in words.
+pub(super) fn configure(
+    node: &mut Node,
+    index: u16,
+    wanted: &PdoConfiguration,
+    next: &mut u32,
+) -> Result<(), String> {
+    let is_tpdo = index >= 0x1800;
+    let count = node.number(index, 0);
+    let given = |sub: u8| match count >= u32::from(sub) {
+        true => node.number(index, sub),
+        false => 0,
+    };
+    let has_cob_id = count >= 1 && node.has_entry(index, 1);
+    let before = if has_cob_id {
+        node.number(index, 1)
+    } else {
+        INVALID
+    };
+    let cob_id = match wanted.cob_id {
+        None => before,
+        Some(Some(cob_id)) => cob_id,
+        Some(None) => automatic(node, index, next)?,
+    };
+    let mut writes = Vec::new();
+    let mut partners = None;
+    let mut write = |index: u16, sub: u8, number: u32| {
+        writes.push(node.write(index, sub, number.into())?);
+        Ok::<(), String>(())
+    };
+    if before != cob_id | INVALID {
+        write(index, 1, cob_id | INVALID)?;
+    }
+    if cob_id & INVALID == 0 {
+        for (sub, number, is_here) in [
+            (2, wanted.transmission, true),
+            (3, wanted.inhibit_time, is_tpdo),
+            (5, wanted.event_timer, is_tpdo),
+        ] {
+            let before = if sub == 2 || is_here { given(sub) } else { 0 };
+            if let Some(number) = number.filter(|number| is_here && *number != before) {
+                write(index, sub, number)?;
+            }
+        }
+        if let Some(deadline) = wanted.event_deadline
+            && !is_tpdo
+            && deadline != given(5)
+        {
+            // dcfgen writes the event timer if both are given.
+            write(index, 5, wanted.event_timer.unwrap_or(deadline))?;
+        }
+        if let Some(start) = wanted
+            .sync_start
+            .filter(|start| is_tpdo && *start != given(6))
+        {
+            write(index, 6, start)?;
+        }
+        let partner = match is_tpdo {
+            true => [None, wanted.event_deadline, None, Some(cob_id)],
+            false => [
+                wanted.inhibit_time,
+                wanted.event_timer,
+                wanted.sync_start,
+                Some(cob_id),
+            ],
+        };
+        partners = Some(partner.map(|number| number.unwrap_or(0)));
+        if let Some(mapping) = &wanted.mapping {
+            map(node, index + 0x200, mapping, &mut writes)?;
+        }
+        if wanted.enabled {
+            writes.push(node.write(index, 1, cob_id.into())?);
+        }
+    }
+    node.writes.extend(writes);
+    node.partners
+        .extend(partners.map(|partner| (index, partner)));
+    Ok(())
+}
+
+/// The CAN-ID of the pre-defined connection set, or the next free one.
+fn automatic(node: &Node, index: u16, next: &mut u32) -> Result<u32, String> {
+    let pdo = u32::from(index & 0x1FF);
+    let first = if index >= 0x1800 { 0x180 } else { 0x200 };
+    if pdo < 4 {
+        return Ok(first + 0x100 * pdo + u32::from(node.id));
+    }
+    if *next >= 0x6E0 {
+        return Err(format!("{}: no CAN-ID is left for {index:04X}h", node.name));
+    }
+    *next += 1;
+    Ok(*next - 1)
+}
+
+fn map(
+    node: &Node,
+    index: u16,
+    mapping: &[Address],
+    writes: &mut Vec<Write>,
+) -> Result<(), String> {
+    if node.number(index, 0) > 0 || !mapping.is_empty() {
+        writes.push(node.write(index, 0, 0)?);
+    }
+    for (sub, address) in (1_u8..).zip(mapping) {
+        let entry = node.description.entry(*address);
+        let entry =
+            entry.ok_or_else(|| format!("{}: object {address} does not exist", node.name))?;
+        let bits = entry.data_type.and_then(|data_type| data_type.bits());
+        let bits = bits.ok_or_else(|| format!("{}: {address} cannot be mapped", node.name))?;
+        let number = u32::from(address.index) << 16 | u32::from(address.sub) << 8 | u32::from(bits);
+        writes.push(node.write(index, sub, number.into())?);
+    }
+    if !mapping.is_empty() {
+        writes.push(node.write(index, 0, mapping.len() as i128)?);
+    }
+    Ok(())
+}

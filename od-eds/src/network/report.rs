@@ -1,0 +1,168 @@
+//! What of a network does not fit together.
+
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::load::{frames, load};
+use super::node::Node;
+use crate::finding::Finding;
+use crate::identifiers::{Service, Used, mapping, used};
+use crate::rules::network::{e1201, e1202, e1204, w1203, w1205, w1206};
+
+/// Bus load in percent above which frames of low priority come late.
+const HIGH: f64 = 80.0;
+
+/// Returns the findings about a network: its nodes with the values that their writes leave
+/// ([`Node::apply`]), the master among them if there is one. A master takes part in each PDO, so it is
+/// no second producer of one. `bit_rate` is in kbit/s, `sync_period` as in [`frames`].
+pub fn check(
+    nodes: &[Node],
+    master: Option<usize>,
+    bit_rate: u32,
+    sync_period: u32,
+) -> Vec<Finding> {
+    let mut found = Vec::new();
+    let mut ids: BTreeMap<u8, &str> = BTreeMap::new();
+    for node in nodes {
+        match ids.get(&node.id) {
+            Some(first) => found.push(e1201::finding(first, &node.name, node.id)),
+            None => drop(ids.insert(node.id, &node.name)),
+        }
+    }
+    let all: Vec<Vec<Used>> = nodes.iter().map(valid).collect();
+    let mut sent = BTreeMap::new();
+    let order = (0..nodes.len())
+        .filter(|at| Some(*at) != master)
+        .chain(master);
+    for at in order {
+        for used in all[at].iter().filter(|used| used.sends) {
+            let is_partner = Some(at) == master && matches!(used.service, Service::Tpdo(_));
+            let key = (used.is_extended, used.id);
+            match sent.get(&key) {
+                Some(&(other, own)) if !is_partner && nodes[at].id != nodes[other as usize].id => {
+                    let (first, second) = (
+                        place(&nodes[other as usize], own),
+                        place(&nodes[at], used.service),
+                    );
+                    found.push(e1202::finding(&first, &second, used.id));
+                }
+                Some(_) => {}
+                None => drop(sent.insert(key, (at as u32, used.service))),
+            }
+        }
+    }
+    for (node, own) in nodes.iter().zip(&all) {
+        for used in own.iter().filter(|used| !used.sends) {
+            let producer = sent.get(&(used.is_extended, used.id));
+            match (used.service, producer) {
+                (Service::Rpdo(_), Some(&(from, Service::Tpdo(number)))) => {
+                    let from = &nodes[from as usize];
+                    found.extend(length(node, used.service, from, number));
+                }
+                (Service::Rpdo(_) | Service::Time, None) => {
+                    let what = format!("CAN-ID {:03X}h", used.id);
+                    found.push(w1203::finding(&place(node, used.service), &what));
+                }
+                (Service::Sync, None) if is_synchronous(node, own) => {
+                    let what = format!("CAN-ID {:03X}h", used.id);
+                    found.push(w1203::finding(&place(node, used.service), &what));
+                }
+                _ => {}
+            }
+        }
+        heartbeats(node, nodes, &mut found);
+    }
+    let load = load(&frames(nodes, sync_period), bit_rate);
+    if load > HIGH {
+        found.push(w1205::finding(load, bit_rate));
+    }
+    found
+}
+
+fn valid(node: &Node) -> Vec<Used> {
+    let used = used(&node.description, node.id).into_iter();
+    let valid = used.filter(|used| used.is_valid && used.id != 0);
+    valid
+        .filter(|used| match used.service {
+            // A PDO that maps nothing is not on the bus.
+            Service::Tpdo(number) => bits(node, 0x19FF + number) > 0,
+            Service::Rpdo(number) => bits(node, 0x15FF + number) > 0,
+            _ => true,
+        })
+        .collect()
+}
+
+fn bits(node: &Node, index: u16) -> u32 {
+    let mapped = mapping(&node.description, index);
+    // A multiplexed PDO has 64.
+    mapped.map_or(64, |mapped| {
+        mapped.iter().map(|value| u32::from(value.bits)).sum()
+    })
+}
+
+/// A node and its service, in words.
+fn place(node: &Node, service: Service) -> String {
+    let service = match service {
+        Service::Sync => "SYNC".to_string(),
+        Service::Time => "TIME".to_string(),
+        Service::Emcy => "EMCY".to_string(),
+        Service::Tpdo(number) => format!("TPDO {number}"),
+        Service::Rpdo(number) => format!("RPDO {number}"),
+        Service::SdoRequest(server) | Service::SdoResponse(server) => {
+            format!("SDO server {server}")
+        }
+        Service::Heartbeat => "heartbeat".to_string(),
+    };
+    format!("{service} of {}", node.name)
+}
+
+/// Does a valid PDO of the node wait for SYNC?
+fn is_synchronous(node: &Node, used: &[Used]) -> bool {
+    used.iter().any(|used| match used.service {
+        Service::Tpdo(_) | Service::Rpdo(_) => {
+            node.has_entry(used.address.index, 2)
+                && matches!(node.number(used.address.index, 2), 0..=240 | 252)
+        }
+        _ => false,
+    })
+}
+
+fn length(node: &Node, service: Service, from: &Node, number: u16) -> Option<Finding> {
+    let Service::Rpdo(own) = service else {
+        return None;
+    };
+    let (mapped, sent) = (
+        bits(node, 0x15FF + own).div_ceil(8),
+        bits(from, 0x19FF + number).div_ceil(8),
+    );
+    (mapped > sent).then(|| {
+        let (to, from) = (place(node, service), place(from, Service::Tpdo(number)));
+        w1206::finding(&to, mapped, &from, sent)
+    })
+}
+
+/// The heartbeats that a node watches (1016h).
+fn heartbeats(node: &Node, nodes: &[Node], found: &mut Vec<Finding>) {
+    for sub in node.members(0x1016) {
+        let value = node.number(0x1016, sub);
+        let (id, time) = (value >> 16 & 0xFF, value & 0xFFFF);
+        if time == 0 || !(1..=127).contains(&id) {
+            continue;
+        }
+        let producer = nodes.iter().find(|other| u32::from(other.id) == id);
+        match producer.map(|producer| (producer, producer.number(0x1017, 0))) {
+            Some((producer, own)) if own > 0 => {
+                if time <= own {
+                    found.push(e1204::finding(&node.name, time, &producer.name, own));
+                }
+            }
+            _ => {
+                let what = format!("the heartbeat of node {id}");
+                let consumer = format!("heartbeat consumer 1016h:{sub:02X} of {}", node.name);
+                found.push(w1203::finding(&consumer, &what));
+            }
+        }
+    }
+}
