@@ -42,10 +42,12 @@ fn is_one_of(words: &str, word: &str) -> bool {
 fn object_name(name: &str) -> Option<(u32, &str)> {
     let (index, rest) = name.split_at_checked(4)?;
     let is_hex = |text: &str| text.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let is_sub = rest.len() > 3 && rest[..3].eq_ignore_ascii_case("sub") && is_hex(&rest[3..]);
+    let is_sub = rest.get(..3).is_some_and(|word| {
+        word.eq_ignore_ascii_case("sub") && rest.len() > 3 && is_hex(&rest[3..])
+    });
     let known =
         rest.is_empty() || rest.eq_ignore_ascii_case("name") || rest.eq_ignore_ascii_case("value");
-    (is_hex(index) && (known || rest.is_char_boundary(3.min(rest.len())) && is_sub))
+    (is_hex(index) && (known || is_sub))
         .then(|| (u32::from_str_radix(index, 16).unwrap_or(0), rest))
 }
 
