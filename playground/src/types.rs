@@ -56,11 +56,9 @@ export interface LessonResult {
 
 /** One thing that the present step asks for. */
 export interface LessonRequirement {
-  /** It held since the step began, and no longer does. */
-  lost?: boolean;
   holds: boolean;
-  /** What it is, and what is missing of it. */
-  text: string;
+  /** What it is, and what is missing of it; lost: it held since the step began, and no longer does. */
+  text: string; lost?: boolean;
 }
 
 export interface LessonState {
