@@ -1,7 +1,7 @@
 //! The other end of a CANopen bus, for programs that look at devices.
 //!
 //! [`link::Link`] is a bus with a clock of its own, in real or in virtual time;
-//! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test.
+//! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test, [`learn`] makes an EDS of a node.
 
 pub mod bench;
 pub mod configure;
@@ -9,6 +9,7 @@ pub mod conform;
 pub mod fault;
 pub mod filter;
 pub mod interrupt;
+pub mod learn;
 pub mod link;
 pub mod links;
 pub mod lss;

@@ -195,7 +195,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
 }
 
 /// A simulated device that was just switched on.
-fn bench(name: &str, node: Option<NodeId>) -> Result<OnBench<Bus>, Failure> {
+pub(crate) fn bench(name: &str, node: Option<NodeId>) -> Result<OnBench<Bus>, Failure> {
     let device = Source::find(name)?.device(node).map_err(Failure::Failed)?;
     let mut bus = Bus::new();
     let number = bus.add(device);

@@ -20,6 +20,7 @@ mod explain;
 mod export;
 mod failure;
 mod get;
+mod learn;
 mod lesson;
 mod live;
 mod lsp;
@@ -77,6 +78,7 @@ enum Command {
     Diff(diff::Args),
     Conform(conform::Args),
     Network(network::Args),
+    Learn(learn::Args),
     New(new::Args),
     Scan(scan::Args),
     Get(get::Args),
@@ -186,6 +188,7 @@ pub fn main() -> ExitCode {
         Command::Diff(args) => diff::run(&args),
         Command::Conform(args) => conform::run(&args),
         Command::Network(args) => network::run(&args),
+        Command::Learn(args) => learn::run(&args),
         Command::New(args) => new::run(&args),
         Command::Scan(args) => scan::run(&args),
         Command::Get(args) => get::run(&args),

@@ -1,6 +1,7 @@
 //! The text of an EDS for a tool that edits it: sections, keys and values with their places, and
 //! what CiA 306 and CiA 301 say about them.
 
+pub use crate::rules::profile::table::profile_types;
 pub use crate::rules::standard::table::{Specified, data_type, specified};
 pub use crate::scan::known::{Form, Known, OBJECT_KEYS, SECTIONS, key, section};
 pub use crate::scan::lines::sections;

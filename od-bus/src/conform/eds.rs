@@ -148,7 +148,7 @@ impl Eds {
 }
 
 /// Objects that act when they are written, or that move what the test depends on.
-fn is_touchy(address: Address) -> bool {
+pub(crate) fn is_touchy(address: Address) -> bool {
     let sub = address.sub;
     match address.index {
         0x1003 | 0x1005 | 0x1006 | 0x1010..=0x1015 | 0x1F50..=0x1F5F | 0x1200..=0x12FF => true,

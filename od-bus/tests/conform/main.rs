@@ -1,5 +1,6 @@
 //! The conformance test: no false failure on what is right, and what is wrong is found.
 
 mod devices;
+mod learn;
 mod mutant;
 mod mutants;

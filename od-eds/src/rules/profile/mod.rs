@@ -1,7 +1,7 @@
 //! 09: device profiles. One file per rule.
 
 pub(crate) mod shared;
-mod table;
+pub(crate) mod table;
 
 catalogue! {
     w0901 W0901

@@ -27,6 +27,11 @@ pub(super) fn of(profile: u16, index: u16) -> Option<&'static Object> {
         .find(|object| (object.first..=object.last).contains(&index))
 }
 
+/// The types that a profile gives the value of an object, or each of its sub-objects.
+pub fn profile_types(profile: u16, index: u16) -> &'static [DataType] {
+    of(profile, index).map_or(&[], |object| object.data_types)
+}
+
 const fn object(
     first: u16,
     last: u16,

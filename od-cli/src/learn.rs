@@ -1,0 +1,59 @@
+//! `odkit learn`: an EDS from a device.
+
+use std::path::PathBuf;
+
+use od_bus::learn::{Options, learn};
+use od_bus::links;
+use od_wire::NodeId;
+
+use crate::failure::Failure;
+use crate::source;
+use crate::{conform, output};
+
+/// Make an EDS from a node on a bus
+///
+/// Reads all objects from 1000h to 9FFFh, and tries which can be written without changing a value.
+/// Comments in the file say what could not be known: types of objects that no standard has,
+/// limits, which values are saved.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// Node ID
+    #[arg(value_name = "NODE", value_parser = source::node_id)]
+    node: NodeId,
+    /// Bus of the node: slcan:HOST:PORT, or bench:DEVICE for a simulated device
+    #[arg(long, value_name = "LINK")]
+    link: String,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Probe limits by writing values, and put the values back
+    #[arg(long)]
+    allow_writes: bool,
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let options = Options {
+        writes: args.allow_writes,
+    };
+    let told = |index: u16| {
+        if args.output.is_some() {
+            output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
+        }
+    };
+    let description = match args.link.strip_prefix("bench:") {
+        Some(device) => learn(
+            conform::bench(device, Some(args.node))?,
+            args.node,
+            options,
+            told,
+        )?,
+        None => learn(links::open(&args.link)?, args.node, options, told)?,
+    };
+    if description.objects.is_empty() {
+        return Err(Failure::Failed(format!(
+            "node {} has no objects from 1000h to 9FFFh",
+            args.node.raw()
+        )));
+    }
+    output::save(args.output.as_deref(), &od_eds::write(&description))
+}
