@@ -20,7 +20,7 @@
 //! let case = built_in().iter().find(|case| case.id == "sdo-upload-expedited");
 //! let record = session.run(case.expect("a case"));
 //! assert!(record.verdict.is_pass());
-//! assert_eq!(record.frames.len(), 3);
+//! assert!(!record.frames.is_empty());
 //! ```
 //!
 //! | file | what it holds |
