@@ -1,5 +1,6 @@
 //! `odkit network`: a project or a node list, its files and its report.
 
+mod content;
 mod nodelist;
 mod project;
 mod table;
@@ -8,13 +9,14 @@ mod yaml;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_eds::network::{self, Master, Node};
+use od_eds::network::{self, Node};
 use od_eds::{Description, Document, Finding};
 
 use crate::config::Config;
 use crate::failure::{Failure, read_error};
 use crate::output;
 use crate::report::{self, Names};
+use content::Network;
 
 /// Check a network: concise DCF of each node, DCF of the master, clashes, bus load
 #[derive(clap::Args)]
@@ -31,18 +33,6 @@ pub(crate) struct Args {
     /// Folder of the files that are written [default: none are]
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
-}
-
-/// A network as it was read.
-#[derive(Default)]
-struct Network {
-    /// Its name; empty if it has none.
-    name: String,
-    /// The master of a project; one of a node list is a node.
-    master: Option<Master>,
-    /// kbit/s, if the file of a node says so.
-    bit_rate: Option<u32>,
-    nodes: Vec<Node>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {

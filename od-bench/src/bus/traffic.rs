@@ -30,6 +30,7 @@ impl Bus {
             .min()
     }
 
+    #[cfg(feature = "serve")]
     /// The next frame that a device sent; those of the outside are dropped. For a host that passes
     /// frames of the outside on when they come.
     pub(crate) fn poll_device(&mut self) -> Option<Sent> {

@@ -1,6 +1,6 @@
 //! A filter's text in pieces.
 
-use super::{Mistake, mistake};
+use super::seen::{Mistake, mistake};
 
 /// A piece, and where it begins.
 #[derive(Clone, Copy, Debug)]

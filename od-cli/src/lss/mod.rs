@@ -1,5 +1,6 @@
 //! `odkit lss`: node IDs and bit rates by the layer setting services (CiA 305).
 
+mod said;
 mod wizard;
 
 use od_bus::lss::{Lss, Slaves};
@@ -9,11 +10,12 @@ use od_model::{Address, values};
 use od_runtime::NodeId;
 use serde_json::json;
 
-use crate::bus::{self, Bus, Format, names::Names};
+use crate::bus::{self, Bus, Format};
 use crate::failure::Failure;
-use crate::output::{self, note};
+use crate::output;
 use crate::report::plural;
 use crate::source;
+use said::{fits, title};
 
 /// Find, number and set up LSS slaves: node IDs and bit rates
 #[derive(clap::Args)]
@@ -213,21 +215,6 @@ fn scan(args: &bus::Args) -> Result<(), Failure> {
     }
 }
 
-/// A slave in one line.
-fn title(one: &Identity, names: &Names) -> String {
-    let known = fits(one, names).map_or(String::new(), |name| format!("  {name}"));
-    format!(
-        "serial number {:<10}  vendor-ID {:X}h, product code {:X}h, revision {:X}h{known}",
-        one.serial, one.vendor, one.product, one.revision
-    )
-}
-
-fn fits<'n>(one: &Identity, names: &'n Names) -> Option<&'n str> {
-    // A file for a node ID does not say what a slave without one is.
-    let identity = one.parts().map(Some);
-    names.fitting(None, identity).map(|known| known.name)
-}
-
 fn set(node: NodeId, slave: &Slave, store: bool, args: &bus::Args) -> Result<(), Failure> {
     let mut link = args.open()?;
     let identity = match slave.find(&mut link)? {
@@ -306,9 +293,4 @@ fn say(format: Format, text: &str) -> Result<(), Failure> {
         Format::Text => text.to_owned(),
         Format::Json => format!("{:#}", json!({ "done": true, "message": text })),
     })
-}
-
-/// A line of the wizard.
-fn tell(text: &str) {
-    note!("{text}");
 }

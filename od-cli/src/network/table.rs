@@ -5,7 +5,7 @@ use std::fmt::Write;
 use od_eds::identifiers::Service;
 use od_eds::network::{self, BIT_RATES, Frame};
 
-use super::Network;
+use super::content::Network;
 use crate::report::plural;
 
 /// The tables of a network, and the files that it has.

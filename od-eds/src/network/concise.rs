@@ -4,9 +4,6 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::node::Node;
-use crate::description::Value;
-use crate::span::Spanned;
 use od_model::{Address, DataType, Kind};
 
 /// One write to an object of a node.
@@ -55,38 +52,4 @@ pub fn bytes(writes: &[Write]) -> Vec<u8> {
         out.extend(data);
     }
     out
-}
-
-impl Node {
-    /// The write of a number to an object of this node, by the object's type.
-    ///
-    /// # Errors
-    /// The object does not exist, or the number is not valid; in words.
-    pub(super) fn write(&self, index: u16, sub: u8, number: i128) -> Result<Write, String> {
-        let address = Address::new(index, sub);
-        let name = &self.name;
-        let data_type = match self.description.entry(address) {
-            Some(entry) => entry.data_type.map(|data_type| *data_type),
-            // A record whose count is not in the file.
-            None if sub == 0 && self.has(index) => Some(DataType::Unsigned8),
-            None => return Err(format!("{name}: object {address} does not exist")),
-        };
-        let data_type =
-            data_type.ok_or_else(|| format!("{name}: {address} has no valid DataType"))?;
-        Write::new(address, data_type, number).map_err(|why| format!("{name}: {why}"))
-    }
-
-    /// Gives the objects the values that the writes leave in them.
-    pub fn apply(&mut self) {
-        for write in &self.writes {
-            let Address { index, sub } = write.address;
-            let object = self.description.objects.get_mut(&index);
-            let entry = object.and_then(|object| object.entries.get_mut(&sub));
-            let Some(entry) = entry else { continue };
-            if let Some(data_type) = entry.data_type {
-                let value = Value::from_wire(*data_type, write.data.clone());
-                entry.parameter = Some(Spanned::from(value));
-            }
-        }
-    }
 }

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use super::node::Node;
 use super::pdo;
+use super::wanted::PdoConfiguration;
 use od_model::Address;
 
 /// What a project says of all nodes.
@@ -30,23 +31,6 @@ impl Default for Options {
             next: 0x680,
         }
     }
-}
-
-/// What a project says of one PDO; `None` leaves the value of the device.
-#[derive(Clone, PartialEq, Debug, Default)]
-#[allow(missing_docs)] // the names of CiA 301
-pub struct PdoConfiguration {
-    /// `Some(None)`: one is chosen.
-    pub cob_id: Option<Option<u32>>,
-    pub transmission: Option<u32>,
-    pub inhibit_time: Option<u32>,
-    pub event_timer: Option<u32>,
-    /// The event timer of an RPDO.
-    pub event_deadline: Option<u32>,
-    pub sync_start: Option<u32>,
-    pub mapping: Option<Vec<Address>>,
-    /// Is the PDO valid in the end?
-    pub enabled: bool,
 }
 
 /// What a project says of one node; `None` leaves the value of the device.

@@ -15,12 +15,15 @@ mod partners;
 mod pdo;
 mod report;
 mod saved;
+mod wanted;
+mod write;
 
 pub use concise::{Write, bytes};
-pub use configure::{Configuration, Options, PdoConfiguration, configure};
+pub use configure::{Configuration, Options, configure};
 pub use dcf::dcf;
 pub use load::{BIT_RATES, Frame, frame_bits, frames, load};
 pub use master::{Master, consume_heartbeats, writes};
 pub use node::Node;
 pub use report::check;
 pub use saved::saved;
+pub use wanted::PdoConfiguration;

@@ -5,8 +5,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::concise::Write;
-use super::configure::PdoConfiguration;
 use super::node::Node;
+use super::wanted::PdoConfiguration;
 use od_model::Address;
 
 /// A PDO that is not valid (bit 31 of its COB-ID).

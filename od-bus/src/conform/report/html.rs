@@ -1,7 +1,7 @@
 //! The report as one HTML page, with every frame behind its case.
 
 use super::junit::escape;
-use super::{Report, groups, millis};
+use super::run::{self, Report, groups, millis};
 use crate::conform::record::Record;
 
 const STYLE: &str = "\
@@ -71,7 +71,7 @@ fn case(record: &Record) -> String {
     for note in &record.notes {
         text += &format!("<br>{}", escape(note));
     }
-    let frames: Vec<String> = record.frames.iter().map(super::frame).collect();
+    let frames: Vec<String> = record.frames.iter().map(run::frame).collect();
     text += &format!(
         "</p>\n<pre>{}</pre>\n</details>\n",
         escape(&frames.join("\n"))

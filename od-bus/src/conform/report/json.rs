@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::Report;
+use super::run::Report;
 use crate::conform::record::{Record, Verdict};
 
 pub(super) fn render(report: &Report) -> String {

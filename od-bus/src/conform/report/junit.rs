@@ -1,6 +1,6 @@
 //! The report as JUnit XML, a test suite for each group.
 
-use super::{Report, groups};
+use super::run::{self, Report, groups};
 use crate::conform::record::{Record, Verdict};
 
 pub(super) fn render(report: &Report) -> String {
@@ -56,7 +56,7 @@ pub(super) fn render(report: &Report) -> String {
                     r#"      <skipped message="not applicable: {reason}"/>"#
                 )),
             }
-            let frames: Vec<String> = record.frames.iter().map(super::frame).collect();
+            let frames: Vec<String> = record.frames.iter().map(run::frame).collect();
             lines.push(format!(
                 "      <system-out>{}</system-out>",
                 escape(&frames.join("\n"))

@@ -1,6 +1,6 @@
 //! The report as Markdown: a table for each group, then what failed.
 
-use super::{Report, groups, millis};
+use super::run::{self, Report, groups, millis};
 use crate::conform::record::Verdict;
 
 pub(super) fn render(report: &Report) -> String {
@@ -60,7 +60,7 @@ pub(super) fn render(report: &Report) -> String {
         lines.push(format!("## {} failed", record.id));
         lines.push(String::new());
         lines.push("```".into());
-        lines.extend(record.frames.iter().map(super::frame));
+        lines.extend(record.frames.iter().map(run::frame));
         lines.push("```".into());
     }
     lines.join("\n")

@@ -1,6 +1,6 @@
 //! The report as text, a line a case, with the frames of what failed.
 
-use super::{Report, millis};
+use super::run::{self, Report, millis};
 use crate::conform::record::{Record, Verdict};
 
 /// So many frames of a failed case are shown, the last ones.
@@ -52,7 +52,7 @@ fn details(record: &Record, lines: &mut Vec<String>) {
             lines.push(format!("             but       {got}"));
             let from = record.frames.len().saturating_sub(SHOWN);
             for traced in &record.frames[from..] {
-                lines.push(format!("             {}", super::frame(traced)));
+                lines.push(format!("             {}", run::frame(traced)));
             }
             for note in &record.notes {
                 lines.push(format!("             {note}"));

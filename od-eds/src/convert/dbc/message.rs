@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use alloc::{format, vec};
 
 use super::names::{symbol, unique, unit};
-use crate::description::{Description, EntryDescription};
+use crate::description::{Description, EntryDescription, Value};
 use crate::finding::Finding;
 use crate::identifiers::{MappedValue, Service, Used, mapping, number};
 use crate::rules::convert::{w1110, w1111, w1112};
+use crate::span::Spanned;
 use od_model::{Address, DataType, Kind};
 
 /// How the bits of a signal are read.
@@ -274,7 +275,7 @@ fn signal(
 /// The limits of a value; one that is missing is the limit of the type.
 fn limits(entry: &EntryDescription) -> Option<(i128, i128)> {
     let (smallest, largest) = entry.data_type?.integer_range()?;
-    let limit = |limit: &Option<crate::Spanned<crate::Value>>| limit.as_ref()?.integer(0);
+    let limit = |limit: &Option<Spanned<Value>>| limit.as_ref()?.integer(0);
     let (low, high) = (limit(&entry.low), limit(&entry.high));
     (low.is_some() || high.is_some()).then(|| (low.unwrap_or(smallest), high.unwrap_or(largest)))
 }
