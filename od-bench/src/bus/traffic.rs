@@ -30,9 +30,9 @@ impl Bus {
             .min()
     }
 
-    #[cfg(feature = "serve")]
     /// The next frame that a device sent; those of the outside are dropped. For a host that passes
     /// frames of the outside on when they come.
+    #[cfg(feature = "serve")]
     pub(crate) fn poll_device(&mut self) -> Option<Sent> {
         core::iter::from_fn(|| self.poll()).find(|sent| sent.device.is_some())
     }
