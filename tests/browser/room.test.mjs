@@ -105,7 +105,7 @@ test('a lesson shows its step, its checks and what goes on without a scroll, bes
       const box = it.closest('.scroll, .panel').getBoundingClientRect();
       return top >= box.top && bottom <= Math.min(box.bottom, innerHeight) + 1;
     });
-    for (const selector of ['.lesson-step h3', '.lesson-step > .prose', '.quiz input', '.checks', '.asked > button']) await until(`${selector} in sight at ${width}`, () => seen(selector));
+    for (const selector of ['.lesson-step h3', '.lesson-step > .prose', '.quiz input', '.checks', '.asked > button.small']) await until(`${selector} in sight at ${width}`, () => seen(selector));
   }
   assert.deepEqual(faults, []);
   await close();

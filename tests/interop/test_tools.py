@@ -36,22 +36,29 @@ class Tool:
 
 class PythonCanopen(Tool, unittest.TestCase):
     name = "python-canopen"
+    is_there = True
     mutants = 200
 
 
-@unittest.skipUnless(importlib.util.find_spec("dcf"), "dcf-tools is installed with --long")
 class DcfTools(Tool, unittest.TestCase):
     name = "dcf-tools"
+    is_there = importlib.util.find_spec("dcf")
 
 
-@unittest.skipUnless("ODKIT_CANOPEN_RS" in os.environ, "canopen-rs is built with --long")
 class CanopenRs(Tool, unittest.TestCase):
     name = "canopen-rs"
+    is_there = "ODKIT_CANOPEN_RS" in os.environ
 
 
-@unittest.skipUnless("NODE_PATH" in os.environ, "the package canopen of npm is installed with --long")
 class NpmCanopen(Tool, unittest.TestCase):
     name = "npm-canopen"
+    is_there = "NODE_PATH" in os.environ
+
+
+def load_tests(loader, tests, pattern):
+    """The tools that are here: the ordinary run has python-canopen, `--long` installs the others."""
+    tools_here = [it for it in (PythonCanopen, DcfTools, CanopenRs, NpmCanopen) if it.is_there]
+    return unittest.TestSuite(loader.loadTestsFromTestCase(it) for it in tools_here)
 
 
 if __name__ == "__main__":
