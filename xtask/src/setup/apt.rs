@@ -1,9 +1,13 @@
 //! Packages of Debian and Ubuntu, where we are allowed to install them.
 
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use crate::console::{Console, ask, which};
 use crate::error::{Error, Result};
+
+/// One at a time: stages run beside each other.
+static ONE: Mutex<()> = Mutex::new(());
 
 /// Installs packages, or says in one line what to install and how.
 pub(crate) fn install(console: &Console, packages: &[&str], why: &str) -> Result<()> {
@@ -13,6 +17,7 @@ pub(crate) fn install(console: &Console, packages: &[&str], why: &str) -> Result
             "{why}: please install it, on Debian with `sudo apt-get install {list}`"
         )));
     }
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut update = apt_get(&["update"]);
     console.run("fetching the package lists (apt-get update)", &mut update)?;
     let mut install = apt_get(&["install", "-y", "--no-install-recommends"]);

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use crate::console::{Console, ask_in};
 use crate::error::{Error, Result};
@@ -18,8 +19,12 @@ pub(crate) const FLOAT: &str = "thumbv7em-none-eabi";
 /// The other systems that people develop on.
 pub(crate) const HOSTS: [&str; 2] = ["x86_64-pc-windows-gnu", "aarch64-apple-darwin"];
 
+/// rustup does not wait for another rustup, and stages run beside each other.
+static ONE: Mutex<()> = Mutex::new(());
+
 /// Makes sure that the toolchain can build for `target`, or says what to type.
 pub(crate) fn add(repo: &Repo, console: &Console, target: &str) -> Result<()> {
+    let _one = ONE.lock().unwrap_or_else(PoisonError::into_inner);
     if is_there(repo, target)? {
         return Ok(());
     }

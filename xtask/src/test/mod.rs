@@ -87,7 +87,7 @@ pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     let work = |stage: &Stage| one(repo, options, stage, &logs, &report);
     thread::scope(|scope| {
         let work = &work;
-        let mut lanes = [Lane::Page, Lane::Bus].map(|lane| {
+        let mut lanes = [Lane::Page, Lane::Bus, Lane::Board].map(|lane| {
             let (queue, waiting) = mpsc::channel::<&Stage>();
             let worker = scope.spawn(move || waiting.iter().try_for_each(work));
             (lane, queue, worker)

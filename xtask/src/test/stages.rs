@@ -30,6 +30,8 @@ pub(super) enum Lane {
     Page,
     /// A bus, whose tests mostly wait.
     Bus,
+    /// Microcontrollers, built and emulated: one processor's work at a time.
+    Board,
 }
 
 /// One check with a name.
@@ -89,14 +91,14 @@ pub(super) const STAGES: &[Stage] = &[
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
     stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick(),
     stage("tests", Tests, "all other tests from outside", rust::other_outside),
+    stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
+    stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
+    stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
+    stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards).beside(Lane::Board),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
-    stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size),
-    stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware),
-    stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c),
-    stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards),
     stage("editor", Check, "with --long: a session in Neovim, the extension, hooks and action", editor::editor),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
