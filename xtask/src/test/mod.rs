@@ -56,7 +56,7 @@ impl Options {
 
     fn selects(&self, stage: &Stage) -> bool {
         if self.only.is_empty() {
-            !self.quick || stage.quick
+            (stage.quick || !self.quick) && (self.long || !stage.long)
         } else {
             self.only.iter().any(|name| name == stage.name)
         }
@@ -76,7 +76,11 @@ fn known(name: &str) -> Result<String> {
 pub(crate) fn run(repo: &Repo, options: &Options) -> Result<ExitCode> {
     if options.list {
         for stage in STAGES {
-            let quick = if stage.quick { "quick" } else { "" };
+            let quick = match stage {
+                Stage { quick: true, .. } => "quick",
+                Stage { long: true, .. } => "long",
+                _ => "",
+            };
             say(&format!("{:<12} {quick:<6} {}", stage.name, stage.about));
         }
         return Ok(ExitCode::SUCCESS);
@@ -181,7 +185,8 @@ mod tests {
             let selected = STAGES.iter().filter(|stage| options.selects(stage));
             selected.map(|stage| stage.name).collect()
         };
-        assert_eq!(names("").len(), STAGES.len());
+        assert_eq!(names("--long").len(), STAGES.len());
+        assert!(!names("").contains(&"editor") && names("--only editor") == ["editor"]);
         assert_eq!(names("--only doc,fmt"), ["fmt", "doc"]);
         assert!(names("--quick").contains(&"unit"));
         assert!(!names("--quick").contains(&"browser"));

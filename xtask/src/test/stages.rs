@@ -47,6 +47,8 @@ pub(super) struct Stage {
     pub(super) run: fn(&Context<'_>) -> Result<()>,
     /// Whether it is part of `--quick`.
     pub(super) quick: bool,
+    /// Whether it runs with `--long` alone, or by its name.
+    pub(super) long: bool,
     /// A stage outside [`Lane::Cargo`] starts when those of that lane before it have ended.
     pub(super) lane: Lane,
 }
@@ -60,6 +62,7 @@ const fn stage(name: &'static str, kind: Kind, about: &'static str, run: Run) ->
         kind,
         run,
         quick: false,
+        long: false,
         lane: Lane::Cargo,
     }
 }
@@ -67,6 +70,11 @@ const fn stage(name: &'static str, kind: Kind, about: &'static str, run: Run) ->
 impl Stage {
     const fn quick(mut self) -> Stage {
         self.quick = true;
+        self
+    }
+
+    const fn long(mut self) -> Stage {
+        self.long = true;
         self
     }
 
@@ -99,8 +107,8 @@ pub(super) const STAGES: &[Stage] = &[
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
-    stage("editor", Check, "with --long: a session in Neovim, the extension, hooks and action", editor::editor),
+    stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
     stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
-    stage("bench", Check, "each benchmark compiles and runs once", rust::bench),
+    stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

@@ -19,9 +19,6 @@ const RECORDING: &str = "docs/NEOVIM.txt";
 const PRE_COMMIT: &str = "pre-commit==4.7.0";
 
 pub(super) fn editor(context: &Context<'_>) -> Result<()> {
-    if !context.long {
-        return Ok(());
-    }
     let (repo, console) = (context.repo, context.console);
     let mut build = cargo(&repo.root, &["build", "--bin", CLI.1]);
     console.run("the command line", build.args(ALL))?;
