@@ -19,7 +19,7 @@ use crate::source::{self, Source};
 
 /// Test whether a CANopen slave conforms to CiA 301, its EDS and its profile
 ///
-/// With `--link`, the node is on a real bus or on that of `odkit sim`. Without it, the device is
+/// With `--eds`, the node is on a real bus or on that of `odkit sim`. With a DEVICE, that is
 /// simulated in virtual time and every case may run. Exit code 1: a case failed, or the node or the
 /// link was lost.
 #[derive(clap::Args)]
@@ -27,7 +27,9 @@ pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file, to simulate
     #[arg(value_name = "DEVICE|FILE", conflicts_with = "link")]
     device: Option<String>,
-    /// Bus of the node: slcan:HOST:PORT, or bench:DEVICE for a simulated device
+    /// Bus of the node: slcan:HOST:PORT, slcan:DEVICE[@BAUD], socketcan:INTERFACE,
+    /// socketcand:HOST:PORT[/BUS], or bench:DEVICE for a simulated device [default: the running
+    /// `odkit sim`]
     #[arg(long, value_name = "LINK")]
     link: Option<String>,
     /// Node ID
@@ -130,17 +132,17 @@ fn format_of(path: &Path) -> Result<Format, Failure> {
 
 /// Runs the cases on the node or the simulated device.
 fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
-    let link = args
-        .link
-        .as_deref()
-        .map(|link| (link, link.strip_prefix("bench:")));
-    let simulated = match (&args.device, link) {
+    let link = match (&args.device, &args.link, &args.eds) {
+        (None, None, Some(_)) => Some(links::found::default()?),
+        (_, link, _) => link.clone(),
+    };
+    let simulated = match (&args.device, &link) {
         (Some(device), _) => Some(device.as_str()),
-        (None, Some((_, bench))) => bench,
+        (None, Some(link)) => link.strip_prefix("bench:"),
         (None, None) => {
             return Err(Failure::Usage(
-                "name the device to simulate (`odkit conform gxmm`), or the bus of the node \
-                 (`--link slcan:127.0.0.1:2000 --eds FILE`)"
+                "name the device to simulate (`odkit conform gxmm`), or the EDS and the bus of the \
+                 node (`--eds FILE --link slcan:127.0.0.1:2000`)"
                     .into(),
             ));
         }
@@ -184,7 +186,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
         store: args.allow_store,
     };
     announce(eds.text(), &parsed, leave, cases);
-    let link = args.link.as_deref().unwrap_or_default();
+    let link = link.as_deref().unwrap_or_default();
     let mut rig = RealBus {
         link: links::open(link)?,
         power: args.power.clone(),

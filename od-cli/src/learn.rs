@@ -20,9 +20,11 @@ pub(crate) struct Args {
     /// Node ID
     #[arg(value_name = "NODE", value_parser = source::node_id)]
     node: NodeId,
-    /// Bus of the node: slcan:HOST:PORT, or bench:DEVICE for a simulated device
+    /// Bus of the node: slcan:HOST:PORT, slcan:DEVICE[@BAUD], socketcan:INTERFACE,
+    /// socketcand:HOST:PORT[/BUS], or bench:DEVICE for a simulated device [default: the running
+    /// `odkit sim`]
     #[arg(long, value_name = "LINK")]
-    link: String,
+    link: Option<String>,
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -40,14 +42,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
         }
     };
-    let description = match args.link.strip_prefix("bench:") {
+    let link = match &args.link {
+        Some(link) => link.clone(),
+        None => links::found::default()?,
+    };
+    let description = match link.strip_prefix("bench:") {
         Some(device) => learn(
             conform::bench(device, Some(args.node))?,
             args.node,
             options,
             told,
         )?,
-        None => learn(links::open(&args.link)?, args.node, options, told)?,
+        None => learn(links::open(&link)?, args.node, options, told)?,
     };
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
