@@ -42,6 +42,7 @@ pub mod outline;
 mod overlay;
 pub mod patch;
 mod read;
+pub mod row;
 mod rules;
 mod scan;
 mod span;

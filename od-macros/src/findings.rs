@@ -3,15 +3,14 @@
 
 use std::ops::Range;
 
-use od_eds::fix::Applicability;
-use od_eds::patch::{Action, Edit, Target};
-use od_eds::{Description, Eds, Fact, Finding, Key, Sentence, Vocabulary, say, token_of};
-use od_model::{Address, DataType, Kind};
+use od_eds::patch::{Action, Edit};
+use od_eds::row::Row;
+use od_eds::{Description, Eds, Finding, Sentence, say, token_of};
+use od_model::Address;
 use proc_macro2::Span;
 
 use crate::files::Files;
 use crate::report::{Place, Report};
-use crate::words::{CODES, TYPES};
 
 /// Errors of one EDS file that are shown; the rest is counted.
 const SHOWN: usize = 20;
@@ -162,63 +161,6 @@ fn label(address: Address, description: &Description) -> Option<String> {
         Some(entry) if object.code.has_members() => format!("{address} {:?}", *entry.name),
         _ => format!("{:04X}h {:?}", address.index, *object.name),
     })
-}
-
-/// The words of a macro call: `low = 5` in the row of an object.
-struct Row;
-
-impl Vocabulary for Row {
-    fn key(&self, key: Key) -> &'static str {
-        match key {
-            Key::ParameterName => "`name`",
-            Key::ObjectType => "`code`",
-            Key::DataType => "`type`",
-            Key::AccessType => "`access`",
-            Key::PdoMapping => "`mappable`",
-            Key::DefaultValue => "`default`",
-            Key::LowLimit => "`low`",
-            Key::HighLimit => "`high`",
-            Key::StorageLocation => "`save`",
-            Key::Capacity => "`capacity`",
-            other => other.name(),
-        }
-    }
-
-    fn set(&self, key: Key, value: &str) -> String {
-        let field = self.key(key).trim_matches('`');
-        match (key, value) {
-            (_, "") => field.into(),
-            (Key::PdoMapping, "0") => format!("{field} = false"),
-            (Key::PdoMapping, "1") => format!("{field} = true"),
-            _ => format!("{field} = {value}"),
-        }
-    }
-
-    fn fix(&self, _: Applicability) -> &'static str {
-        ""
-    }
-
-    fn form_of(&self, data_type: DataType) -> String {
-        match data_type.kind() {
-            Kind::Boolean => "`true` or `false`".into(),
-            Kind::Text => "a text such as `\"a\"`".into(),
-            Kind::Bytes => "bytes such as `b\"\\x12\\xAB\"`".into(),
-            _ => Eds.form_of(data_type),
-        }
-    }
-
-    fn written(&self, fact: &Fact) -> Option<String> {
-        let word = match fact {
-            Fact::Type(data_type) => TYPES.word(*data_type),
-            Fact::Code(code) => CODES.word(*code),
-            _ => None,
-        };
-        word.map(Into::into)
-    }
-
-    fn section(&self, index: u16, sub: Option<u8>) -> String {
-        format!("a row `add {} {{ … }}`", Target { index, sub })
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The words that a field may have, and which one was meant by another.
 
+use od_eds::row;
 use od_model::{Access, DataType, Group, ObjectCode};
 use proc_macro2::Ident;
 use syn::ext::IdentExt;
@@ -16,33 +17,7 @@ pub(crate) struct Words<T: 'static> {
 
 pub(crate) const TYPES: Words<DataType> = Words {
     what: "a data type",
-    words: &[
-        ("bool", DataType::Boolean),
-        ("u8", DataType::Unsigned8),
-        ("u16", DataType::Unsigned16),
-        ("u32", DataType::Unsigned32),
-        ("u64", DataType::Unsigned64),
-        ("i8", DataType::Integer8),
-        ("i16", DataType::Integer16),
-        ("i32", DataType::Integer32),
-        ("i64", DataType::Integer64),
-        ("f32", DataType::Real32),
-        ("f64", DataType::Real64),
-        ("str", DataType::VisibleString),
-        ("UNSIGNED24", DataType::Unsigned24),
-        ("UNSIGNED40", DataType::Unsigned40),
-        ("UNSIGNED48", DataType::Unsigned48),
-        ("UNSIGNED56", DataType::Unsigned56),
-        ("INTEGER24", DataType::Integer24),
-        ("INTEGER40", DataType::Integer40),
-        ("INTEGER48", DataType::Integer48),
-        ("INTEGER56", DataType::Integer56),
-        ("TIME_OF_DAY", DataType::TimeOfDay),
-        ("TIME_DIFFERENCE", DataType::TimeDifference),
-        ("OCTET_STRING", DataType::OctetString),
-        ("UNICODE_STRING", DataType::UnicodeString),
-        ("DOMAIN", DataType::Domain),
-    ],
+    words: &row::TYPES,
     foreign: &[
         ("uint8", "u8"),
         ("uint16", "u16"),
@@ -90,23 +65,13 @@ pub(crate) const ACCESS: Words<Access> = Words {
 
 pub(crate) const GROUPS: Words<Group> = Words {
     what: "a parameter group",
-    words: &[
-        ("communication", Group::Communication),
-        ("application", Group::Application),
-        ("manufacturer", Group::Manufacturer),
-        ("none", Group::None),
-    ],
+    words: &row::GROUPS,
     foreign: &[],
 };
 
 pub(crate) const CODES: Words<ObjectCode> = Words {
     what: "an object code",
-    words: &[
-        ("var", ObjectCode::Var),
-        ("array", ObjectCode::Array),
-        ("record", ObjectCode::Record),
-        ("domain", ObjectCode::Domain),
-    ],
+    words: &row::CODES,
     foreign: &[("struct", "record"), ("variable", "var"), ("list", "array")],
 };
 
@@ -148,12 +113,6 @@ impl<T: Named> Words<T> {
     fn value(&self, text: &str) -> Option<T> {
         let known = self.words.iter().find(|(word, _)| *word == text);
         known.map(|(_, value)| *value).or_else(|| T::named(text))
-    }
-
-    /// The word for a value.
-    pub(crate) fn word(&self, value: T) -> Option<&'static str> {
-        let known = self.words.iter().find(|(_, known)| *known == value);
-        known.map(|(word, _)| *word)
     }
 
     fn list(&self) -> String {

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use od_eds::check::check;
-use od_eds::patch::{self, Action, Change, Edit, Raw, Target};
-use od_eds::{Description, Fact, Finding, Key, Span, Spanned, Vocabulary, say, token, token_of};
-use od_model::{Access, DataType, Group, ObjectCode};
+use od_eds::patch::{self, Action, Change, Edit, Raw};
+use od_eds::row::{CODES, GROUPS, Row, TYPES};
+use od_eds::{Description, Finding, Span, Spanned, say, token, token_of};
+use od_model::{Access, DataType};
 
 use crate::file::File;
 use crate::macros::base::{Base, Find};
@@ -15,38 +16,6 @@ use crate::types::{Diagnostic, RelatedInformation};
 
 /// Errors of the file that are shown; the rest is counted.
 const SHOWN: usize = 20;
-
-/// The types that the macro has a word for; it takes the names of CiA 301, too.
-pub(crate) const TYPES: [(&str, DataType); 12] = [
-    ("bool", DataType::Boolean),
-    ("u8", DataType::Unsigned8),
-    ("u16", DataType::Unsigned16),
-    ("u32", DataType::Unsigned32),
-    ("u64", DataType::Unsigned64),
-    ("i8", DataType::Integer8),
-    ("i16", DataType::Integer16),
-    ("i32", DataType::Integer32),
-    ("i64", DataType::Integer64),
-    ("f32", DataType::Real32),
-    ("f64", DataType::Real64),
-    ("str", DataType::VisibleString),
-];
-
-/// The object codes that the macro has a word for.
-pub(crate) const CODES: [(&str, ObjectCode); 4] = [
-    ("var", ObjectCode::Var),
-    ("array", ObjectCode::Array),
-    ("record", ObjectCode::Record),
-    ("domain", ObjectCode::Domain),
-];
-
-/// The groups that the macro has a word for.
-pub(crate) const GROUPS: [(&str, Group); 4] = [
-    ("communication", Group::Communication),
-    ("application", Group::Application),
-    ("manufacturer", Group::Manufacturer),
-    ("none", Group::None),
-];
 
 /// The diagnostics of the calls of a source.
 pub(crate) fn of(file: &File, find: Find<'_>) -> Vec<Diagnostic> {
@@ -245,57 +214,5 @@ fn diagnostic(file: &File, bytes: Range<usize>, code: &'static str, message: Str
         source: "odkit",
         message,
         related_information: Vec::new(),
-    }
-}
-
-/// The words of a macro call: `low = 5`.
-struct Row;
-
-impl Vocabulary for Row {
-    fn key(&self, key: Key) -> &'static str {
-        match key {
-            Key::ParameterName => "`name`",
-            Key::ObjectType => "`code`",
-            Key::DataType => "`type`",
-            Key::AccessType => "`access`",
-            Key::PdoMapping => "`mappable`",
-            Key::DefaultValue => "`default`",
-            Key::LowLimit => "`low`",
-            Key::HighLimit => "`high`",
-            Key::StorageLocation => "`save`",
-            Key::Capacity => "`capacity`",
-            other => other.name(),
-        }
-    }
-
-    fn set(&self, key: Key, value: &str) -> String {
-        let field = self.key(key).trim_matches('`');
-        match value {
-            "" => field.into(),
-            value => format!("{field} = {value}"),
-        }
-    }
-
-    fn written(&self, fact: &Fact) -> Option<String> {
-        let word = match fact {
-            Fact::Type(own) => TYPES
-                .iter()
-                .find(|(_, known)| known == own)
-                .map(|(word, _)| *word),
-            Fact::Code(own) => CODES
-                .iter()
-                .find(|(_, known)| known == own)
-                .map(|(word, _)| *word),
-            _ => None,
-        };
-        word.map(Into::into)
-    }
-
-    fn section(&self, index: u16, sub: Option<u8>) -> String {
-        format!("a row `add {} {{ … }}`", Target { index, sub })
-    }
-
-    fn fix(&self, _: od_eds::fix::Applicability) -> &'static str {
-        ""
     }
 }

@@ -5,12 +5,12 @@ use std::ops::Range;
 use od_eds::Description;
 use od_eds::outline::Place;
 use od_eds::patch::Target;
+use od_eds::row::{CODES, GROUPS, TYPES};
 use od_model::Access;
 
 use crate::file::File;
 use crate::macros::base::{Base, Find};
 use crate::macros::call::{self, Call, Statement};
-use crate::macros::check::{CODES, GROUPS, TYPES};
 use crate::standard;
 use crate::types::{
     CompletionItem, CompletionList, Hover, Location, Markup, Range as Places, TextEdit,

@@ -6,6 +6,10 @@ use od_eds::check::RULES;
 use od_eds::patch::{self, Raw};
 use od_eds::{Document, load};
 
+use od_eds::patch::Target;
+use od_eds::{Fact, Key, Vocabulary};
+use od_model::DataType;
+
 use super::*;
 
 /// All cases of the rules, broken.
