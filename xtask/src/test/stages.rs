@@ -32,6 +32,9 @@ pub(super) enum Lane {
     Bus,
     /// Microcontrollers, built and emulated: one processor's work at a time.
     Board,
+    /// Compiled for other computers, in a target directory of its own: one compiler waits for
+    /// another that writes into the same.
+    Cross,
 }
 
 /// One check with a name.
@@ -95,20 +98,20 @@ pub(super) const STAGES: &[Stage] = &[
     stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
     stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
-    stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
-    stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
-    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick(),
-    stage("tests", Tests, "all other tests from outside", rust::other_outside),
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
+    stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
+    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
+    stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards).beside(Lane::Board),
+    stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
+    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick(),
+    stage("tests", Tests, "all other tests from outside", rust::other_outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
-    stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
-    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts),
     stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

@@ -117,35 +117,22 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
     for package in NO_STD {
         let args = ["build", "--package", package, "--no-default-features"];
         let what = format!("{package} without the standard library");
-        run(
-            context,
-            &what,
-            &[&args[..], &["--target", target::BARE]].concat(),
-        )?;
+        cross(context, &what, target::BARE, &args)?;
     }
     // It has a lock file of its own, so it builds all of odkit's compile-time half once more.
     if context.long {
         let args = ["check", "--manifest-path", "firmware/rtic/Cargo.toml"];
-        let place = context.repo.target.display().to_string();
-        let options = ["--target", target::BARE, "--target-dir", &place];
-        run(context, "a node in RTIC", &[&args[..], &options].concat())?;
+        cross(context, "a node in RTIC", target::BARE, &args)?;
     }
     // The last one brings the others along.
     target::add(context.repo, context.console, target::SMALLEST)?;
-    let args = ["build", "--package", "od-devices", "--package", "od-capi"];
-    let options = ["--no-default-features", "--target", target::SMALLEST];
-    run(
-        context,
-        "od-devices and od-capi for a Cortex-M0",
-        &[&args[..], &options].concat(),
-    )?;
+    let both = ["--package", "od-devices", "--package", "od-capi"];
+    let args = [&["build", "--no-default-features"], &both[..]].concat();
+    let what = "od-devices and od-capi for a Cortex-M0";
+    cross(context, what, target::SMALLEST, &args)?;
     let args = ["check", "--package", "od-board", "--all-features"];
-    let args = [&args[..], &["--target", target::SMALLEST]].concat();
-    run(
-        context,
-        "od-board with every feature for a Cortex-M0",
-        &args,
-    )
+    let what = "od-board with every feature for a Cortex-M0";
+    cross(context, what, target::SMALLEST, &args)
 }
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
@@ -172,10 +159,18 @@ pub(super) fn firmware(context: &Context<'_>) -> Result<()> {
 pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
     for target in target::HOSTS {
         target::add(context.repo, context.console, target)?;
-        let args = ["check", "--package", CLI.0, "--target", target];
-        run(context, &format!("odkit for {target}"), &args)?;
+        let args = ["check", "--package", CLI.0];
+        cross(context, &format!("odkit for {target}"), target, &args)?;
     }
     Ok(())
+}
+
+/// cargo for another computer, in the target directory of [`Lane::Cross`](super::Lane::Cross).
+fn cross(context: &Context<'_>, what: &str, target: &str, args: &[&str]) -> Result<()> {
+    let mut command = cargo(&context.repo.root, args);
+    command.args(["--target", target, "--target-dir"]);
+    command.arg(context.repo.target.join("cross"));
+    context.console.run(what, &mut command)
 }
 
 /// The profile for tests is enough to see that they work.
