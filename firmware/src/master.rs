@@ -1,14 +1,14 @@
 //! The master: it sends what every node has to answer, and measures what that takes.
 
-use odkit::{CanId, Device, Extras, Frame, Instant, Lent, Node};
+use odkit::{Device, Extras, Frame, Instant, Lent, Node};
 
 use crate::board;
 
 /// What a master sends.
 #[derive(Clone, Copy)]
 pub enum Step {
-    /// A frame: CAN-ID, length, data.
-    Frame(u16, u8, [u8; 8]),
+    /// A frame.
+    Frame(Frame),
     /// This many milliseconds pass.
     Wait(u32),
     /// The device sees a change outside the bus.
@@ -17,8 +17,20 @@ pub enum Step {
 
 /// An SDO request.
 pub const fn sdo(data: [u8; 8]) -> Step {
-    Step::Frame(0x601, 8, data)
+    frame(0x601, data)
 }
+
+/// A frame.
+pub const fn frame<const N: usize>(id: u16, data: [u8; N]) -> Step {
+    Step::Frame(Frame::standard(id, &data))
+}
+
+#[unsafe(link_section = ".script")]
+static START: Step = frame(0, [1, 0]);
+#[unsafe(link_section = ".script")]
+static SYNC: Frame = Frame::standard(0x80, &[]);
+#[unsafe(link_section = ".script")]
+static FOREIGN: Frame = Frame::standard(0x605, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]);
 
 /// A node with its device and its time.
 struct Bench<'b, 'd, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
@@ -34,33 +46,32 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
 {
     #[inline(never)]
     fn drain(&mut self) {
-        while let Some(frame) = self.node.poll_transmit(self.device, self.now) {
+        loop {
+            let frame = self.node.poll_transmit(self.device, self.now);
+            if frame.is_none() {
+                return;
+            }
+            core::hint::black_box(&frame);
             self.sent += 1;
-            core::hint::black_box(frame);
         }
     }
 
     #[inline(never)]
-    fn receive(&mut self, step: &Step) {
-        if let Step::Frame(id, dlc, data) = *step {
-            let frame = Frame::with_dlc(CanId::standard(id), data, dlc);
-            self.node.handle_frame(self.device, self.now, &frame);
+    fn wait(&mut self, ms: u32) {
+        let end = self.now.plus_millis(ms.into());
+        while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
+            self.now = at;
+            self.node.handle_timeout(self.device, at);
+            self.drain();
         }
+        self.now = end;
     }
 
     #[inline(never)]
     fn step(&mut self, step: &Step) {
-        match *step {
-            Step::Frame(..) => self.receive(step),
-            Step::Wait(ms) => {
-                let end = self.now.plus_millis(ms.into());
-                while let Some(at) = self.node.poll_timeout().filter(|at| *at <= end) {
-                    self.now = at;
-                    self.node.handle_timeout(self.device, at);
-                    self.drain();
-                }
-                self.now = end;
-            }
+        match step {
+            Step::Frame(frame) => self.node.handle_frame(self.device, self.now, frame),
+            Step::Wait(ms) => self.wait(*ms),
             Step::Change => self.node.handle_change(self.device, self.now),
         }
         self.drain();
@@ -78,15 +89,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
     /// Ticks of a frame, when it comes the second time, until all that it causes is sent, with those of
     /// reading the clock.
     #[inline(never)]
-    fn ticks(&mut self, step: &Step) -> u32 {
-        let Step::Frame(id, dlc, data) = *step else {
-            return 0;
-        };
-        let frame = Frame::with_dlc(CanId::standard(id), data, dlc);
+    fn ticks(&mut self, frame: &Frame) -> u32 {
         let mut ticks = 0;
         for _ in 0..2 {
             let before = board::clock();
-            self.node.handle_frame(self.device, self.now, &frame);
+            self.node.handle_frame(self.device, self.now, frame);
             self.drain();
             ticks = before.wrapping_sub(board::clock()) & 0xFF_FFFF;
         }
@@ -100,7 +107,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
 pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
     node: &mut Node<D, PDO, SDO, X>,
     device: &mut Lent<'_>,
-    upload: [u8; 8],
+    upload: &Frame,
     script: &[Step],
 ) -> ! {
     board::start_clock();
@@ -112,14 +119,17 @@ pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
     };
     let clock = board::clock();
     let overhead = clock.wrapping_sub(board::clock()) & 0xFF_FFFF;
+    board::print(b"overhead\0", overhead);
     let (started, power_on) = bench.power_on();
-    bench.step(&Step::Frame(0, 2, [1, 0, 0, 0, 0, 0, 0, 0]));
-    let upload = bench.ticks(&Step::Frame(0x601, 8, upload));
-    let sync = bench.ticks(&Step::Frame(0x80, 0, [0; 8]));
-    let foreign = bench.ticks(&Step::Frame(0x605, 8, [0x40, 0, 0x10, 0, 0, 0, 0, 0]));
+    board::print(b"power_on\0", power_on);
+    bench.step(&START);
+    board::print(b"upload\0", bench.ticks(upload));
+    board::print(b"sync\0", bench.ticks(&SYNC));
+    board::print(b"foreign\0", bench.ticks(&FOREIGN));
     let before = board::clock();
     bench.node.handle_timeout(bench.device, bench.now);
     let idle = before.wrapping_sub(board::clock()) & 0xFF_FFFF;
+    board::print(b"idle\0", idle);
     for step in script {
         bench.step(step);
     }
@@ -128,11 +138,5 @@ pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
     board::print(b"ram\0", ram);
     board::print(b"stack\0", board::stack());
     board::print(b"sent\0", bench.sent);
-    board::print(b"overhead\0", overhead);
-    board::print(b"power_on\0", power_on);
-    board::print(b"upload\0", upload);
-    board::print(b"sync\0", sync);
-    board::print(b"foreign\0", foreign);
-    board::print(b"idle\0", idle);
     board::exit(started)
 }

@@ -16,6 +16,8 @@
 //! The pool is words: of a wide literal low and high half, of a string start and length of its default
 //! and the length of its slot, of limits the kinds of both and then their words.
 
+mod limits;
+
 use crate::access::{Access, Group};
 use crate::address::Address;
 use crate::entry::{Entry, Slot};
@@ -104,20 +106,19 @@ const fn bits(pool: &[u32], at: usize, kind: u32) -> u64 {
     (high as u64) << 32 | word(pool, at) as u64
 }
 
+/// The bits of a literal of two words in the pool.
+#[inline(never)]
+const fn wide(pool: &[u32], at: usize) -> u64 {
+    bits(pool, at, WIDE)
+}
+
 /// The bits of a number of up to two words.
+#[inline(always)]
 const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     match kind {
         2 => bits as i32 as u64,
         3 => bits + node_id as u64,
         _ => bits,
-    }
-}
-
-#[inline(never)]
-const fn limit(pool: &[u32], at: usize, kind: u32, node_id: u8) -> Option<u64> {
-    match kind {
-        0 | RANGE => None,
-        _ => Some(number(kind, bits(pool, at, kind), node_id)),
     }
 }
 
@@ -259,9 +260,27 @@ impl Row {
         self.bits() == 0
     }
 
+    /// Whether the default may be another than 0 or empty.
+    #[inline(always)]
+    pub const fn has_default(self) -> bool {
+        self.0[0] & 7 > 2 || self.0[2] != 0
+    }
+
     /// Whether the default is `$NODEID` and a number.
     pub const fn follows_node_id(self) -> bool {
         self.0[0] & 7 == 3
+    }
+
+    /// Place in the store of a value whose type gives its length; length 0 where it has none.
+    #[inline(always)]
+    pub const fn fixed_slot(self) -> Slot {
+        let len = if self.is_stored() {
+            self.size() as u16
+        } else {
+            0
+        };
+        let offset = self.0[1];
+        Slot { offset, len }
     }
 
     /// Place of the value in the store.
@@ -276,11 +295,12 @@ impl Row {
     }
 
     /// The default of a number: its bits, those of an IEEE 754 double of a REAL. 0 without one.
+    #[inline(always)]
     pub const fn default(self, pool: &[u32], node_id: u8) -> u64 {
         let (kind, at) = (self.0[0] & 7, self.0[2]);
         match kind < WIDE {
             true => number(kind, at as u64, node_id),
-            false => bits(pool, at as usize, kind),
+            false => wide(pool, at as usize),
         }
     }
 
@@ -293,21 +313,6 @@ impl Row {
             }
             _ => Range::new(0, 0),
         }
-    }
-
-    /// Lower and upper limit, as [`default`](Self::default) has numbers; `None`: the type limits the
-    /// value.
-    pub const fn limits(self, pool: &[u32], node_id: u8) -> [Option<u64>; 2] {
-        let limits = (self.0[3] >> 14) as usize;
-        if limits == 0 {
-            return [None, None];
-        }
-        let kinds = word(pool, limits - 1);
-        let (low, high) = (kinds & 7, kinds >> 3);
-        [
-            limit(pool, limits, low, node_id),
-            limit(pool, limits + words(low), high, node_id),
-        ]
     }
 
     /// Index of the object.

@@ -84,6 +84,7 @@ mod lent;
 mod limits;
 mod lss;
 mod node;
+mod number;
 mod objects;
 mod pdo;
 mod profile;

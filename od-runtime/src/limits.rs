@@ -2,10 +2,10 @@
 
 use od_model::Kind;
 use od_model::row::Row;
-use od_model::typed::Scalar;
 
+use crate::number::number_in;
 use crate::real;
-use crate::store::{Store, little_endian};
+use crate::store::Store;
 
 /// Reason why an object cannot have a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,6 +21,7 @@ pub(crate) enum Outside {
 }
 
 /// Checks a value against the limits of an entry. `bytes` has the entry's length.
+#[inline(never)]
 pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Outside> {
     let kind = row.data_type().kind();
     if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
@@ -31,16 +32,11 @@ pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Ou
         Kind::Real if !matches!(bytes.len(), 4 | 8) => return Err(Outside::Length),
         kind => kind == Kind::Real,
     };
-    let [low, high] = row.limits(store.dictionary().pool(), store.node_id().raw());
-    if low.is_none() && high.is_none() {
-        return Ok(());
-    }
-    let value = match kind {
-        Kind::Signed => i64::from_wire(bytes) as u64,
-        _ => little_endian(bytes),
-    };
+    let value = number_in(bytes);
+    let unused = 64u32.saturating_sub(8 * bytes.len() as u32) & 63;
     let value = match bytes.len() {
         4 if is_real => real::widened(value as u32),
+        _ if kind == Kind::Signed => ((value << unused) as i64 >> unused) as u64,
         _ => value,
     };
     // The limits of an entry are of its type, so both sides of a comparison have the same order.
@@ -49,9 +45,14 @@ pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Ou
         true => real::is_greater(one, other),
         false => one ^ sign > other ^ sign,
     };
-    if high.is_some_and(|high| is_greater(value, high)) {
+    let (pool, node_id) = (store.dictionary().pool(), store.node_id().raw());
+    if let Some(high) = row.high(pool, node_id)
+        && is_greater(value, high)
+    {
         Err(Outside::Above)
-    } else if low.is_some_and(|low| is_greater(low, value)) {
+    } else if let Some(low) = row.low(pool, node_id)
+        && is_greater(low, value)
+    {
         Err(Outside::Below)
     } else {
         Ok(())

@@ -6,6 +6,7 @@ const MORE: u32 = 52 - 23;
 const LOWEST: u32 = 1023 - 127;
 
 /// The bits of the single nearest to a double, as `as f32` rounds.
+#[inline(never)]
 pub(crate) const fn narrowed(double: u64) -> u32 {
     let sign = (double >> 63 << 31) as u32;
     let (exponent, fraction) = ((double >> 52) as u32 & 0x7FF, double & ((1 << 52) - 1));
@@ -47,6 +48,7 @@ pub(crate) const fn widened(single: u32) -> u64 {
 }
 
 /// Whether one double is greater than another; neither is where one is not a number.
+#[inline(never)]
 pub(crate) const fn is_greater(one: u64, other: u64) -> bool {
     const INFINITE: u64 = 0x7FF << 53;
     if one << 1 > INFINITE || other << 1 > INFINITE || (one | other) << 1 == 0 {

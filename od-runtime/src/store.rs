@@ -6,6 +6,7 @@ use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
 use od_model::{Address, DataType, Dictionary, Entry, Slot};
 
+use crate::number::{fill, little_endian, number_in};
 use crate::real;
 use od_wire::{AbortCode, NodeId};
 
@@ -108,6 +109,15 @@ impl<'a> Store<'a> {
         }
     }
 
+    /// All values become their defaults. Most are 0 or empty.
+    pub(crate) fn reset_all(&mut self) {
+        let len = self.dictionary.store_len();
+        self.values.get_mut(..len).unwrap_or_default().fill(0);
+        let rows = self.dictionary.rows().iter();
+        rows.filter(|row| row.has_default())
+            .for_each(|row| self.reset_row(row));
+    }
+
     /// One value becomes its default; a description that gives none means 0 or empty.
     pub fn reset_entry(&mut self, entry: &Entry) {
         if let Ok(row) = self.dictionary.row_of(entry.address) {
@@ -128,12 +138,8 @@ impl<'a> Store<'a> {
     /// Puts a number in its place, cut to its length, if it has one.
     #[inline(always)]
     fn put_number(&mut self, row: &Row, number: u64) {
-        if row.is_stored()
-            && let start = row.slot(&[]).offset as usize
-            && let Some(room) = self.values.get_mut(start..start + row.size())
-        {
-            let bytes = number.to_le_bytes();
-            room.iter_mut().zip(bytes).for_each(|(to, from)| *to = from);
+        if let Some(room) = slot_mut(self.values, row.fixed_slot()) {
+            fill(room, number.to_le_bytes());
         }
     }
 
@@ -167,13 +173,8 @@ impl<'a> Store<'a> {
     /// Sets the value of a handle. Limits are not looked at: they bind the master, not the device.
     #[inline]
     pub fn set<T: Scalar, A: DeviceWritable, M>(&mut self, var: Var<T, A, M>, value: T) {
-        if let Some(bytes) = slot_mut(self.values, var.slot()) {
-            let wire = value.to_wire();
-            match bytes {
-                // The usual length is one store.
-                [a, b, c, d] => [*a, *b, *c, *d] = [wire[0], wire[1], wire[2], wire[3]],
-                _ => bytes.iter_mut().zip(wire).for_each(|(to, from)| *to = from),
-            }
+        if let Some(room) = slot_mut(self.values, var.slot()) {
+            fill(room, value.to_wire());
         }
     }
 
@@ -224,7 +225,7 @@ impl<'a> Store<'a> {
         if row.is_variable() {
             return variable(self.dictionary, self.values, row);
         }
-        match slot(self.values, row.slot(&[])) {
+        match slot(self.values, row.fixed_slot()) {
             Some(bytes) if !bytes.is_empty() => bytes,
             _ => default_bytes(self.dictionary, row, self.node_id, number),
         }
@@ -295,12 +296,30 @@ impl<'a> Store<'a> {
     /// The number of the value of a row, little-endian, eight bytes at most.
     #[inline(never)]
     pub(crate) fn number_of(&self, row: &Row) -> u64 {
-        little_endian(self.value(row, &mut [0; 8]))
+        match self.slot(row.plain()) {
+            [] => self.other_number(row),
+            bytes => little_endian(bytes),
+        }
+    }
+
+    /// As [`number_of`](Self::number_of), of a value that no master may read, is a string, or is not in
+    /// the store.
+    #[inline(never)]
+    fn other_number(&self, row: &Row) -> u64 {
+        match row.size() {
+            0 => number_in(variable(self.dictionary, self.values, row)),
+            _ if row.is_stored() => number_in(self.slot(row.fixed_slot())),
+            size => {
+                let unused = 64u32.saturating_sub(8 * size as u32);
+                let default = default(self.dictionary, row, self.node_id);
+                default & u64::MAX.checked_shr(unused).unwrap_or(0)
+            }
+        }
     }
 
     /// The number that an entry holds, little-endian, eight bytes at most.
     pub fn number(&self, entry: &Entry) -> u64 {
-        little_endian(self.bytes(entry, &mut [0; 8]))
+        number_in(self.bytes(entry, &mut [0; 8]))
     }
 
     /// Puts a number at an address, cut to the entry's length; `false` if the object does not exist.
@@ -313,22 +332,6 @@ impl<'a> Store<'a> {
             self.put_number(row, value);
         }
         is_number
-    }
-}
-
-/// The number that up to eight bytes are. The usual lengths are one load each.
-#[inline(always)]
-pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
-    match *bytes {
-        [a] => a.into(),
-        [a, b] => u16::from_le_bytes([a, b]).into(),
-        [a, b, c, d] => u32::from_le_bytes([a, b, c, d]).into(),
-        [a, b, c, d, e, f, g, h] => u64::from_le_bytes([a, b, c, d, e, f, g, h]),
-        _ => bytes
-            .iter()
-            .take(8)
-            .rev()
-            .fold(0, |number, byte| number << 8 | u64::from(*byte)),
     }
 }
 

@@ -4,9 +4,9 @@
 #![no_main]
 
 use odkit::storage::Memory;
-use odkit::{Lent, NoApplication, NodeId, Profile};
+use odkit::{Frame, Lent, NoApplication, NodeId, Profile};
 use odkit_firmware::board::Once;
-use odkit_firmware::master::{self, Step, sdo};
+use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
     /// The slave.
@@ -26,6 +26,8 @@ static VALUES: Once<[u8; slave::STORE_LEN]> = Once::new([0; slave::STORE_LEN]);
 #[unsafe(link_section = ".eeprom")]
 static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
+#[unsafe(link_section = ".script")]
+static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x00, 0x64, 0, 0, 0, 0, 0]);
 #[unsafe(link_section = ".script")]
 static SCRIPT: [Step; 27] = [
     // 1008h by segments, and by block.
@@ -47,10 +49,10 @@ static SCRIPT: [Step; 27] = [
     // Guarding, RPDO 1 and one that is too short, a remote frame.
     sdo([0x2B, 0x0C, 0x10, 0, 100, 0, 0, 0]),
     sdo([0x23, 0x16, 0x10, 1, 100, 0, 5, 0]),
-    Step::Frame(0x705, 1, [5, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0x705, [5]),
     Step::Wait(1000),
-    Step::Frame(0x201, 8, [1, 2, 3, 4, 5, 6, 7, 8]),
-    Step::Frame(0x201, 1, [1, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0x201, [1, 2, 3, 4, 5, 6, 7, 8]),
+    frame(0x201, [1]),
     // Mapping, save, restore.
     sdo([0x2F, 0x01, 0x1A, 0, 0, 0, 0, 0]),
     sdo([0x23, 0x01, 0x1A, 1, 0x20, 0, 0, 0x64]),
@@ -58,7 +60,7 @@ static SCRIPT: [Step; 27] = [
     sdo([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
     sdo([0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
     Step::Change,
-    Step::Frame(0, 2, [0x81, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0, [0x81, 0]),
 ];
 
 #[unsafe(no_mangle)]
@@ -70,10 +72,5 @@ extern "C" fn main() -> ! {
         storage: &mut Memory::new(&mut EEPROM.take()[..]),
         profile: &PROFILE,
     };
-    master::run(
-        NODE.take(),
-        &mut device,
-        [0x40, 0x00, 0x64, 0, 0, 0, 0, 0],
-        &SCRIPT,
-    )
+    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

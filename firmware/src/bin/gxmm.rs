@@ -5,9 +5,9 @@
 use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
 use odkit::encoder::{Angle, Encoder, Sampled};
 use odkit::storage::Memory;
-use odkit::{Device, Dictionary, Duration, Lent, Node, NodeId, Only, Profile, rooms};
+use odkit::{Device, Dictionary, Duration, Frame, Lent, Node, NodeId, Only, Profile, rooms};
 use odkit_firmware::board::Once;
-use odkit_firmware::master::{self, Step, sdo};
+use odkit_firmware::master::{self, Step, frame, sdo};
 
 type Shaft = Encoder<Sampled<Angle>>;
 
@@ -39,6 +39,8 @@ static SHAFT: Once<Shaft> = Once::new(Encoder::new(
 static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 
 #[unsafe(link_section = ".script")]
+static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0]);
+#[unsafe(link_section = ".script")]
 static SCRIPT: [Step; 16] = [
     sdo([0x40, 0x18, 0x10, 1, 0, 0, 0, 0]),
     // Scaling, a preset, node guarding.
@@ -47,17 +49,17 @@ static SCRIPT: [Step; 16] = [
     sdo([0x23, 0x02, 0x60, 0, 0, 0, 1, 0]),
     sdo([0x23, 0x03, 0x60, 0, 0x10, 0, 0, 0]),
     sdo([0x40, 0x04, 0x60, 0, 0, 0, 0, 0]),
-    Step::Frame(0x80, 0, [0; 8]),
+    frame(0x80, []),
     Step::Change,
     Step::Wait(1000),
     sdo([0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
     sdo([0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
     // LSS in Stopped: the vendor-ID is inquired.
-    Step::Frame(0, 2, [2, 0, 0, 0, 0, 0, 0, 0]),
-    Step::Frame(0x7E5, 8, [4, 1, 0, 0, 0, 0, 0, 0]),
-    Step::Frame(0x7E5, 8, [0x5A, 0, 0, 0, 0, 0, 0, 0]),
-    Step::Frame(0x7E5, 8, [4, 0, 0, 0, 0, 0, 0, 0]),
-    Step::Frame(0, 2, [0x81, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0, [2, 0]),
+    frame(0x7E5, [4, 1, 0, 0, 0, 0, 0, 0]),
+    frame(0x7E5, [0x5A, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0x7E5, [4, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0, [0x81, 0]),
 ];
 
 #[unsafe(no_mangle)]
@@ -69,10 +71,5 @@ extern "C" fn main() -> ! {
         storage: &mut Memory::new(&mut EEPROM.take()[..]),
         profile: &PROFILE,
     };
-    master::run(
-        NODE.take(),
-        &mut device,
-        [0x40, 0x00, 0x10, 0, 0, 0, 0, 0],
-        &SCRIPT,
-    )
+    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

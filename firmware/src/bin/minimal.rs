@@ -3,9 +3,9 @@
 #![no_main]
 
 use odkit::storage::NoStorage;
-use odkit::{Address, Application, Context, Emcy, Instant, Lent, NodeId, Profile};
+use odkit::{Address, Application, Context, Emcy, Frame, Instant, Lent, NodeId, Profile};
 use odkit_firmware::board::Once;
-use odkit_firmware::master::{self, Step, sdo};
+use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
     /// A thermometer with two inputs.
@@ -78,6 +78,8 @@ static NODE: Once<thermometer::Node> = Once::new(thermometer::Node::new(NodeId::
 static VALUES: Once<[u8; thermometer::STORE_LEN]> = Once::new([0; thermometer::STORE_LEN]);
 
 #[unsafe(link_section = ".script")]
+static UPLOAD: Frame = Frame::standard(0x601, &[0x40, 0x03, 0x20, 0, 0, 0, 0, 0]);
+#[unsafe(link_section = ".script")]
 static SCRIPT: [Step; 9] = [
     sdo([0x40, 0x18, 0x10, 1, 0, 0, 0, 0]),
     sdo([0x2B, 0x02, 0x20, 0, 50, 0, 0, 0]),
@@ -87,7 +89,7 @@ static SCRIPT: [Step; 9] = [
     Step::Change,
     Step::Wait(1000),
     Step::Change,
-    Step::Frame(0, 2, [0x82, 0, 0, 0, 0, 0, 0, 0]),
+    frame(0, [0x82, 0]),
 ];
 
 #[unsafe(no_mangle)]
@@ -99,10 +101,5 @@ extern "C" fn main() -> ! {
         storage: &mut NoStorage,
         profile: &PROFILE,
     };
-    master::run(
-        NODE.take(),
-        &mut device,
-        [0x40, 0x03, 0x20, 0, 0, 0, 0, 0],
-        &SCRIPT,
-    )
+    master::run(NODE.take(), &mut device, &UPLOAD, &SCRIPT)
 }

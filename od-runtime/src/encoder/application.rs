@@ -12,7 +12,8 @@ use super::profile::Options;
 use super::state::Encoder;
 use super::timer::{EVENT_TIMER, TIMER};
 use crate::application::{Application, Context, Reset};
-use crate::store::{Store, little_endian};
+use crate::number::number_in;
+use crate::store::Store;
 use od_wire::{AbortCode, Instant, NodeId};
 
 const POSITION: u16 = 0x6004;
@@ -75,7 +76,7 @@ impl<M: Motion> Application for Encoder<M> {
         value: &[u8],
     ) -> Result<(), AbortCode> {
         let number = match cx.store.dictionary().row_of(address) {
-            Ok(row) if row.data_type().kind() == Kind::Unsigned => little_endian(value),
+            Ok(row) if row.data_type().kind() == Kind::Unsigned => number_in(value),
             _ => return Ok(()),
         };
         let profile = self.profile;

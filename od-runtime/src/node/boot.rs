@@ -5,7 +5,7 @@ use od_wire::nmt::State;
 use od_wire::{CobId, Instant, NodeId};
 
 use super::ear::Ear;
-use super::{BusEvent, Event, Machines, Node, Unfit};
+use super::{BusEvent, Event, Machines, Node, Unfit, pending};
 use crate::application::Reset;
 use crate::deadline::Deadline;
 use crate::device::Device;
@@ -55,6 +55,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let objects = objects.as_mut().ok_or(StoreTooSmall { needed })?;
         node.now = now;
         node.next = Instant::ZERO;
+        node.pending = pending::OTHER;
         node.powered = true;
         node.mute = None;
         node.discard_frames();
@@ -152,6 +153,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// Node ID of a device without an object for it: a start takes the stored one, NMT reset
     /// communication the pending one (CiA 305, chapter 6.3.1). Returns the bit rate of a start.
+    #[inline(never)]
     fn take_own(
         &mut self,
         objects: &mut Objects<'_, D>,
@@ -204,7 +206,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         };
         for pass in 0..2 {
             let profile = &objects.profile().store;
-            profile.reset(&mut objects.store, &which);
+            match all {
+                true => profile.reset_all(&mut objects.store),
+                false => profile.reset(&mut objects.store, &which),
+            }
             let loaded = match D::STORAGE {
                 true => image::load(objects.storage, &mut objects.store, profile, &which),
                 false => Ok(Loaded::Blank),

@@ -142,17 +142,17 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     /// A reset ends the errors of communication without an EMCY message: the monitor and the CAN
     /// controller restart.
+    #[inline(never)]
     pub(super) fn forget_bus_errors(&mut self, objects: &mut Objects<'_, D>) {
-        let profile = objects.profile().errors;
-        let optional = [
-            profile.bus_warning,
-            profile.bus_passive,
-            profile.bus_recovered,
-            profile.overrun,
-        ];
+        let profile = &objects.profile().errors;
         let is_of_bus = |code| {
-            let is = |notice: Notice| notice.code == code;
-            code == PDO_LENGTH || is(profile.lost) || optional.into_iter().flatten().any(is)
+            let is = |notice: &Option<Notice>| notice.is_some_and(|notice| notice.code == code);
+            code == PDO_LENGTH
+                || code == profile.lost.code
+                || is(&profile.bus_warning)
+                || is(&profile.bus_passive)
+                || is(&profile.bus_recovered)
+                || is(&profile.overrun)
         };
         self.emcy.forget(&mut objects.store, is_of_bus);
     }

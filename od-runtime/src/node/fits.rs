@@ -108,6 +108,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     ///
     /// # Errors
     /// The first [`Unfit`] that is found; [`Unfit::Values`] is not among them.
+    #[inline(never)]
     pub const fn fits(dictionary: &Dictionary<'_>) -> Result<(), Unfit> {
         let (tpdos, rpdos) = (dictionary.tpdos(), dictionary.rpdos());
         if tpdos > PDO {

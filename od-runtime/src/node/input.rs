@@ -7,17 +7,17 @@ use od_wire::{CanId, Frame, Instant};
 
 use super::controller::Mute;
 use super::ear::Ear;
-use super::{Machines, Node};
+use super::{Machines, Node, pending};
 use crate::application::Reset;
 use crate::device::Device;
 use crate::emcy::PDO_LENGTH;
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::lss::{self, Action};
+use crate::number::little_endian;
 use crate::objects::Objects;
 use crate::pdo::{self, Received};
 use crate::rooms::Room;
-use crate::store::little_endian;
 
 /// The CAN-ID of NMT commands.
 const NMT: CanId = CanId::standard(0);
@@ -27,12 +27,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     #[inline]
     pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {
         let node = &mut self.machines;
-        node.now = node.now.max(now);
-        let id = frame.id();
-        if !node.ear.hears(id) {
-            return;
+        if node.ear.hears(frame.id()) {
+            node.now = node.now.max(now);
+            self.receive(device, frame);
         }
-        self.receive(device, frame);
     }
 
     /// A frame that is for this node: what comes all day, or any other.
@@ -293,7 +291,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             if let Some(answer) = pdo.request(objects) {
                 Room::queue_mut(&mut self.out).push(answer);
             }
-            self.pdo_pending |= pdo.is_pending();
+            self.pending |= if pdo.is_pending() { pending::PDO } else { 0 };
         }
     }
 
@@ -308,11 +306,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 .all(pdo::Tpdo::only_counts)
             && !(D::RPDOS && rpdos.all().iter().any(pdo::Rpdo::is_waiting));
         if only_counts {
-            let mut pending = self.pdo_pending;
+            let mut pending = false;
             for pdo in self.tpdos() {
                 pending |= pdo.count_sync();
             }
-            self.pdo_pending = pending;
+            self.pend_pdo(pending);
         }
         only_counts
     }

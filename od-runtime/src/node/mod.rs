@@ -21,6 +21,7 @@ mod input;
 mod listen;
 mod output;
 mod own;
+mod pending;
 mod servers;
 mod wanted;
 
@@ -86,7 +87,9 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     out: Fifo<<X::Rooms as Rooms>::Frames<Frame>>,
     /// The frame before those of `out`, if it is an SDO response: its data as words. Most
     /// frames are, and this way they do not go through memory in pieces.
-    answer: Option<[u32; 2]>,
+    answer: [u32; 2],
+    /// What may be waiting to be sent, in the bits of [`pending`].
+    pending: u8,
     events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
     sdo: sdo::Server<D, SDO, X::Rooms>,
     heartbeat: error_control::Producer,
@@ -111,8 +114,6 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     watches_changes: bool,
     /// Such a value may change without a word to the node.
     watches_live: bool,
-    /// A TPDO may be waiting to be sent.
-    pdo_pending: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
     wanted_changed: bool,
     extras: X,
@@ -193,6 +194,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         }
         machines.now = machines.now.max(now);
         machines.next = Instant::ZERO;
+        machines.pending |= pending::OTHER;
         let (outbox, saving) = (
             Room::outbox(&mut self.outbox),
             self.saves.all_mut().first_mut(),
@@ -218,7 +220,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             sync_id: CanId::standard(0),
             ear: ear::Ear::DEAF,
             out: Fifo::new(Room::BLANK),
-            answer: None,
+            answer: [0; 2],
+            pending: 0,
             events: Fifo::new(Room::BLANK),
             sdo: sdo::Server::idle(),
             heartbeat: error_control::Producer::new(),
@@ -236,7 +239,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             rpdo_count: 0,
             watches_changes: false,
             watches_live: false,
-            pdo_pending: false,
             wanted_changed: false,
             extras,
         }
@@ -325,17 +327,25 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 pdo.stop();
             }
         }
-        self.pdo_pending = false;
+        self.pending &= !pending::PDO;
     }
 
     /// Does something with each TPDO, after which it may be waiting to be sent.
     #[inline]
     fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo<X::Rooms>)) {
-        let mut pending = self.pdo_pending;
+        let mut pending = false;
         for pdo in self.tpdos() {
             act(pdo);
             pending |= pdo.is_pending();
         }
-        self.pdo_pending = pending;
+        self.pend_pdo(pending);
+    }
+
+    /// A TPDO may be waiting to be sent.
+    #[inline(always)]
+    fn pend_pdo(&mut self, pending: bool) {
+        if pending {
+            self.pending |= pending::PDO;
+        }
     }
 }

@@ -1,17 +1,18 @@
 //! Outputs of the node: frames, the next deadline, events.
 
 use od_wire::nmt::State;
-use od_wire::{Frame, Instant};
+use od_wire::{Frame, Instant, NodeId};
 
 use super::ear::Ear;
-use super::{Event, Machines, Node};
+use super::{Event, Machines, Node, pending};
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
+use crate::objects::outbox::Outbox;
 use crate::pdo;
-use crate::rooms::Room;
+use crate::rooms::{Room, Rooms};
 use crate::store::Store;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
@@ -20,28 +21,43 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     #[inline]
     pub fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
+        if node.pending == 0 {
+            return None;
+        }
+        if node.pending & pending::ANSWER != 0 && node.mute.is_none() {
+            node.pending &= !pending::ANSWER;
+            return Some(node.response(bytes(node.answer)));
+        }
+        self.poll_seldom(device, now)
+    }
+
+    /// Returns the next frame that is no SDO response.
+    #[inline(never)]
+    fn poll_seldom(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
+        let node = &mut self.machines;
         if node.mute.is_some() {
             node.discard_frames();
             return None;
         }
-        if let Some(answer) = node.answer.take() {
-            return Some(node.response(bytes(answer)));
-        }
         if let Some(frame) = Room::queue_mut(&mut node.out).pop() {
             return Some(frame);
         }
-        if node.pdo_pending
+        if node.pending & pending::PDO != 0
             && let Some(frame) = self.poll_pdo(device, now)
         {
             return Some(frame);
         }
         let node = &mut self.machines;
+        if node.pending & pending::OTHER == 0 {
+            return None;
+        }
         if node.emcy.is_waiting() || D::BLOCK && node.sdo.is_sending() || node.is_server_sending() {
             return self.poll_services(device, now);
         }
         if node.next == Instant::ZERO {
             node.next = node.timers().moment();
         }
+        node.pending &= !pending::OTHER;
         None
     }
 
@@ -54,26 +70,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let pdos = node.tpdo.get_mut(..node.tpdo_count.into())?;
         // One that the inhibit time holds back stays pending.
         let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready(now)) else {
-            node.pdo_pending = pdos.iter().any(pdo::Tpdo::is_pending);
+            if !pdos.iter().any(pdo::Tpdo::is_pending) {
+                node.pending &= !pending::PDO;
+            }
             return None;
         };
         if pdo.is_live() {
-            let (outbox, saving) = (
-                Room::outbox(&mut self.outbox),
-                self.saves.all_mut().first_mut(),
-            );
-            let mut objects = device.objects(node_id, now, outbox, saving);
-            let objects: &mut Objects<'_, D> = objects.as_mut()?;
-            pdo.refresh(objects);
-            if !objects.outbox.is_empty() {
+            let outbox = Room::outbox(&mut self.outbox);
+            refresh::<D, _>(pdo, device, node_id, now, outbox);
+            if !outbox.is_empty() {
                 // What the application has to say of the values comes with the next call.
                 node.next = Instant::ZERO;
+                node.pending |= pending::OTHER;
                 node.ear.codes = Ear::EVERYTHING;
             }
         }
         let store = Store::new(&device.dictionary, device.values, node_id).ok()?;
         let frame = pdo.send(&store, now);
-        node.pdo_pending = pdos.iter().any(pdo::Tpdo::is_pending);
+        if !pdos.iter().any(pdo::Tpdo::is_pending) {
+            node.pending &= !pending::PDO;
+        }
         Some(frame)
     }
 
@@ -124,8 +140,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// Sends an SDO response, after all that waits already.
     #[inline]
     pub(super) fn answer(&mut self, answer: [u8; 8]) {
-        if self.answer.is_none() && self.out.is_empty() {
-            self.answer = Some(words(answer));
+        if self.pending & pending::ANSWER == 0 && self.out.is_empty() {
+            self.answer = words(answer);
+            self.pending |= pending::ANSWER;
         } else {
             let response = self.response(answer);
             self.push(response);
@@ -145,7 +162,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// Discards the frames that wait.
     pub(super) fn discard_frames(&mut self) {
         self.out.clear();
-        self.answer = None;
+        self.pending &= !pending::ANSWER;
     }
 
     /// EMCYs wait for the boot-up message, and for the end of Stopped.
@@ -202,6 +219,20 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         first
+    }
+}
+
+/// Has the application bring the live values of a PDO up to date.
+#[inline(never)]
+fn refresh<D: Device, R: Rooms>(
+    pdo: &pdo::Tpdo<R>,
+    device: &mut Lent<'_>,
+    node_id: NodeId,
+    now: Instant,
+    outbox: &mut Outbox,
+) {
+    if let Some(objects) = &mut device.objects::<D>(node_id, now, outbox, None) {
+        pdo.refresh(objects);
     }
 }
 

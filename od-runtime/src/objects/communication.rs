@@ -5,8 +5,9 @@ use od_model::row::Row;
 use od_model::typed::MapEntry;
 
 use crate::device::Device;
+use crate::number::number_in;
 use crate::profile::Profile;
-use crate::store::{Store, little_endian};
+use crate::store::Store;
 use crate::sync;
 use od_wire::{AbortCode, CobId};
 
@@ -41,7 +42,7 @@ pub(super) fn check<D: Device>(
 ) -> Result<(), AbortCode> {
     let Address { index, sub } = row.address();
     // What is longer than a word (of a dictionary of somebody's own) is too great.
-    let value = u32::try_from(little_endian(bytes)).unwrap_or(u32::MAX);
+    let value = u32::try_from(number_in(bytes)).unwrap_or(u32::MAX);
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).

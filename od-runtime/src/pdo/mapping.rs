@@ -6,7 +6,7 @@ use od_model::typed::MapEntry;
 use crate::device::Device;
 use crate::objects::{Objects, check_mapped};
 use crate::rooms::{Room, Rooms};
-use crate::store::{Store, little_endian};
+use crate::store::Store;
 
 /// A mapped value: in the low 24 bits one more than the position of its row, 0 for bits that nobody
 /// reads, and above them its length in bits.
@@ -110,11 +110,7 @@ impl<R: Rooms> Mapping<R> {
         for at in 0..self.count {
             let (row, bits) = self.value(store, at);
             if let Some(row) = row {
-                let value = match store.slot(row.plain()) {
-                    [] => store.number_of(row),
-                    bytes => little_endian(bytes),
-                };
-                data |= cut(value, bits) << (first & 63);
+                data |= cut(store.number_of(row), bits) << (first & 63);
             }
             first += bits;
         }

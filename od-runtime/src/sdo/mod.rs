@@ -21,9 +21,9 @@ use od_model::Address;
 use crate::application::{Halt, StreamEnd};
 use crate::deadline::Deadline;
 use crate::device::Device;
+use crate::number::number_in;
 use crate::objects::{Objects, Unread};
 use crate::rooms::{Blank, FullRooms, Room, Rooms};
-use crate::store::little_endian;
 use od_wire::sdo::{Request, Response, expedited_upload};
 use od_wire::{AbortCode, Frame, Instant};
 
@@ -277,7 +277,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             [_] | [_, _] | [_, _, _] | [_, _, _, _] => Ok(expedited_upload(
                 address,
                 bytes.len() as u8,
-                little_endian(bytes) as u32,
+                number_in(bytes) as u32,
             )),
             _ if !segmented => Err(Unread::Abort(AbortCode::UnsupportedAccess)),
             _ => self.begin_upload(address, bytes),

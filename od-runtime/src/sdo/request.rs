@@ -221,6 +221,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     }
 
     /// A segment of a block download.
+    #[inline(never)]
     pub(super) fn block_segment(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
         let [Transfer::BlockDownload(block)] = self.transfers.all_mut() else {
             return Ok(None);

@@ -9,9 +9,9 @@ use super::{Answer, Server, Transfer};
 use crate::application::{Chunk, Halt, StreamEnd};
 use crate::deadline::Deadline;
 use crate::device::Device;
+use crate::number::number_in;
 use crate::objects::Objects;
 use crate::rooms::{Blank, Rooms};
-use crate::store::little_endian;
 
 impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     /// Whether the application streams the value of the transfer.
@@ -40,7 +40,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             // One that cannot be had now goes in a segment.
             match self.fetch(objects, 0, len) {
                 Ok(()) => {
-                    let value = little_endian(self.window.from(0)) as u32;
+                    let value = number_in(self.window.from(0)) as u32;
                     expedited = Some(value.to_le_bytes());
                 }
                 Err(Halt::Until(_)) => {}

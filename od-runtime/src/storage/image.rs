@@ -50,7 +50,7 @@ mod layout;
 mod loaded;
 mod merge;
 
-use bank::Banks;
+use bank::{Banks, Record};
 use covered::{is_covered, is_saved};
 use layout::{OWN, RECORD};
 use merge::{Fate, Next};
@@ -93,7 +93,9 @@ pub fn device(dictionary: &Dictionary<'_>) -> u32 {
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
 pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
-    Ok(Banks::survey(storage, 0)?.newest.map(|set| set.device))
+    let mut banks = Banks::of(0);
+    banks.survey(storage)?;
+    Ok(banks.newest.map(|set| set.device))
 }
 
 /// Returns where the newest set with its header is in the storage; `None` if there is no whole set.
@@ -102,7 +104,8 @@ pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
 pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, StorageError> {
-    let banks = Banks::survey(storage, 0)?;
+    let mut banks = Banks::of(0);
+    banks.survey(storage)?;
     let header = banks.layout.header();
     let place = |set: bank::Set| banks.stays..banks.stays + header + set.len;
     Ok(banks.newest.map(place))
@@ -119,49 +122,29 @@ pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 ///
 /// # Errors
 /// [`StorageError`] where the storage cannot be read; some values may be loaded then.
+#[inline(never)]
 pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
-    let banks = survey(storage, store)?;
+    let mut banks = Banks::of(device(store.dictionary()));
+    banks.survey(storage)?;
     let mut skipped = 0u16;
-    let mut number = [0; 8];
     let mut records = banks.records();
-    while let Some(record) = records.next(storage)? {
+    while records.next(storage)? {
+        let record = &records.record;
         if record.address.index == OWN {
             continue;
         }
         let row = store.dictionary().row_of(record.address).ok();
-        match row.filter(|row| is_saved(row)) {
-            Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => {}
-            // A string goes straight to its place: there is no room for it on a small stack.
-            Some(row) if row.is_variable() && record.len <= MAX_VALUE => {
-                let read = store
-                    .room(row, record.len)
-                    .map(|room| storage.read(record.at, room));
-                match read {
-                    Ok(Ok(())) => {}
-                    Ok(Err(error)) => {
-                        store.reset_row(row);
-                        return Err(error);
-                    }
-                    Err(_) => skipped = skipped.saturating_add(1),
-                }
-            }
-            Some(row) if record.len <= number.len() => {
-                let value = number.get_mut(..record.len).unwrap_or_default();
-                storage.read(record.at, value)?;
-                if !cob_id::restore(store, row, profile.cob_ids, value)
-                    || limits::check(store, row, value).is_err()
-                    || store.put_row(row, value).is_err()
-                {
-                    skipped = skipped.saturating_add(1);
-                }
-            }
-            _ => skipped = skipped.saturating_add(1),
-        }
+        let is_loaded = match row.filter(|row| is_saved(row)) {
+            Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => true,
+            Some(row) => load_value(storage, store, profile, row, record)?,
+            None => false,
+        };
+        skipped = skipped.saturating_add((!is_loaded).into());
     }
     Ok(match banks.state {
         Loaded::Complete if skipped > 0 => Loaded::Partial { skipped },
@@ -169,8 +152,34 @@ pub fn load(
     })
 }
 
-fn survey(storage: &mut dyn Storage, store: &Store<'_>) -> Result<Banks, StorageError> {
-    Banks::survey(storage, device(store.dictionary()))
+/// Puts a saved value over that of the store. Returns whether the object can have it.
+#[inline(never)]
+fn load_value(
+    storage: &mut dyn Storage,
+    store: &mut Store<'_>,
+    profile: &StoreProfile,
+    row: &Row,
+    record: &Record,
+) -> Result<bool, StorageError> {
+    // A string goes straight to its place: there is no room for it on a small stack.
+    if row.is_variable() && record.len <= MAX_VALUE {
+        let Ok(room) = store.room(row, record.len) else {
+            return Ok(false);
+        };
+        let read = storage.read(record.at, room);
+        if read.is_err() {
+            store.reset_row(row);
+        }
+        return read.map(|()| true);
+    }
+    let mut number = [0; 8];
+    let Some(value) = number.get_mut(..record.len) else {
+        return Ok(false);
+    };
+    storage.read(record.at, value)?;
+    Ok(cob_id::restore(store, row, profile.cob_ids, value)
+        && limits::check(store, row, value).is_ok()
+        && store.put_row(row, value).is_ok())
 }
 
 /// Saves the values that sub-index `sub` of 1010h covers, 1–4; the other groups' saved
@@ -202,11 +211,9 @@ pub(crate) fn begin(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<Pending, StorageError> {
-    let banks = survey(storage, store)?;
-    if sub == 0 && banks.state == Loaded::Foreign {
-        return Err(StorageError::Foreign);
-    }
     let next = Next {
+        // The device itself writes nothing over the set of another one.
+        unless: Some(Loaded::Foreign).filter(|_| sub == 0),
         plan: &|_, entry| match entry {
             Some(row) if is_covered(profile, row, sub) || is_life_record(row) => {
                 let follows = row.follows_node_id() && store.has_default(row);
@@ -222,7 +229,11 @@ pub(crate) fn begin(
         },
         cob_ids: profile.cob_ids,
     };
-    merge::begin(storage, store, &banks, &next)
+    let pending = merge::begin(storage, store, &next)?;
+    match pending.is_some() {
+        true => Ok(pending),
+        false => Err(StorageError::Foreign),
+    }
 }
 
 /// Saves the values that `which` names, whatever their group; all others stay as they
@@ -236,8 +247,8 @@ pub fn save_only(
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<(), StorageError> {
-    let banks = survey(storage, store)?;
     let next = Next {
+        unless: None,
         plan: &|_, entry| match entry {
             Some(entry) if which(entry) => Fate::Store,
             _ => Fate::Keep,
@@ -246,8 +257,7 @@ pub fn save_only(
         cut: profile.cut,
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &banks, &next)?;
-    commit(storage, pending)
+    merge::save(storage, store, &next)
 }
 
 /// Saves node ID and bit rate of a device without objects for them, [`OWN_CAPACITY`]; the values
@@ -261,8 +271,8 @@ pub(crate) fn save_own(
     profile: &StoreProfile,
     own: [Option<u8>; 2],
 ) -> Result<(), StorageError> {
-    let banks = survey(storage, store)?;
     let next = Next {
+        unless: None,
         plan: &|address, _| match address.index {
             OWN => Fate::Drop,
             _ => Fate::Keep,
@@ -271,8 +281,7 @@ pub(crate) fn save_own(
         cut: profile.cut,
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &banks, &next)?;
-    commit(storage, pending)
+    merge::save(storage, store, &next)
 }
 
 /// Returns the node ID and the bit rate that [`save_own`] saved.
@@ -283,10 +292,12 @@ pub(crate) fn own(
     storage: &mut dyn Storage,
     store: &Store<'_>,
 ) -> Result<[Option<u8>; 2], StorageError> {
-    let banks = survey(storage, store)?;
+    let mut banks = Banks::of(device(store.dictionary()));
+    banks.survey(storage)?;
     let mut own = [None; 2];
     let mut records = banks.records();
-    while let Some(record) = records.next(storage)? {
+    while records.next(storage)? {
+        let record = &records.record;
         let place = usize::from(record.address.sub).wrapping_sub(1);
         if record.address.index == OWN
             && record.len == 1
@@ -313,11 +324,8 @@ pub fn erase(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    let banks = survey(storage, store)?;
-    if banks.state == Loaded::Blank {
-        return Ok(());
-    }
     let next = Next {
+        unless: Some(Loaded::Blank),
         plan: &|address, entry| {
             let goes = match entry {
                 Some(row) => restores(profile, row, sub),
@@ -330,8 +338,7 @@ pub fn erase(
         cut: CutSave::LastSet,
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &banks, &next)?;
-    commit(storage, pending)
+    merge::save(storage, store, &next)
 }
 
 #[cfg(test)]

@@ -76,12 +76,9 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
         if self.cut {
             return Err(StorageError::PowerCut);
         }
-        let from = self
-            .bytes
-            .as_ref()
-            .get(offset..offset.saturating_add(to.len()))
-            .ok_or(StorageError::OutOfRange)?;
-        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+        let from = self.bytes.as_ref().get(offset..);
+        let from = from.and_then(|from| from.get(..to.len()));
+        to.copy_from_slice(from.ok_or(StorageError::OutOfRange)?);
         Ok(())
     }
 

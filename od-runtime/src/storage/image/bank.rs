@@ -3,7 +3,7 @@
 use od_model::{Address, Dictionary};
 
 use super::layout::{
-    Code, ERASED, FIELDS, Layout, MAGIC_1, MAX_HEADER, RECORD, VERSION, decode, in_chunks, is_blank,
+    Code, ERASED, FIELDS, Layout, MAGIC_1, MAX_WORD, RECORD, VERSION, decode, in_chunks, is_blank,
 };
 use super::loaded::Loaded;
 use crate::storage::crc::Crc32;
@@ -57,11 +57,28 @@ pub(super) struct Banks {
 }
 
 impl Banks {
-    /// Reads both banks to their end.
-    pub(super) fn survey(storage: &mut dyn Storage, device: u32) -> Result<Self, StorageError> {
+    /// Banks that nobody has looked at, for this device.
+    pub(super) const fn of(device: u32) -> Self {
+        Self {
+            layout: Layout::NONE,
+            stays: 0,
+            len: 0,
+            target: 0,
+            next: Code::FIRST,
+            device,
+            newest: None,
+            state: Loaded::Blank,
+            is_withdrawn: false,
+        }
+    }
+
+    /// Reads both banks to their end. In place: these are many bytes for a small stack.
+    #[inline(never)]
+    pub(super) fn survey(&mut self, storage: &mut dyn Storage) -> Result<(), StorageError> {
         let layout = Layout::of(storage);
-        let first = look(storage, &layout, 0)?;
-        let second = look(storage, &layout, layout.size)?;
+        let (mut first, mut second) = (Bank::at(0), Bank::at(layout.size));
+        first.look(storage, &layout)?;
+        second.look(storage, &layout)?;
         let first_stays = match (first.set, second.set) {
             (Some(_), None) => true,
             (None, Some(_)) => false,
@@ -88,7 +105,7 @@ impl Banks {
             };
         let is_clean = stays.is_clean && target.is_clean;
         let state = match stays.set {
-            Some(set) if set.device != device => Loaded::Foreign,
+            Some(set) if set.device != self.device => Loaded::Foreign,
             Some(_) if lost > 0 && is_withdrawn => Loaded::Damaged,
             Some(_) if lost > 0 => Loaded::Older,
             Some(_) if is_interrupted => Loaded::Cut {
@@ -102,29 +119,32 @@ impl Banks {
             None if is_clean => Loaded::Blank,
             None => Loaded::Damaged,
         };
-        let own = stays.set.filter(|set| set.device == device);
-        let next = match stays.code.is_complete() {
+        let own = stays.set.filter(|set| set.device == self.device);
+        self.next = match stays.code.is_complete() {
             true => stays.code.plus(if is_withdrawn { 2 } else { 1 }),
             false => Code::FIRST,
         };
-        Ok(Self {
-            layout,
-            stays: stays.start,
-            len: own.map_or(0, |set| set.len),
-            target: target.start,
-            next,
-            device,
-            newest: stays.set,
-            state,
-            is_withdrawn,
-        })
+        self.layout = layout;
+        self.stays = stays.start;
+        self.len = own.map_or(0, |set| set.len);
+        self.target = target.start;
+        self.newest = stays.set;
+        self.state = state;
+        self.is_withdrawn = is_withdrawn;
+        Ok(())
     }
 
     /// The records of the newest set.
     pub(super) fn records(&self) -> Records {
-        let at = self.stays + self.layout.header();
-        let end = at + self.len;
-        Records { at, end }
+        let start = self.stays + self.layout.header();
+        Records {
+            record: Record {
+                address: Address::new(0, 0),
+                at: start,
+                len: 0,
+            },
+            end: start + self.len,
+        }
     }
 }
 
@@ -141,42 +161,58 @@ pub(super) fn device(dictionary: &Dictionary<'_>) -> u32 {
     crc.finish()
 }
 
-fn look(storage: &mut dyn Storage, layout: &Layout, start: usize) -> Result<Bank, StorageError> {
-    let mut bank = Bank {
-        start,
-        code: Code::ERASED,
-        mark: Code::ERASED,
-        set: None,
-        is_clean: true,
-        is_old: false,
-    };
-    if layout.size == 0 {
-        return Ok(bank);
+impl Bank {
+    /// A bank whose content is not known.
+    const fn at(start: usize) -> Self {
+        Self {
+            start,
+            code: Code::ERASED,
+            mark: Code::ERASED,
+            set: None,
+            is_clean: true,
+            is_old: false,
+        }
     }
-    let mut header = [0; MAX_HEADER];
-    let header = header.get_mut(..layout.header()).unwrap_or_default();
-    storage.read(start, header)?;
-    bank.is_old = header.starts_with(MAGIC_1);
-    (bank.code, bank.mark, bank.is_clean) = decode(header, layout.word);
-    if bank.code.is_complete() {
-        bank.set = content(storage, layout, start)?;
+
+    #[inline(never)]
+    fn look(&mut self, storage: &mut dyn Storage, layout: &Layout) -> Result<(), StorageError> {
+        if layout.size == 0 {
+            return Ok(());
+        }
+        self.decode(storage, layout)?;
+        if self.code.is_complete() {
+            self.set = content(storage, layout, self.start)?;
+        }
+        let used = match self.set {
+            Some(set) => layout.header() + set.len,
+            None => 2 * layout.word,
+        };
+        self.is_clean &= self.code == Code::GIVEN_UP
+            || is_blank(storage, self.start + used, layout.size - used)?;
+        Ok(())
     }
-    let used = match bank.set {
-        Some(set) => layout.header() + set.len,
-        None => 2 * layout.word,
-    };
-    bank.is_clean &=
-        bank.code == Code::GIVEN_UP || is_blank(storage, start + used, layout.size - used)?;
-    Ok(bank)
+
+    /// Reads commit word and mark.
+    #[inline(never)]
+    fn decode(&mut self, storage: &mut dyn Storage, layout: &Layout) -> Result<(), StorageError> {
+        let mut words = [0; 2 * MAX_WORD];
+        let len = layout.header().min(words.len());
+        let words = words.get_mut(..len).unwrap_or_default();
+        storage.read(self.start, words)?;
+        self.is_old = words.starts_with(MAGIC_1);
+        (self.code, self.mark, self.is_clean) = decode(words, layout.word);
+        Ok(())
+    }
 }
 
 /// Returns the set of a bank, if fields and records are whole.
+#[inline(never)]
 pub(super) fn content(
     storage: &mut dyn Storage,
     layout: &Layout,
     bank: usize,
 ) -> Result<Option<Set>, StorageError> {
-    let mut fields = [0; MAX_HEADER];
+    let mut fields = [0; MAX_WORD];
     let len = layout.header() - 2 * layout.word;
     let read = fields.get_mut(..len).unwrap_or_default();
     storage.read(bank + 2 * layout.word, read)?;
@@ -185,7 +221,7 @@ pub(super) fn content(
     };
     let start = bank + layout.header();
     let mut rest = fields.iter().take(len).skip(FIELDS);
-    let len = number(4) as usize;
+    let (device, len, sum) = (number(0), number(4) as usize, number(8));
     if len > layout.size - layout.header() || rest.any(|byte| *byte != ERASED) {
         return Ok(None);
     }
@@ -195,11 +231,7 @@ pub(super) fn content(
         crc.update(chunk);
         Ok(())
     })?;
-    if crc.finish() != number(8) {
-        return Ok(None);
-    }
-    let device = number(0);
-    Ok(Some(Set { device, len }))
+    Ok((crc.finish() == sum).then_some(Set { device, len }))
 }
 
 /// One saved value.
@@ -213,31 +245,31 @@ pub(super) struct Record {
 
 /// The records of a bank, in order.
 pub(super) struct Records {
-    at: usize,
+    /// The one that [`next`](Self::next) has found.
+    pub(super) record: Record,
     end: usize,
 }
 
 impl Records {
-    /// `None` at the end, and if the rest is not a record.
-    pub(super) fn next(
-        &mut self,
-        storage: &mut dyn Storage,
-    ) -> Result<Option<Record>, StorageError> {
-        if self.end - self.at < RECORD {
-            return Ok(None);
+    /// Goes to the next record. `false` at the end, and if the rest is not a record.
+    #[inline(never)]
+    pub(super) fn next(&mut self, storage: &mut dyn Storage) -> Result<bool, StorageError> {
+        let start = self.record.at + self.record.len;
+        if self.end - start < RECORD {
+            return Ok(false);
         }
         let mut head = [0; RECORD];
-        storage.read(self.at, &mut head)?;
+        storage.read(start, &mut head)?;
         let [index_low, index_high, sub, len_low, len_high] = head;
-        let record = Record {
-            address: Address::new(u16::from_le_bytes([index_low, index_high]), sub),
-            at: self.at + RECORD,
-            len: usize::from(u16::from_le_bytes([len_low, len_high])),
-        };
-        if self.end - record.at < record.len {
-            return Ok(None);
+        let (at, len) = (start + RECORD, u16::from_le_bytes([len_low, len_high]));
+        if self.end - at < len.into() {
+            return Ok(false);
         }
-        self.at = record.at + record.len;
-        Ok(Some(record))
+        self.record = Record {
+            address: Address::new(u16::from_le_bytes([index_low, index_high]), sub),
+            at,
+            len: len.into(),
+        };
+        Ok(true)
     }
 }

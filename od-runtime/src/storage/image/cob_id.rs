@@ -2,14 +2,20 @@
 
 use od_model::row::Row;
 
+use crate::number::number_in;
 use crate::profile::SavedCobIds;
-use crate::store::{Store, little_endian};
+use crate::store::Store;
 use od_wire::CobId;
 
-/// Returns the bytes that are saved instead of the value; `None`: the value is saved.
-pub(super) fn difference(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> Option<[u8; 8]> {
+/// Returns the bytes that are saved instead of those of the value; `None`: the value is saved.
+pub(super) fn difference(
+    store: &Store<'_>,
+    row: &Row,
+    rule: SavedCobIds,
+    value: &[u8],
+) -> Option<[u8; 8]> {
     let default = default(store, row, rule)?;
-    Some(store.number_of(row).wrapping_sub(default).to_le_bytes())
+    Some(number_in(value).wrapping_sub(default).to_le_bytes())
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID
@@ -18,7 +24,7 @@ pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &m
     let Some(default) = default(store, row, rule) else {
         return true;
     };
-    let value = little_endian(bytes).wrapping_add(default);
+    let value = number_in(bytes).wrapping_add(default);
     for (to, from) in bytes.iter_mut().zip(value.to_le_bytes()) {
         *to = from;
     }

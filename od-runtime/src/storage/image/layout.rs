@@ -4,13 +4,11 @@ use crate::storage::{Geometry, Storage, StorageError};
 
 /// The longest value that is saved, in bytes.
 pub const MAX_VALUE: usize = 1024;
-/// The longest word of a storage, in bytes.
-const MAX_WORD: usize = 32;
+/// The longest word of a storage, in bytes. The fields of a header fit in one.
+pub(super) const MAX_WORD: usize = 32;
 
 /// Bytes of the fields that describe the records: device, length, CRC.
 pub(super) const FIELDS: usize = 12;
-/// Bytes of a header at most.
-pub(super) const MAX_HEADER: usize = 3 * MAX_WORD;
 /// Bytes of a record before its value.
 pub(super) const RECORD: usize = 5;
 /// Index of the records that are not objects: node ID (sub-index 1) and bit rate (2) of LSS.
@@ -110,6 +108,13 @@ pub(super) struct Layout {
 }
 
 impl Layout {
+    /// Of a storage without room.
+    pub(super) const NONE: Self = Self {
+        page: 0,
+        word: 0,
+        size: 0,
+    };
+
     pub(super) fn of(storage: &dyn Storage) -> Self {
         let Geometry {
             capacity,
@@ -135,6 +140,7 @@ impl Layout {
     }
 
     /// Prepares a bank for a set of `len` bytes with its header.
+    #[inline(never)]
     pub(super) fn clear(
         &self,
         storage: &mut dyn Storage,
@@ -161,18 +167,18 @@ impl Layout {
         at: usize,
         code: Code,
     ) -> Result<(), StorageError> {
-        let wanted = [code.byte(); MAX_WORD];
-        let wanted = wanted.get(..self.word).unwrap_or(&wanted);
+        let is_all = |word: &[u8], byte: u8| word.iter().all(|other| *other == byte);
         let mut word = [0; MAX_WORD];
         let word = word.get_mut(..self.word).unwrap_or_default();
         storage.read(at, word)?;
         // A word of flash is written once.
-        if word != wanted && (self.page == 0 || word.iter().all(|byte| *byte == ERASED)) {
-            storage.write(at, wanted)?;
+        if !is_all(word, code.byte()) && (self.page == 0 || is_all(word, ERASED)) {
+            word.fill(code.byte());
+            storage.write(at, word)?;
             storage.flush()?;
             storage.read(at, word)?;
         }
-        match word == wanted {
+        match is_all(word, code.byte()) {
             true => Ok(()),
             false => Err(StorageError::NotWritten),
         }
@@ -196,7 +202,7 @@ pub(super) fn is_blank(
     start: usize,
     len: usize,
 ) -> Result<bool, StorageError> {
-    let (mut all, mut any) = (u32::MAX, 0);
+    let (mut all, mut any) = (u64::MAX, 0);
     let mut chunk = [0; 64];
     for at in (0..len).step_by(64) {
         let size = (len - at).min(64);
@@ -206,11 +212,11 @@ pub(super) fn is_blank(
         rest.iter_mut().for_each(|byte| *byte = first);
         // Most of a bank is erased, so this is most of a start.
         for word in chunk.as_chunks().0 {
-            all &= u32::from_ne_bytes(*word);
-            any |= u32::from_ne_bytes(*word);
+            all &= u64::from_ne_bytes(*word);
+            any |= u64::from_ne_bytes(*word);
         }
     }
-    Ok(all == u32::MAX || any == 0)
+    Ok(all == u64::MAX || any == 0)
 }
 
 /// Reads `len` bytes from `start` on, a piece at a time.

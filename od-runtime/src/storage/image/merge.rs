@@ -3,12 +3,13 @@
 use od_model::Address;
 use od_model::row::Row;
 
-use super::bank::{Banks, content};
+use super::bank::{Banks, Record, content, device};
 use super::cob_id;
 use super::covered::{is_life_record, is_saved};
 use super::layout::{
-    Code, ERASED, Layout, MAX_HEADER, MAX_VALUE, OWN, RECORD, is_blank, whole_words,
+    Code, ERASED, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, is_blank, whole_words,
 };
+use super::loaded::Loaded;
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -27,6 +28,8 @@ pub(super) enum Fate {
 
 /// Recipe of the next set.
 pub(super) struct Next<'n> {
+    /// Nothing is written where this is what is there.
+    pub(super) unless: Option<Loaded>,
     /// Decides for an address; without an entry where no object of the dictionary saves it.
     pub(super) plan: &'n dyn Fn(Address, Option<&Row>) -> Fate,
     /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
@@ -47,11 +50,7 @@ pub(crate) struct Pending {
 impl Pending {
     /// No set.
     pub(crate) const NONE: Self = Self {
-        layout: Layout {
-            page: 0,
-            word: 0,
-            size: 0,
-        },
+        layout: Layout::NONE,
         target: 0,
         code: Code::ERASED,
     };
@@ -62,14 +61,33 @@ impl Pending {
     }
 }
 
+/// Writes the next set, if there is to be one.
+pub(super) fn save(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    next: &Next<'_>,
+) -> Result<(), StorageError> {
+    let pending = begin(storage, store, next)?;
+    match pending.is_some() {
+        true => commit(storage, pending),
+        false => Ok(()),
+    }
+}
+
 /// Writes the next set into the older bank, all but the commit word.
+#[inline(never)]
 pub(super) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
-    banks: &Banks,
     next: &Next<'_>,
 ) -> Result<Pending, StorageError> {
-    let layout = banks.layout;
+    let mut banks = Banks::of(device(store.dictionary()));
+    banks.survey(storage)?;
+    let banks = &banks;
+    if next.unless == Some(banks.state) {
+        return Ok(Pending::NONE);
+    }
+    let layout = &banks.layout;
     let room = layout.size.checked_sub(layout.header());
     let room = room.ok_or(StorageError::Full)?;
     // Records without an object stay as long as there is room.
@@ -88,7 +106,7 @@ pub(super) fn begin(
         return Err(StorageError::Full);
     }
     let pending = Pending {
-        layout,
+        layout: banks.layout,
         target: banks.target,
         code: banks.next,
     };
@@ -141,6 +159,7 @@ struct Set<'s> {
 
 impl Set<'_> {
     /// Bytes of its records.
+    #[inline(never)]
     fn len(&self, storage: &mut dyn Storage) -> Result<usize, StorageError> {
         let mut writer = Writer::new(0, true);
         self.records(storage, &mut writer)?;
@@ -148,17 +167,32 @@ impl Set<'_> {
     }
 
     /// Writes records and fields, and reads them back. Its parts are apart for the sake of the stack.
-    #[inline(never)]
+    #[inline(always)]
     fn write(&self, storage: &mut dyn Storage, len: usize) -> Result<(), StorageError> {
-        let (layout, target) = (self.banks.layout, self.banks.target);
-        let header = layout.header();
-        layout.clear(storage, target, header + len)?;
-        let device = self.banks.device.to_le_bytes();
+        let (layout, target) = (&self.banks.layout, self.banks.target);
+        layout.clear(storage, target, layout.header() + len)?;
         // The length is less than a bank, which a header can describe.
-        let bytes = (len as u32).to_le_bytes();
-        let mut writer = Writer::new(target + header, false);
-        writer.crc.update(&device);
-        writer.crc.update(&bytes);
+        let [mut fields @ .., _] = [self.banks.device, len as u32, 0, 0].map(u32::to_le_bytes);
+        fields[2] = self.write_records(storage, &fields)?;
+        self.write_fields(storage, &fields)?;
+        let whole = content(storage, layout, target)?;
+        match whole.is_some_and(|set| set.len == len) {
+            true => Ok(()),
+            false => Err(StorageError::NotWritten),
+        }
+    }
+
+    /// Writes the records, and clears what is behind them. Returns the sum of the fields and them.
+    #[inline(never)]
+    fn write_records(
+        &self,
+        storage: &mut dyn Storage,
+        fields: &[[u8; 4]; 3],
+    ) -> Result<[u8; 4], StorageError> {
+        let (layout, target) = (&self.banks.layout, self.banks.target);
+        let mut writer = Writer::new(target + layout.header(), false);
+        writer.crc.update(&fields[0]);
+        writer.crc.update(&fields[1]);
         self.records(storage, &mut writer)?;
         writer.write_out(storage, layout.word)?;
         // Behind the records nothing stays of older sets; flash is erased there.
@@ -171,20 +205,18 @@ impl Set<'_> {
             }
             writer.at += part;
         }
-        let crc = writer.crc.finish().to_le_bytes();
-        self.fields(storage, &[device, bytes, crc])?;
-        let whole = content(storage, &layout, target)?;
-        match whole.is_some_and(|set| set.len == len) {
-            true => Ok(()),
-            false => Err(StorageError::NotWritten),
-        }
+        Ok(writer.crc.finish().to_le_bytes())
     }
 
     /// Writes the fields of the header.
     #[inline(never)]
-    fn fields(&self, storage: &mut dyn Storage, known: &[[u8; 4]; 3]) -> Result<(), StorageError> {
-        let (layout, target) = (self.banks.layout, self.banks.target);
-        let mut fields = [ERASED; MAX_HEADER];
+    fn write_fields(
+        &self,
+        storage: &mut dyn Storage,
+        known: &[[u8; 4]; 3],
+    ) -> Result<(), StorageError> {
+        let (layout, target) = (&self.banks.layout, self.banks.target);
+        let mut fields = [ERASED; MAX_WORD];
         for (to, from) in fields.iter_mut().zip(known.as_flattened()) {
             *to = *from;
         }
@@ -195,6 +227,7 @@ impl Set<'_> {
     }
 
     /// Goes through the newest set and the dictionary side by side, both by address.
+    #[inline(never)]
     fn records(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
         for (sub, value) in (1..).zip(self.next.own) {
             if let Some(value) = value {
@@ -202,58 +235,71 @@ impl Set<'_> {
                 writer.put(storage, &[value])?;
             }
         }
-        let mut records = self.banks.records();
+        let mut old = self.banks.records();
         let rows = self.store.dictionary().rows().iter();
         let mut rows = rows.filter(|row| is_saved(row));
-        let (mut record, mut row) = (records.next(storage)?, rows.next());
+        let (mut has_old, mut next) = (old.next(storage)?, rows.next());
         loop {
-            let addresses = [record.map(|old| old.address), row.map(|row| row.address())];
-            let Some(address) = addresses.into_iter().flatten().min() else {
+            let old_key = match has_old {
+                true => old.record.address.key(),
+                false => END,
+            };
+            let new_key = next.map_or(END, |row| row.key());
+            if old_key == END && new_key == END {
                 return Ok(());
-            };
-            let old = record.filter(|old| old.address == address);
-            let new = row.filter(|new| new.address() == address);
-            let fate = match (self.next.plan)(address, new) {
-                // After a save that was cut the factory values hold, and they stay.
-                Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => {
-                    Fate::Drop
-                }
-                Fate::Keep if new.is_none() && address.index != OWN && !self.has_orphans => {
-                    Fate::Drop
-                }
-                fate => fate,
-            };
-            match (fate, new, old) {
-                (Fate::Store, Some(row), _) => {
-                    let mut number = [0; 8];
-                    let bytes = self.store.value(row, &mut number);
-                    if bytes.len() > MAX_VALUE {
-                        return Err(StorageError::Full);
-                    }
-                    writer.head(storage, address, bytes.len())?;
-                    match cob_id::difference(self.store, row, self.next.cob_ids) {
-                        Some(difference) => {
-                            let bytes = difference.get(..bytes.len()).unwrap_or(&difference);
-                            writer.put(storage, bytes)?;
-                        }
-                        None => writer.put(storage, bytes)?,
-                    }
-                }
-                (Fate::Keep, _, Some(old)) => {
-                    writer.head(storage, address, old.len)?;
-                    writer.copy(storage, old.at, old.len)?;
-                }
+            }
+            let (is_old, is_new) = (old_key <= new_key, new_key <= old_key);
+            let new = next.filter(|_| is_new);
+            let address = new.map_or(old.record.address, |row| row.address());
+            match (self.fate(address, new), new) {
+                (Fate::Store, Some(row)) => self.value(storage, writer, row)?,
+                (Fate::Keep, _) if is_old => writer.copy(storage, &old.record)?,
                 _ => {}
             }
-            if old.is_some() {
-                record = records.next(storage)?;
+            if is_old {
+                has_old = old.next(storage)?;
             }
-            if new.is_some() {
-                row = rows.next();
+            if is_new {
+                next = rows.next();
             }
         }
     }
+
+    /// What becomes of an address.
+    #[inline(never)]
+    fn fate(&self, address: Address, new: Option<&Row>) -> Fate {
+        match (self.next.plan)(address, new) {
+            // After a save that was cut the factory values hold, and they stay.
+            Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => Fate::Drop,
+            Fate::Keep if new.is_none() && address.index != OWN && !self.has_orphans => Fate::Drop,
+            fate => fate,
+        }
+    }
+
+    /// The record of a value of the store.
+    #[inline(never)]
+    fn value(
+        &self,
+        storage: &mut dyn Storage,
+        writer: &mut Writer,
+        row: &Row,
+    ) -> Result<(), StorageError> {
+        let mut number = [0; 8];
+        let mut bytes = self.store.value(row, &mut number);
+        if bytes.len() > MAX_VALUE {
+            return Err(StorageError::Full);
+        }
+        writer.head(storage, row.address(), bytes.len())?;
+        let difference = cob_id::difference(self.store, row, self.next.cob_ids, bytes);
+        if let Some(difference) = &difference {
+            bytes = difference.get(..bytes.len()).unwrap_or(difference);
+        }
+        writer.put(storage, bytes)
+    }
 }
+
+/// Past the last address.
+const END: u32 = u32::MAX;
 
 /// Bytes of a write: the longest word.
 const BUFFER: usize = 32;
@@ -316,14 +362,11 @@ impl Writer {
         Ok(())
     }
 
-    /// Puts what the storage has at a place.
+    /// Puts a record that the storage has.
     #[inline(never)]
-    fn copy(
-        &mut self,
-        storage: &mut dyn Storage,
-        mut from: usize,
-        mut len: usize,
-    ) -> Result<(), StorageError> {
+    fn copy(&mut self, storage: &mut dyn Storage, old: &Record) -> Result<(), StorageError> {
+        let (mut from, mut len) = (old.at, old.len);
+        self.head(storage, old.address, len)?;
         if self.only_counts {
             self.at += len;
             return Ok(());

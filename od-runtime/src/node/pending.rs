@@ -1,0 +1,8 @@
+//! What may be waiting to be sent, so that most calls for a frame have one test.
+
+/// The response in `answer`.
+pub(super) const ANSWER: u8 = 1;
+/// A PDO, which the inhibit time may hold back.
+pub(super) const PDO: u8 = 2;
+/// Anything else: a call had the device. Then the next deadline is not known either.
+pub(super) const OTHER: u8 = 4;

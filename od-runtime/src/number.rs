@@ -1,0 +1,40 @@
+//! Numbers as the bus and the store have them: little-endian, in as many bytes as their type.
+
+/// The number that up to eight bytes are. The usual lengths are one load each.
+#[inline(always)]
+pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
+    match *bytes {
+        [a] => a.into(),
+        [a, b] => u16::from_le_bytes([a, b]).into(),
+        [a, b, c, d] => u32::from_le_bytes([a, b, c, d]).into(),
+        [a, b, c, d, e, f, g, h] => u64::from_le_bytes([a, b, c, d, e, f, g, h]),
+        _ => odd(bytes),
+    }
+}
+
+/// As [`little_endian`], where a call is better than its code.
+#[inline(never)]
+pub(crate) fn number_in(bytes: &[u8]) -> u64 {
+    little_endian(bytes)
+}
+
+/// The number of a length that few have.
+#[cold]
+#[inline(never)]
+fn odd(bytes: &[u8]) -> u64 {
+    let bytes = bytes.iter().take(8).rev();
+    bytes.fold(0, |number, byte| number << 8 | u64::from(*byte))
+}
+
+/// Puts the low bytes of a number in their place. The usual lengths are one store each.
+#[inline(always)]
+pub(crate) fn fill(room: &mut [u8], number: [u8; 8]) {
+    let [a, b, c, d, ..] = number;
+    if let Ok(room) = <&mut [u8; 4]>::try_from(&mut *room) {
+        *room = [a, b, c, d];
+    } else {
+        room.iter_mut()
+            .zip(number)
+            .for_each(|(to, from)| *to = from);
+    }
+}
