@@ -47,10 +47,13 @@ impl Allows {
     /// Reads the comments of a text.
     pub fn of(text: &str) -> Self {
         let mut allows = Self::default();
-        // Most files have none, and this search is fast.
-        let bytes = text.as_bytes();
-        let starts = |at: &[u8]| at.eq_ignore_ascii_case(WORD.as_bytes());
-        if !bytes.windows(WORD.len()).any(starts) {
+        // Most files have none, and a search for one character is fast.
+        let is_word = |dash: usize| {
+            let start = dash.checked_sub("odkit".len());
+            let word = start.and_then(|start| text.as_bytes().get(start..start + WORD.len()));
+            word.is_some_and(|word| word.eq_ignore_ascii_case(WORD.as_bytes()))
+        };
+        if !text.match_indices('-').any(|(at, _)| is_word(at)) {
             return allows;
         }
         let mut scope = Scope::File;

@@ -15,6 +15,7 @@ use crate::rules::lists::W0216;
 use crate::rules::text::{i0111, w0112};
 use crate::scan::encoding::Encoding;
 use crate::scan::lines;
+use crate::scan::placed::Placed;
 #[cfg(feature = "xdd")]
 use crate::xdd;
 
@@ -30,7 +31,7 @@ pub fn is_xml(text: &str) -> bool {
 /// it was. It does not check: see [`check`](crate::check::check) and [`load`].
 pub fn parse(text: &str) -> Parsed {
     let mut log = Log::default();
-    let description = read(text, None, &mut log);
+    let description = read(text, None, &mut |_| {}, &mut log);
     ordered(description, log.finish(), text)
 }
 
@@ -38,38 +39,49 @@ pub fn parse(text: &str) -> Parsed {
 /// text [allows](crate::check::Allows).
 pub fn load(text: &str) -> Parsed {
     let mut log = Log::default();
-    let description = read(text, None, &mut log);
+    let description = read(text, None, &mut |_| {}, &mut log);
     checked(description, log, text)
 }
 
 impl Document {
     /// Reads the file as [`parse`](crate::parse()) does. Reports its encoding too.
     pub fn parse(&self) -> Parsed {
-        let (description, log) = self.read();
+        let (description, log) = self.read(&mut |_| {});
         ordered(description, log.finish(), self.text())
     }
 
     /// Reads and checks the file as [`load`](crate::load()) does. Reports its encoding too.
     pub fn load(&self) -> Parsed {
-        let (description, log) = self.read();
+        self.load_with(&mut |_| {})
+    }
+
+    /// As [`load`](Self::load). `see` gets the sections that [`outline::sections`](crate::outline::sections)
+    /// finds, unless the file is XML.
+    pub fn load_with(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> Parsed {
+        let (description, log) = self.read(see);
         checked(description, log, self.text())
     }
 
-    fn read(&self) -> (Description, Log) {
+    fn read(&self, see: &mut dyn FnMut(&[Placed<'_>])) -> (Description, Log) {
         let mut log = Log::default();
-        let description = read(self.text(), self.file_name.as_deref(), &mut log);
+        let description = read(self.text(), self.file_name.as_deref(), see, &mut log);
         log.extend(encoded(self));
         (description, log)
     }
 }
 
 /// Reads a text in its form.
-fn read(text: &str, file: Option<&str>, log: &mut Log) -> Description {
+fn read(
+    text: &str,
+    file: Option<&str>,
+    see: &mut dyn FnMut(&[Placed<'_>]),
+    log: &mut Log,
+) -> Description {
     #[cfg(feature = "xdd")]
     if is_xml(text) {
         return xdd::parse(text, log);
     }
-    let description = sorted::eds(text, file, log);
+    let description = sorted::eds(text, file, see, log);
     modules::check(&description, log);
     description
 }
@@ -105,9 +117,9 @@ fn ordered(description: Description, findings: Vec<Finding>, text: &str) -> Pars
 fn encoded(document: &Document) -> Vec<Finding> {
     let (text, encoding) = (document.text(), document.encoding());
     let mut found = Vec::new();
-    let first = text.find(|c: char| !c.is_ascii());
     // XML says how it is written, and every tool that reads XML knows these.
     if encoding != Encoding::Ascii && !is_xml(text) {
+        let first = text.find(|c: char| !c.is_ascii());
         let first = lines::span(text, first.unwrap_or(0));
         found.push(i0111::finding(first, encoding, document.has_mark()));
     }

@@ -124,19 +124,27 @@ impl File {
     }
 
     fn read(&self, host: &dyn Host) -> Seen {
+        let mut layout = Layout::default();
+        let is_eds = self.kind == Kind::Eds;
+        let parsed = match self.mark().is_empty() {
+            true => self.document().load_with(&mut |sections| {
+                if is_eds {
+                    layout = Layout::new(sections);
+                }
+            }),
+            // Places are those of the text with the mark.
+            false => {
+                if is_eds && !od_eds::is_xml(self.str()) {
+                    layout = Layout::of(self.str());
+                }
+                od_eds::load(self.str())
+            }
+        };
         let Parsed {
             description,
             mut findings,
-        } = match self.mark().is_empty() {
-            true => self.document().load(),
-            // Places are those of the text with the mark.
-            false => od_eds::load(self.str()),
-        };
+        } = parsed;
         let misused = host.judge(&self.path, &mut findings).err();
-        let layout = match self.kind {
-            Kind::Eds if !od_eds::is_xml(self.str()) => Layout::of(self.str()),
-            _ => Layout::default(),
-        };
         Seen {
             layout,
             description,

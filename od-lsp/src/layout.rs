@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use od_eds::Span;
-use od_eds::outline::{self, Place};
+use od_eds::outline::{self, Place, Placed};
 
 /// The bytes of a span.
 pub(crate) const fn bytes(span: Span) -> Range<usize> {
@@ -84,7 +84,11 @@ pub(crate) struct Layout {
 
 impl Layout {
     pub(crate) fn of(text: &str) -> Self {
-        let sections = outline::sections(text).into_iter().map(|placed| Section {
+        Self::new(&outline::sections(text))
+    }
+
+    pub(crate) fn new(sections: &[Placed<'_>]) -> Self {
+        let sections = sections.iter().map(|placed| Section {
             place: outline::place(&placed.name),
             name: bytes(placed.name.span),
             header: bytes(placed.header),

@@ -130,11 +130,25 @@ impl Text {
 
     /// Writes `text` in the place of a range, or of everything.
     pub(crate) fn change(&mut self, range: Option<Range>, text: &str) {
-        match range {
-            Some(range) => self.content.replace_range(self.bytes(range), text),
-            None => text.clone_into(&mut self.content),
+        let Some(range) = range else {
+            *self = Self::new(text.into(), self.unit);
+            return;
+        };
+        let bytes = self.bytes(range);
+        // The lines of the range are counted again, with the one before: its `\r` may get a `\n`.
+        let first = self.line_at(bytes.start).saturating_sub(1);
+        let behind = self.starts.partition_point(|start| *start <= bytes.end);
+        for start in &mut self.starts[behind..] {
+            *start = *start - bytes.len() + text.len();
         }
-        self.starts = starts(&self.content);
+        self.content.replace_range(bytes, text);
+        let from = self.starts.get(first).copied().unwrap_or(0);
+        let to = self.starts.get(behind).copied();
+        let piece = &self.content[from..to.unwrap_or(self.content.len())];
+        let new = starts(piece).into_iter().map(|start| from + start);
+        let new = new.filter(|start| Some(*start) != to);
+        let new: Vec<usize> = new.collect();
+        self.starts.splice(first..behind, new);
     }
 }
 
@@ -197,5 +211,31 @@ mod tests {
         assert_eq!(text.as_str(), "[a]\nx=2\n");
         text.change(None, "b");
         assert_eq!((text.as_str(), text.lines()), ("b", 1));
+    }
+
+    #[test]
+    fn changed_lines_are_those_of_the_new_text() {
+        let pieces = ["", "\r", "\n", "\r\n", "x", "x\ry\n\nz", "µ\r"];
+        for content in ["", "a", "a\r\nb\r\rc\n\nd\r", "\n\ré\r\n"] {
+            let ends: Vec<usize> = (0..=content.len())
+                .filter(|at| content.is_char_boundary(*at))
+                .collect();
+            for (number, from) in ends.iter().enumerate() {
+                for (to, piece) in ends[number..].iter().flat_map(|to| pieces.map(|p| (to, p))) {
+                    let mut text = Text::new(content.into(), Unit::Utf16);
+                    let range = text.range(*from..*to);
+                    let bytes = text.bytes(range);
+                    text.change(Some(range), piece);
+                    let mut whole = content.to_owned();
+                    whole.replace_range(bytes, piece);
+                    assert_eq!(text.as_str(), whole);
+                    assert_eq!(
+                        text.starts,
+                        starts(&whole),
+                        "{content:?} {range:?} {piece:?}"
+                    );
+                }
+            }
+        }
     }
 }

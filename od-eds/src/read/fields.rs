@@ -40,9 +40,11 @@ impl<'a> Fields<'a> {
         });
         for (key, value) in &mut pairs {
             // An empty value or limit is none.
-            let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
-            let numeric = coded.any(|known| known.is(key));
-            if numeric && before_comment(value).is_empty() {
+            let numeric = |key: &str| {
+                let mut coded = Key::ALL.into_iter().filter(|key| key.is_coded());
+                coded.any(|known| known.is(key))
+            };
+            if before_comment(value).is_empty() && numeric(key) {
                 let is_single = !repeated.iter().any(|other| other.eq_ignore_ascii_case(key));
                 log.push(i0320::finding(key, is_single).about(address));
                 value.value = Cow::Borrowed("");

@@ -49,7 +49,7 @@ fn entries(
 ) {
     let mut count: Option<&Text<'_>> = None;
     let (mut found, mut invalid) = (0, 0);
-    let mut numbers: BTreeMap<Option<i128>, Span> = BTreeMap::new();
+    let mut numbers: BTreeMap<i128, Span> = BTreeMap::new();
     let mut ordered = true;
     // Each of these fixes numbers all entries: more of them are of no use to anybody.
     let mut fixes = 0..8;
@@ -66,7 +66,8 @@ fn entries(
             count = count.or(Some(value));
             continue;
         }
-        let Some(index) = index(key, value, description) else {
+        let read = number(key).and_then(|given| Some((given, index(value, description)?)));
+        let Some((given, index)) = read else {
             log.push(w0205::finding(key, value));
             invalid += 1;
             continue;
@@ -75,18 +76,16 @@ fn entries(
         if !is_plain(value, index) {
             log.push(w0218::index(value, index));
         }
-        if let Some(given) = number(key)
-            && key.bytes().any(|b| !b.is_ascii_digit())
-        {
+        if key.bytes().any(|b| !b.is_ascii_digit()) {
             log.push(w0218::number(key, given));
         }
-        if let Some(first) = numbers.get(&number(key)) {
+        if let Some(first) = numbers.get(&given) {
             ordered = false;
             log.push(w0214::finding(renumbered(), key, *first));
         } else {
-            numbers.insert(number(key), key.span);
+            numbers.insert(given, key.span);
         }
-        if number(key) != Some(found) && ordered {
+        if given != found && ordered {
             ordered = false;
             log.push(w0242::finding(renumbered(), key, found));
         }
@@ -112,8 +111,7 @@ fn entries(
 
 /// The index of a list entry, however it is written; one without `0x` is decimal, unless only
 /// hexadecimal makes sense.
-fn index(key: &str, value: &str, description: &Description) -> Option<u16> {
-    number(key)?;
+fn index(value: &str, description: &Description) -> Option<u16> {
     let read = number(value).and_then(|n| u16::try_from(n).ok());
     let text = before_comment(value);
     let exists = |index: &u16| description.objects.contains_key(index);

@@ -22,9 +22,15 @@ use crate::scan::{lines, number::number};
 use crate::span::Span;
 use od_model::Address;
 
-/// Reads an EDS or a DCF; `file` is its name on the disk, if it has one.
-pub(crate) fn eds(text: &str, file: Option<&str>, log: &mut Log) -> Description {
+/// Reads an EDS or a DCF; `file` is its name on the disk, if it has one, and `see` gets the sections.
+pub(crate) fn eds(
+    text: &str,
+    file: Option<&str>,
+    see: &mut dyn FnMut(&[Placed<'_>]),
+    log: &mut Log,
+) -> Description {
     let sections = lines::scan(text, &mut |fault| faults::report(fault, log));
+    see(&sections);
     configured::check(&sections, file, log);
     let mut sorted = Sorted::of(sections, log);
     sorted.has_lists = true;

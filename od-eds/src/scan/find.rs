@@ -1,10 +1,17 @@
 //! Searching for characters.
 
-/// The first place of one of two characters.
+/// The first place of one of two ASCII characters.
 ///
-/// `find` with an array does the same, character by character: without optimisation, as in a
-/// macro and in tests, that was two fifths of all the time that a file took.
-pub(crate) fn either(text: &str, [a, b]: [char; 2]) -> Option<usize> {
-    let first = text.find(a);
-    text[..first.unwrap_or(text.len())].find(b).or(first)
+/// `find` with an array does the same through iterators: without optimisation, as in a macro and in
+/// tests, that was two fifths of all the time that a file took.
+pub(crate) fn either(text: &str, either: [u8; 2]) -> Option<usize> {
+    let bytes = text.as_bytes();
+    let mut at = 0;
+    while at < bytes.len() {
+        if bytes[at] == either[0] || bytes[at] == either[1] {
+            return Some(at);
+        }
+        at += 1;
+    }
+    None
 }

@@ -139,19 +139,16 @@ pub(crate) fn lines_by_newline(text: &str) -> impl Iterator<Item = Line<'_>> {
 
 /// The lines of a text, each with its end.
 pub(crate) fn with_ends(text: &str) -> impl Iterator<Item = &str> {
-    let newline = move |from: usize| text[from..].find('\n').map(|at| from + at + 1);
-    let (mut next, mut end) = (0, 0);
+    let mut rest = text;
     core::iter::from_fn(move || {
-        let start = next;
-        // Searched once: in a text with `\r` alone it is far away.
-        if end == start {
-            end = newline(start).unwrap_or(text.len());
-        }
-        next = match text[start..end].find('\r').map(|at| start + at) {
-            Some(at) if !text[at..].starts_with("\r\n") => at + 1,
-            _ => end,
+        let len = match either(rest, [b'\n', b'\r']) {
+            Some(at) if rest[at..].starts_with("\r\n") => at + 2,
+            Some(at) => at + 1,
+            None => rest.len(),
         };
-        (start < next).then(|| &text[start..next])
+        let (line, behind) = rest.split_at(len);
+        rest = behind;
+        (!line.is_empty()).then_some(line)
     })
 }
 
@@ -242,7 +239,7 @@ impl<'a> Scan<'a, '_> {
     }
 
     fn pair(&mut self, line: &Line<'a>, trimmed: &'a str) {
-        let Some(at) = either(trimmed, ['=', ':']) else {
+        let Some(at) = either(trimmed, [b'=', b':']) else {
             match without_sign(trimmed) {
                 Some((key, value)) => {
                     let at = &trimmed[key.len()..trimmed.len() - value.len()];
@@ -250,7 +247,7 @@ impl<'a> Scan<'a, '_> {
                     (self.fault)(&Fault::NoSign { at, key, value });
                     let pair = (line.text(key), line.text(value));
                     if let Some(section) = self.sections.last_mut() {
-                        section.pairs.push(pair);
+                        add(section, pair);
                     }
                 }
                 None => (self.fault)(&Fault::NoPair(line.spanned(trimmed))),
@@ -268,7 +265,7 @@ impl<'a> Scan<'a, '_> {
         }
         let pair = (line.text(key), line.text(value));
         match self.sections.last_mut() {
-            Some(section) => section.pairs.push(pair),
+            Some(section) => add(section, pair),
             None => {
                 let start = line.span(&trimmed[..0]);
                 let line = line.span(trimmed);
@@ -282,6 +279,14 @@ impl<'a> Scan<'a, '_> {
             }
         }
     }
+}
+
+/// Adds a key with its value; a section with one has mostly as many as an object.
+fn add<'a>(section: &mut Placed<'a>, pair: (Text<'a>, Text<'a>)) {
+    if section.pairs.is_empty() {
+        section.pairs.reserve(8);
+    }
+    section.pairs.push(pair);
 }
 
 /// `AccessType rww`: a key of an object and one word.

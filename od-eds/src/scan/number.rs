@@ -40,7 +40,10 @@ pub(crate) struct Number {
 
 /// The text in front of a `;` or a `#`.
 pub fn before_comment(text: &str) -> &str {
-    let found = either(text, [';', '#']).or_else(|| text.find("//"));
+    let found = either(text, [b';', b'#']).or_else(|| {
+        let slash = either(text, [b'/'; 2])?;
+        text[slash..].find("//").map(|at| slash + at)
+    });
     match found {
         Some(at) => text[..at].trim_end(),
         None => text,
@@ -58,6 +61,9 @@ pub(crate) fn without_comment<'a>(text: &'a str, notes: &mut Vec<Note>) -> &'a s
 
 /// An integer: decimal, `0x` hexadecimal or octal with a leading 0, with a sign.
 pub(crate) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
+    if let Some(number) = plain(text.as_bytes()) {
+        return Some(number);
+    }
     let (negative, unsigned) = match text.strip_prefix('-') {
         Some(rest) => (true, rest.trim_start()),
         None => (false, text.strip_prefix('+').unwrap_or(text).trim_start()),
@@ -90,6 +96,25 @@ pub(crate) fn integer(text: &str, notes: &mut Vec<Note>) -> Option<Number> {
     Some(Number {
         value: if negative { -magnitude } else { magnitude },
         pattern: radix == 16 && !negative,
+    })
+}
+
+/// The integer as nearly every file writes it, decimal or hexadecimal, of 64 bits or fewer.
+fn plain(text: &[u8]) -> Option<Number> {
+    let (radix, digits) = match text {
+        [b'0', b'x' | b'X', digits @ ..] if digits.len() <= 16 => (16, digits),
+        [b'0'] | [b'1'..=b'9', ..] if text.len() <= 18 => (10, text),
+        _ => return None,
+    };
+    let (mut value, mut at) = (0u64, 0);
+    while at < digits.len() {
+        let digit = char::from(digits[at]).to_digit(radix)?;
+        value = value * u64::from(radix) + u64::from(digit);
+        at += 1;
+    }
+    (at > 0).then(|| Number {
+        value: i128::from(value),
+        pattern: radix == 16,
     })
 }
 

@@ -81,7 +81,7 @@ impl Text {
 
     /// A text that a patch brought may hold line ends; the format has no way to write them.
     fn one_line(&mut self, text: &str) {
-        match either(text, ['\n', '\r']) {
+        match either(text, [b'\n', b'\r']) {
             Some(_) => self.0.push_str(&text.replace(['\n', '\r'], " ")),
             None => self.0.push_str(text),
         }
