@@ -4,6 +4,7 @@
 //! [`master::Master`] waits for answers on it; [`conform`] is the open conformance test, [`learn`] makes an EDS of a node.
 
 pub mod bench;
+pub mod compare;
 pub mod configure;
 pub mod conform;
 pub mod fault;

@@ -1,8 +1,8 @@
 //! `odkit diff`: differences between two dictionaries, or a dictionary and a node on a bus.
 
-mod device;
 mod show;
 
+use od_bus::compare as device;
 use od_bus::links;
 use od_bus::master::Master;
 use od_eds::Tables;

@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
+use od_bus::interrupt::Interruptible;
 use od_bus::learn::{Options, learn};
 use od_bus::links;
 use od_wire::NodeId;
 
 use crate::failure::Failure;
 use crate::source;
-use crate::{conform, output};
+use crate::{bus, conform, output};
 
 /// Make an EDS from a node on a bus
 ///
@@ -28,7 +29,7 @@ pub(crate) struct Args {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Probe limits by writing values, and put the values back
+    /// Probe limits by writing values, and put the values back, also after Ctrl-C
     #[arg(long)]
     allow_writes: bool,
 }
@@ -53,7 +54,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             options,
             told,
         )?,
-        None => learn(links::open(&link)?, args.node, options, told)?,
+        None => {
+            let link = Interruptible::new(links::open(&link)?, bus::stop()?);
+            learn(link, args.node, options, told)?
+        }
     };
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(

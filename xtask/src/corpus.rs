@@ -1,6 +1,7 @@
 //! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! An example of the tests does the work, because xtask has no dependencies.
+//! An example of the tests does the work, because xtask has no dependencies; with `--nodes` one of od-bus,
+//! which simulates each file, learns it and tests it.
 
 use std::path::{Path, absolute};
 
@@ -11,11 +12,12 @@ use crate::repo::Repo;
 
 /// Builds the example and lets it read the folder that the first argument names.
 pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()> {
-    let (folder, docs) = match args {
-        [folder] => (folder, None),
-        [folder, option, file] if option == "--docs" => (folder, Some(file)),
+    let (folder, docs, nodes) = match args {
+        [folder] => (folder, None, false),
+        [folder, option] if option == "--nodes" => (folder, None, true),
+        [folder, option, file] if option == "--docs" => (folder, Some(file), false),
         _ => {
-            let text = "corpus needs a folder, and accepts `--docs FILE`";
+            let text = "corpus needs a folder, and accepts `--docs FILE` or `--nodes`";
             return Err(Error::Usage(String::from(text)));
         }
     };
@@ -23,7 +25,18 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     let place =
         |path: &str| absolute(Path::new(path)).map_err(|e| Error::io("find", Path::new(path), &e));
     let mut command = cargo(&repo.root, &["run", "--quiet", "--release"]);
-    command.args(["--package", TESTS, "--example", "corpus", "--"]);
+    match nodes {
+        true => command.args([
+            "--package",
+            "od-bus",
+            "--features",
+            "corpus",
+            "--example",
+            "slaves",
+        ]),
+        false => command.args(["--package", TESTS, "--example", "corpus"]),
+    };
+    command.arg("--");
     command.arg(place(folder)?);
     if let Some(file) = docs {
         command.arg("--docs").arg(place(file)?);

@@ -3,51 +3,97 @@
 use od_model::DataType;
 
 use super::probe::{Found, Probe};
+use super::types::with_sign;
 use crate::fault::Fault;
 use crate::link::Link;
 
-/// The lowest and highest number that the node accepts; `None` where the type itself is the limit.
-/// The numbers between the value and a limit are taken to be accepted.
+/// What writing shows of a number.
+pub(super) struct Learned {
+    /// The type; with a sign where the limits have one.
+    pub(super) data_type: DataType,
+    /// The value, in this type.
+    pub(super) value: Option<i128>,
+    /// The lowest and the highest number that the node accepts; `None` where the type itself is the
+    /// limit. The numbers between value and limit are assumed to be accepted.
+    pub(super) low: Option<i128>,
+    pub(super) high: Option<i128>,
+}
+
+/// Probes the limits. A type that is not sure gets a sign if the node accepts -1, but not the lowest
+/// number that has a sign.
 pub(super) fn limits<L: Link>(
     probe: &mut Probe<L>,
     found: &Found,
     data_type: DataType,
-) -> Result<[Option<u64>; 2], Fault> {
-    let none = [None, None];
+    is_sure: bool,
+) -> Result<Learned, Fault> {
+    let mut learned = Learned {
+        data_type,
+        value: None,
+        low: None,
+        high: None,
+    };
     let (Some(bytes), Some(size)) = (&found.bytes, data_type.size()) else {
-        return Ok(none);
+        return Ok(learned);
     };
-    let Some((0, most)) = data_type.integer_range() else {
-        return Ok(none);
+    if data_type.integer_range().is_none() || bytes.len() != size || size > 8 {
+        return Ok(learned);
+    }
+    let result = probed(probe, found, bytes, is_sure, &mut learned);
+    if matches!(result, Err(Fault::Interrupted)) {
+        probe.resume();
+    }
+    probe.put_back(found.address, bytes)?;
+    result.map(|()| learned)
+}
+
+fn probed<L: Link>(
+    probe: &mut Probe<L>,
+    found: &Found,
+    bytes: &[u8],
+    is_sure: bool,
+    learned: &mut Learned,
+) -> Result<(), Fault> {
+    let size = bytes.len();
+    let mut accepts = |number: i128| probe.write(found.address, &number.to_le_bytes()[..size]);
+    if let Some(signed) = with_sign(learned.data_type).filter(|_| !is_sure)
+        && let Some((lowest, _)) = signed.integer_range()
+        && accepts(-1)?
+        && !accepts(lowest)?
+    {
+        learned.data_type = signed;
+    }
+    let Some((lowest, highest)) = learned.data_type.integer_range() else {
+        return Ok(());
     };
-    let mut wide = [0; 8];
-    wide[..size].copy_from_slice(&bytes[..size]);
-    let value = u64::from_le_bytes(wide);
-    let most = u64::try_from(most).unwrap_or(u64::MAX);
-    let mut try_it = |number: u64| probe.write(found.address, &number.to_le_bytes()[..size]);
-    let (mut low, mut high) = (None, None);
-    if value < most && !try_it(most)? {
-        let (mut good, mut bad) = (value, most);
-        while bad - good > 1 {
-            let middle = good + (bad - good) / 2;
-            match try_it(middle)? {
-                true => good = middle,
-                false => bad = middle,
-            }
-        }
-        high = Some(good);
+    let mut wide = [0; 16];
+    wide[..size].copy_from_slice(bytes);
+    let mut value = i128::from_le_bytes(wide);
+    if value > highest {
+        value -= 1 << (8 * size);
     }
-    if value > 0 && !try_it(0)? {
-        let (mut good, mut bad) = (value, 0);
-        while good - bad > 1 {
-            let middle = bad + (good - bad) / 2;
-            match try_it(middle)? {
-                true => good = middle,
-                false => bad = middle,
-            }
-        }
-        low = Some(good);
+    learned.value = Some(value);
+    if value < highest && !accepts(highest)? {
+        learned.high = Some(edge(value, highest, &mut accepts)?);
     }
-    try_it(value)?;
-    Ok([low, high])
+    if value > lowest && !accepts(lowest)? {
+        learned.low = Some(edge(value, lowest, &mut accepts)?);
+    }
+    Ok(())
+}
+
+/// The last number that is accepted on the way from one that is to one that is not.
+fn edge(
+    mut good: i128,
+    mut bad: i128,
+    accepts: &mut impl FnMut(i128) -> Result<bool, Fault>,
+) -> Result<i128, Fault> {
+    while good.abs_diff(bad) > 1 {
+        let middle = (good + bad).div_euclid(2);
+        match accepts(middle)? {
+            true => good = middle,
+            false => bad = middle,
+        }
+    }
+    Ok(good)
 }

@@ -1,5 +1,6 @@
 //! What a node answers about one value.
 
+use od_eds::outline::specified;
 use od_model::Address;
 use od_wire::AbortCode::{
     InvalidCommand, NoObject, NoSubIndex, ReadOnly, UnsupportedAccess, WriteOnly,
@@ -19,7 +20,32 @@ pub(super) struct Found {
     pub(super) is_write_only: bool,
     /// `None`: it cannot be told without a write.
     pub(super) writable: Option<bool>,
+    /// How many bytes a download may have; `None` where nobody asked, or the node does not say.
+    pub(super) room: Option<Room>,
 }
+
+/// How many bytes a download may have.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Room {
+    /// So many: a number.
+    Bytes(usize),
+    /// More or fewer than now: a string.
+    Some,
+    /// [`LONG`]: a DOMAIN.
+    Any,
+}
+
+/// More bytes than a string of a device has.
+const LONG: u32 = 1 << 16;
+
+/// A number that nearly every device has, which refuses another length if the node looks at lengths.
+const NUMBERS: [(u16, u8); 5] = [
+    (0x1017, 0),
+    (0x1800, 2),
+    (0x1400, 2),
+    (0x1016, 1),
+    (0x1029, 1),
+];
 
 /// Whether there is something at an address.
 pub(super) enum There {
@@ -32,6 +58,8 @@ pub(super) enum There {
 pub(super) struct Probe<L> {
     master: Master<L>,
     node: NodeId,
+    /// Whether the node looks at the announced length; `None`: not known yet.
+    minds: Option<bool>,
 }
 
 impl<L: Link> Probe<L> {
@@ -39,6 +67,7 @@ impl<L: Link> Probe<L> {
         Self {
             master: Master::new(link, node),
             node,
+            minds: None,
         }
     }
 
@@ -52,13 +81,22 @@ impl<L: Link> Probe<L> {
         };
         let writable = match is_write_only {
             true => Some(true),
+            // A program is erased as soon as a download begins.
+            false if address.index == 0x1F50 => None,
             false => self.writable(address, bytes.as_deref())?,
+        };
+        let room = match writable {
+            Some(true) if specified(address.index).is_none() => {
+                self.room(address, bytes.as_deref())?
+            }
+            _ => None,
         };
         Ok(There::Value(Found {
             address,
             bytes,
             is_write_only,
             writable,
+            room,
         }))
     }
 
@@ -79,6 +117,82 @@ impl<L: Link> Probe<L> {
         Ok(self.master.download(address, bytes)?.is_ok())
     }
 
+    /// Waits again after Ctrl-C.
+    pub(super) fn resume(&mut self) {
+        self.master.link().resume();
+    }
+
+    /// Puts a value back.
+    pub(super) fn put_back(&mut self, address: Address, bytes: &[u8]) -> Result<(), Fault> {
+        match self.master.download(address, bytes)? {
+            Ok(()) => Ok(()),
+            Err(code) => Err(Fault::Node(format!(
+                "node {}: could not put back {address} = {}: abort {code:08X}h",
+                self.node,
+                od_model::values::hex(bytes)
+            ))),
+        }
+    }
+
+    /// How many bytes a download may have, where that is not clear from the value.
+    fn room(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<Room>, Fault> {
+        let is_clear = |bytes: &[u8]| {
+            let is_text = bytes.iter().any(|byte| byte.is_ascii_graphic());
+            matches!(bytes.len(), 1 | 2) || matches!(bytes.len(), 3 | 4 | 8) && !is_text
+        };
+        if bytes.is_some_and(is_clear) || !self.minds()? {
+            return Ok(None);
+        }
+        if self.admits(address, LONG)? {
+            return Ok(Some(Room::Any));
+        }
+        if bytes.is_some_and(|bytes| bytes.len() > 8) || self.admits(address, 9)? {
+            return Ok(Some(Room::Some));
+        }
+        for size in (1..=8).rev() {
+            if self.admits(address, size)? {
+                let is_string = size > 1 && self.admits(address, size - 1)?;
+                let room = Room::Bytes(size as usize);
+                return Ok(Some(if is_string { Room::Some } else { room }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Does the node refuse a number with a length that it cannot have?
+    fn minds(&mut self) -> Result<bool, Fault> {
+        if let Some(minds) = self.minds {
+            return Ok(minds);
+        }
+        for (index, sub) in NUMBERS {
+            let address = Address::new(index, sub);
+            let Some(bytes) = self.bytes(address)? else {
+                continue;
+            };
+            if self.admits(address, bytes.len() as u32)? {
+                let minds = !self.admits(address, LONG)?;
+                self.minds = Some(minds);
+                return Ok(minds);
+            }
+        }
+        self.minds = Some(false);
+        Ok(false)
+    }
+
+    /// Is a download of this length confirmed? It ends there.
+    fn admits(&mut self, address: Address, size: u32) -> Result<bool, Fault> {
+        let answer = self.ask(request(0x21, address, size.to_le_bytes()))?;
+        let is_confirmed = answer.is_some_and(|answer| answer[0] == 0x60);
+        if is_confirmed {
+            self.give_up(address)?;
+        }
+        Ok(is_confirmed)
+    }
+
+    fn give_up(&mut self, address: Address) -> Result<(), Fault> {
+        self.tell(request(0x80, address, 0x0800_0000u32.to_le_bytes()))
+    }
+
     /// Begins a download that writes nothing: segmented, and aborted as soon as it is confirmed. A
     /// server without segments refuses one byte for a value of more, and takes the value that it has.
     fn writable(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<bool>, Fault> {
@@ -89,7 +203,7 @@ impl<L: Link> Probe<L> {
             return Ok(None);
         };
         if answer[0] == 0x60 {
-            self.tell(request(0x80, address, 0x0800_0000u32.to_le_bytes()))?;
+            self.give_up(address)?;
             return Ok(Some(true));
         }
         match code(&answer) {
@@ -125,12 +239,24 @@ impl<L: Link> Probe<L> {
         let id = self.node.plus(0x580);
         let link = self.master.link();
         let until = link.now() + Duration::from_secs(1);
-        while let Some(heard) = link.receive(until)? {
-            if heard.frame.id() == id && heard.frame.dlc() == 8 {
-                return Ok(Some(*heard.frame.bytes()));
+        loop {
+            match link.receive(until) {
+                Ok(Some(heard)) if heard.frame.id() == id && heard.frame.dlc() == 8 => {
+                    return Ok(Some(*heard.frame.bytes()));
+                }
+                Ok(Some(_)) => {}
+                Ok(None) => return Ok(None),
+                Err(Fault::Interrupted) => {
+                    // The node hears that what was begun is over.
+                    let mut abort = data;
+                    abort[0] = 0x80;
+                    abort[4..].copy_from_slice(&0x0800_0000u32.to_le_bytes());
+                    self.tell(abort)?;
+                    return Err(Fault::Interrupted);
+                }
+                Err(fault) => return Err(fault),
             }
         }
-        Ok(None)
     }
 }
 

@@ -1,11 +1,13 @@
 //! An EDS from a device says what the EDS says that the device was made from.
 
-use od_bench::VirtualDevice;
 use od_bench::bus::Bus;
+use od_bench::{EdsOptions, VirtualDevice};
 use od_bus::bench::OnBench;
+use od_bus::compare::compare;
 use od_bus::learn::{Options, learn};
 use od_bus::master::Master;
-use od_eds::{Finding, Tables};
+use od_eds::Tables;
+use od_model::{Access, Dictionary};
 use od_wire::NodeId;
 
 fn bus(name: &str) -> Bus {
@@ -16,57 +18,66 @@ fn bus(name: &str) -> Bus {
     bus
 }
 
-#[test]
-fn objects_types_and_access_are_right() {
-    for name in ["gxmm"] {
-        let kind = od_devices::find(name).expect("a device");
-        let made = learn(OnBench(bus(name)), NodeId::ONE, Options::default(), |_| {});
-        let text = od_eds::write(&made.expect("a device that answers"));
-        let loaded = od_eds::load(&text);
-        let errors: Vec<_> = loaded
-            .findings
-            .iter()
-            .filter(|one| one.is_error())
-            .collect();
-        assert!(errors.is_empty(), "{name}: {}", told(&errors));
-        let tables = Tables::new(&loaded.description);
-        let made = tables.dictionary();
-        let (mut all, mut wrong) = (0, Vec::new());
-        for entry in kind.dictionary.entries() {
-            // Three facts: it is there, its type, its access.
-            all += 3;
-            let Ok(got) = made.find(entry.address) else {
-                wrong.push(format!("{} is missing", entry.address));
-                continue;
-            };
-            if got.data_type != entry.data_type {
-                wrong.push(format!(
-                    "{} {:?} {:?}",
-                    entry.address, entry.data_type, got.data_type
-                ));
+/// Values whose presence, type or access is another one in a learned dictionary.
+fn wrong(right: Dictionary<'_>, made: Dictionary<'_>) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for entry in right.entries() {
+        let address = entry.address;
+        match made.find(address) {
+            Err(_) => wrong.push(format!("{address} is missing")),
+            Ok(got) if got.data_type != entry.data_type => {
+                let types = (entry.data_type, got.data_type);
+                wrong.push(format!("{address} {types:?}"));
             }
-            let same = got.access.writable() == entry.access.writable()
-                && got.access.readable() == entry.access.readable();
-            if !same {
-                wrong.push(format!("{} {} {}", entry.address, entry.access, got.access));
+            Ok(got)
+                if got.access.writable() != entry.access.writable()
+                    || got.access.readable() != entry.access.readable() =>
+            {
+                wrong.push(format!("{address} {} {}", entry.access, got.access));
             }
+            Ok(_) => {}
         }
-        let more = made.len().saturating_sub(kind.dictionary.len());
-        assert_eq!(more, 0, "{name}: objects that it does not have");
-        assert!(
-            wrong.len() * 100 <= all,
-            "{name}: {} of {all}: {wrong:?}",
-            wrong.len()
-        );
     }
+    let more = made
+        .entries()
+        .filter(|one| right.find(one.address).is_err());
+    wrong.extend(more.map(|one| format!("{} is not there", one.address)));
+    wrong
 }
 
-fn told(errors: &[&Finding]) -> String {
-    let lines: Vec<String> = errors
-        .iter()
-        .map(|one| format!("{} {:?}", one.code(), one.object))
-        .collect();
-    lines.join("\n")
+#[test]
+fn the_twelve_devices_are_learned_and_stand_in() {
+    for kind in od_devices::DEVICES {
+        let name = kind.name;
+        let mut bus = bus(name);
+        let made = learn(OnBench(&mut bus), NodeId::ONE, Options::default(), |_| {});
+        let text = od_eds::write(&made.expect("a device that answers"));
+        let loaded = od_eds::load(&text);
+        let errors = loaded.findings.iter().filter(|one| one.is_error());
+        let errors: Vec<_> = errors.map(|one| (one.code(), one.object)).collect();
+        assert!(errors.is_empty(), "{name}: {errors:?}");
+        let tables = Tables::new(&loaded.description);
+        let made = tables.dictionary();
+        let all = kind.dictionary.len();
+        let wrong = wrong(kind.dictionary, made);
+        assert!(wrong.len() * 100 <= all, "{name}, {all}: {wrong:?}");
+        let mut original = Master::new(OnBench(bus), NodeId::ONE);
+        let differences = compare(made, &mut original, true).expect("a device that answers");
+        assert!(differences.is_empty(), "{name}: {differences:?}");
+        // What was learned stands in for the device.
+        let device = VirtualDevice::from_eds(&text, EdsOptions::default()).expect("a device");
+        let mut bus = Bus::new();
+        let number = bus.add(device);
+        bus.start(number);
+        let mut twin = Master::new(OnBench(bus), NodeId::ONE);
+        for entry in made.entries().filter(|one| one.access == Access::Const) {
+            let bytes = original.upload(entry.address).expect("an answer");
+            let same = twin.upload(entry.address).expect("an answer");
+            assert_eq!(bytes, same, "{name}: {}", entry.address);
+        }
+        let differences = compare(made, &mut twin, false).expect("a device that answers");
+        assert!(differences.is_empty(), "{name}: {differences:?}");
+    }
 }
 
 #[test]

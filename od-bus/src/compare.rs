@@ -1,21 +1,26 @@
 //! A dictionary against a device on a bus: what it has, what it answers.
 
-use od_bus::link::Link;
-use od_bus::master::Master;
 use od_eds::diff::{Difference, Field, Impact};
 use od_model::values;
 use od_model::{Access, Address, Dictionary, Entry, Object};
-use od_runtime::{AbortCode, NodeId};
+use od_wire::{AbortCode, NodeId};
 
-use crate::failure::Failure;
+use crate::fault::Fault;
+use crate::link::Link;
+use crate::master::Master;
 
 /// Reads every object that can be read. What a device has besides them cannot be told from
 /// what it has not without asking for all 65,536, so nothing is ever "added" here.
-pub(super) fn compare(
+///
+/// With `values` current values that differ from the defaults are differences, too.
+///
+/// # Errors
+/// The link is lost, or the node does not respond.
+pub fn compare(
     dictionary: Dictionary<'_>,
     client: &mut Master<impl Link>,
     values: bool,
-) -> Result<Vec<Difference>, Failure> {
+) -> Result<Vec<Difference>, Fault> {
     let node = client.node();
     let mut found = Vec::new();
     for object in dictionary.objects() {

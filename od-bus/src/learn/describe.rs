@@ -1,0 +1,125 @@
+//! An object of the file, from what the node showed of it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use od_eds::outline::specified;
+use od_eds::{EntryDescription, ObjectDescription, Spanned, Value};
+use od_model::{Access, Address, DataType, Kind, ObjectCode};
+use od_wire::NodeId;
+
+use super::probe::Found;
+use super::types::{From, Guess};
+
+/// Is it a VAR?
+pub(super) fn is_whole(found: &[Found]) -> bool {
+    found.len() == 1 && found[0].address.sub == 0
+}
+
+/// An object with the values that were found, of these types.
+pub(super) fn describe(found: &[Found], guesses: &[Guess], node: NodeId) -> ObjectDescription {
+    let index = found[0].address.index;
+    let is_whole = is_whole(found);
+    let mut entries = BTreeMap::new();
+    let mut types = BTreeSet::new();
+    let standard = specified(index).map(|known| known.access);
+    for (one, guess) in found.iter().zip(guesses) {
+        let sub = one.address.sub;
+        let data_type = guess.data_type;
+        if sub > 0 {
+            types.insert(data_type);
+        }
+        let name = match (is_whole, sub) {
+            (true, _) => name(index),
+            (false, 0) => "Highest sub-index supported".into(),
+            _ => format!("{} {sub}", name(index)),
+        };
+        let mut entry = EntryDescription::new(name, data_type);
+        let access = match one.writable {
+            _ if one.is_write_only => Access::Wo,
+            Some(true) => Access::Rw,
+            None if standard.is_some_and(Access::writable) => Access::Rw,
+            Some(false) if sub == 0 && !is_whole => Access::Const,
+            _ => Access::Ro,
+        };
+        entry.access = Spanned::from(access);
+        entry.default = one
+            .bytes
+            .as_deref()
+            .and_then(|bytes| default(one.address, data_type, bytes, node))
+            .map(Spanned::from);
+        let mut unknown = Vec::new();
+        match guess.from {
+            From::Length => unknown.push("type by size"),
+            From::Value => unknown.push("type by value"),
+            From::Standard => {}
+        }
+        if one.writable.is_none() {
+            unknown.push("access");
+        }
+        if access.writable() && !one.is_write_only {
+            unknown.push("limits");
+        }
+        if !unknown.is_empty() {
+            let text = format!("unknown: {}", unknown.join(", "));
+            entry.extra.push((";Learned".into(), text));
+        }
+        entries.insert(sub, entry);
+    }
+    let code = match (is_whole, specified(index)) {
+        (true, _) => ObjectCode::Var,
+        (false, Some(known)) if known.code.has_members() => known.code,
+        (false, _) if types.len() == 1 => ObjectCode::Array,
+        _ => ObjectCode::Record,
+    };
+    ObjectDescription {
+        code: Spanned::from(code),
+        name: Spanned::from(name(index)),
+        sub_number: (!is_whole).then(|| Spanned::from(entries.len() as u32)),
+        entries,
+        flags: 0,
+        extra: Vec::new(),
+        span: Default::default(),
+    }
+}
+
+fn name(index: u16) -> String {
+    match specified(index) {
+        Some(known) => known.name.into(),
+        None => format!("Object {index:04X}h"),
+    }
+}
+
+/// The value as a default; an identifier of the predefined connection set follows the node ID.
+fn default(address: Address, data_type: DataType, bytes: &[u8], node: NodeId) -> Option<Value> {
+    let mut wide = [0; 8];
+    match data_type.kind() {
+        Kind::Text => return Some(Value::Text(String::from_utf8_lossy(bytes).into_owned())),
+        Kind::Bytes => return Some(Value::Bytes(bytes.to_vec())),
+        Kind::Real if bytes.len() == 4 => {
+            let bits = [bytes[0], bytes[1], bytes[2], bytes[3]];
+            return Some(Value::Real(f32::from_le_bytes(bits).into()));
+        }
+        _ => wide.get_mut(..bytes.len())?.copy_from_slice(bytes),
+    }
+    let raw = u64::from_le_bytes(wide);
+    if data_type.kind() == Kind::Real {
+        return Some(Value::Real(f64::from_bits(raw)));
+    }
+    if let Some((low, _)) = data_type.integer_range()
+        && low < 0
+    {
+        let unused = 64 - 8 * bytes.len() as u32;
+        return Some(Value::Signed((raw as i64) << unused >> unused));
+    }
+    let is_cob_id = match address.index {
+        0x1014 => true,
+        0x1200 => matches!(address.sub, 1 | 2),
+        0x1400..=0x15FF | 0x1800..=0x19FF => address.sub == 1,
+        _ => false,
+    };
+    let node = u64::from(node.raw());
+    match is_cob_id && raw & 0x7F == node && raw & 0x780 != 0 {
+        true => u32::try_from(raw - node).ok().map(Value::NodeId),
+        false => Some(Value::Unsigned(raw)),
+    }
+}

@@ -1,0 +1,137 @@
+//! The sections of a learned file besides its objects, and what its node has wrong.
+
+use std::collections::BTreeMap;
+
+use od_eds::{Description, ObjectDescription, Section, Spanned, Value};
+use od_wire::NodeId;
+
+use super::Options;
+
+/// Allows the errors that the file has because the node has them: a learned file says what the node
+/// answers, and no rule shall stop who wants to use it.
+pub(super) fn allow_errors(description: &mut Description) {
+    let loaded = od_eds::load(&od_eds::write(description));
+    for finding in loaded.findings.iter().filter(|one| one.is_error()) {
+        let Some(address) = finding.object else {
+            continue;
+        };
+        let Some(object) = description.objects.get_mut(&address.index) else {
+            continue;
+        };
+        let text = format!("{} the node answers so", finding.code());
+        let extra = match object.entries.get_mut(&address.sub) {
+            Some(entry) => &mut entry.extra,
+            None => &mut object.extra,
+        };
+        let key = ";odkit-allow";
+        if !extra
+            .iter()
+            .any(|(name, known)| name == key && *known == text)
+        {
+            extra.push((key.into(), text));
+        }
+    }
+}
+
+pub(super) fn sections(
+    objects: &BTreeMap<u16, ObjectDescription>,
+    node: NodeId,
+    options: Options,
+) -> Vec<Section> {
+    let section = |name: &str, pairs: Vec<(&str, String)>| Section {
+        name: Spanned::from(name.to_owned()),
+        pairs: pairs
+            .into_iter()
+            .map(|(key, value)| (Spanned::from(key.to_owned()), Spanned::from(value)))
+            .collect(),
+    };
+    let value = |index: u16, sub: u8| {
+        let default = &objects.get(&index)?.entries.get(&sub)?.default;
+        default.as_ref().map(|default| default.value.clone())
+    };
+    let number = |sub| match value(0x1018, sub) {
+        Some(Value::Unsigned(number)) => format!("0x{number:08X}"),
+        _ => "0".into(),
+    };
+    let name = match value(0x1008, 0) {
+        Some(Value::Text(text)) => text,
+        _ => format!("Node {}", node.raw()),
+    };
+    let pdos = |first: u16| objects.range(first..first + 0x200).count().to_string();
+    let mut info = vec![
+        ("VendorName", String::new()),
+        ("VendorNumber", number(1)),
+        ("ProductName", name.clone()),
+        ("ProductNumber", number(2)),
+        ("RevisionNumber", number(3)),
+        ("OrderCode", String::new()),
+    ];
+    for rate in ["10", "20", "50", "125", "250", "500", "800", "1000"] {
+        let key: &'static str = match rate {
+            "10" => "BaudRate_10",
+            "20" => "BaudRate_20",
+            "50" => "BaudRate_50",
+            "125" => "BaudRate_125",
+            "250" => "BaudRate_250",
+            "500" => "BaudRate_500",
+            "800" => "BaudRate_800",
+            _ => "BaudRate_1000",
+        };
+        info.push((key, "1".into()));
+    }
+    info.extend([
+        ("SimpleBootUpMaster", "0".into()),
+        ("SimpleBootUpSlave", "1".into()),
+        ("Granularity", "8".into()),
+        ("DynamicChannelsSupported", "0".into()),
+        ("GroupMessaging", "0".into()),
+        ("NrOfRXPDO", pdos(0x1400)),
+        ("NrOfTXPDO", pdos(0x1800)),
+        ("LSS_Supported", "0".into()),
+    ]);
+    let lines = [
+        format!("Learned by odkit from node {}.", node.raw()),
+        "Not known: bit rates, LSS, which values are saved, which objects can be mapped.".into(),
+        match options.writes {
+            true => "Limits were probed.".into(),
+            false => "Limits were not probed (--allow-writes).".to_owned(),
+        },
+    ];
+    let mut comments = vec![("Lines", lines.len().to_string())];
+    comments.extend(["Line1", "Line2", "Line3"].into_iter().zip(lines));
+    let dummies = [
+        "Dummy0001",
+        "Dummy0002",
+        "Dummy0003",
+        "Dummy0004",
+        "Dummy0005",
+        "Dummy0006",
+        "Dummy0007",
+    ];
+    let time = || "12:00AM".to_owned();
+    let date = || "01-01-2000".to_owned();
+    vec![
+        section(
+            "FileInfo",
+            vec![
+                ("FileName", "learned.eds".into()),
+                ("FileVersion", "1".into()),
+                ("FileRevision", "0".into()),
+                ("EDSVersion", "4.0".into()),
+                ("Description", format!("Learned from {name}")),
+                ("CreationTime", time()),
+                ("CreationDate", date()),
+                ("CreatedBy", "odkit learn".into()),
+                ("ModificationTime", time()),
+                ("ModificationDate", date()),
+                ("ModifiedBy", "odkit learn".into()),
+            ],
+        ),
+        section("DeviceInfo", info),
+        section(
+            "DummyUsage",
+            dummies.map(|name| (name, "0".into())).to_vec(),
+        ),
+        section("Comments", comments),
+    ]
+}
