@@ -5,8 +5,6 @@ use std::collections::BTreeMap;
 use od_eds::{Description, ObjectDescription, Section, Spanned, Value};
 use od_wire::NodeId;
 
-use super::Options;
-
 /// Allows the errors that the file has because the node has them: a learned file says what the node
 /// answers, and no rule shall stop who wants to use it.
 pub(super) fn allow_errors(description: &mut Description) {
@@ -36,7 +34,7 @@ pub(super) fn allow_errors(description: &mut Description) {
 pub(super) fn sections(
     objects: &BTreeMap<u16, ObjectDescription>,
     node: NodeId,
-    options: Options,
+    writes: bool,
 ) -> Vec<Section> {
     let section = |name: &str, pairs: Vec<(&str, String)>| Section {
         name: Spanned::from(name.to_owned()),
@@ -92,7 +90,7 @@ pub(super) fn sections(
     let lines = [
         format!("Learned by odkit from node {}.", node.raw()),
         "Not known: bit rates, LSS, which values are saved, which objects can be mapped.".into(),
-        match options.writes {
+        match writes {
             true => "Limits were probed.".into(),
             false => "Limits were not probed (--allow-writes).".to_owned(),
         },

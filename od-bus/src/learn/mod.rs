@@ -74,7 +74,7 @@ pub fn learn(
         objects.insert(*index, object);
     }
     map(&mut objects);
-    let sections = file::sections(&objects, node, options);
+    let sections = file::sections(&objects, node, options.writes);
     let mut description = Description { sections, objects };
     file::allow_errors(&mut description);
     Ok(description)
