@@ -46,9 +46,12 @@ pub mod script;
 pub mod serve;
 mod services;
 pub mod shaft;
+pub mod signal;
 mod size;
 mod slave;
+mod sorted;
 mod source;
+pub mod stats;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
 pub mod twin;

@@ -1,7 +1,7 @@
 //! Values of a node over time: from its TPDOs where they are mapped, else polled by SDO.
 
 use od_client::sdo::SdoError;
-use od_client::{Client, Event, Job};
+use od_client::{Client, Event, Job, pdo};
 use od_model::Address;
 use od_model::typed::MapEntry;
 use od_wire::{AbortCode, CanId, Duration, Frame, Instant, NodeId};
@@ -124,11 +124,7 @@ fn can_id(cob_id: u32) -> CanId {
 
 /// The value in the data of its TPDO; `None`: it is too short.
 fn mapped(frame: &Frame, first: u8, bits: u8) -> Option<Vec<u8>> {
-    let end = u32::from(first) + u32::from(bits);
-    if bits == 0 || frame.is_remote() || end > 8 * u32::from(frame.dlc()) {
-        return None;
-    }
-    let value = u64::from_le_bytes(*frame.bytes()) >> first & (u64::MAX >> (64 - bits));
+    let value = pdo::bits(frame.data(), first, bits).filter(|_| !frame.is_remote())?;
     Some(value.to_le_bytes()[..usize::from(bits).div_ceil(8)].to_vec())
 }
 

@@ -81,6 +81,18 @@ impl Field {
     }
 }
 
+/// The bits of a PDO from `first` on, as an unsigned number; `None` if the data ends before the last of them, and for
+/// 0 or more than 64 bits.
+pub fn bits(data: &[u8], first: u8, bits: u8) -> Option<u64> {
+    let end = u32::from(first) + u32::from(bits);
+    if !(1..=64).contains(&bits) || end > 8 * data.len().min(8) as u32 {
+        return None;
+    }
+    let number = |value, byte: &u8| value << 8 | u64::from(*byte);
+    let value = data.iter().take(8).rev().fold(0, number);
+    Some(value >> first & (u64::MAX >> (64 - bits)))
+}
+
 /// Takes the data of a PDO apart.
 ///
 /// `mapping` are the mapping entries, 1600h:01 or 1A00h:01 and so on, as many as sub-index 0

@@ -117,7 +117,7 @@ fn real(text: &str) -> Option<f64> {
     Some(number(text))
 }
 
-fn named(name: &str) -> Option<DataType> {
+pub(crate) fn named(name: &str) -> Option<DataType> {
     DataType::ALL.into_iter().find(|one| one.name() == name)
 }
 

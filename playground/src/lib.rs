@@ -41,6 +41,8 @@ mod objects;
 mod packed;
 mod record;
 mod sdo;
+mod signals;
+mod statistics;
 mod status;
 mod templates;
 mod types;
@@ -58,4 +60,6 @@ pub use journal::{check_run, read_input};
 pub use lesson::{judge_answer, parse_lesson};
 #[cfg(feature = "logs")]
 pub use logs::{read_log, write_log};
+pub use signals::{mapped_values, read_values};
+pub use statistics::Statistics;
 pub use templates::frame_templates;

@@ -98,7 +98,6 @@ pub(crate) fn is_own(packed: &[u8]) -> bool {
 }
 
 /// Its virtual microseconds.
-#[cfg(feature = "logs")]
 pub(crate) fn micros(packed: &[u8]) -> Option<f64> {
     Some(f64::from_le_bytes(packed.get(..8)?.try_into().ok()?))
 }

@@ -3,6 +3,7 @@
 use std::prelude::v1::*;
 use std::string::ToString;
 
+use od_client::pdo;
 use od_model::{Address, values};
 use od_wire::nmt::State;
 use od_wire::sdo::{Request, Response};
@@ -152,7 +153,7 @@ fn mapped(
             break;
         }
         // A mapped object takes bits, wherever they begin.
-        let value = number(data, 8) >> first & (u64::MAX >> (64 - (*bits).clamp(1, 64)));
+        let value = pdo::bits(data, *first as u8, *bits as u8).unwrap_or_default();
         let value = value.to_le_bytes();
         let bytes = &value[..bits.div_ceil(8) as usize];
         let dictionaries = devices.iter().map(VirtualDevice::dictionary);

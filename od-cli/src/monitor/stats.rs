@@ -2,50 +2,42 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use od_bench::stats::{Ids, Row};
 use od_bench::wire::bits::{INTERMISSION, bits};
 use od_bus::filter::{Filter, Seen};
 use od_model::values;
-use od_wire::{Frame, Instant};
+use od_wire::{CanId, Instant};
 use serde_json::{Value, json};
 
 use crate::bus::words::Told;
 
-/// Distances in time that rate and jitter are made of.
-const GAPS: usize = 32;
 /// The load is that of the last second, in microseconds.
 const WINDOW: u64 = 1_000_000;
 
 /// Frames so far.
 #[derive(Default)]
 pub(super) struct Stats {
-    rows: BTreeMap<(bool, u32), Row>,
+    ids: Ids,
+    /// The words of the last frame of each COB-ID.
+    words: BTreeMap<(bool, u32), String>,
     /// Bits of the frames of the last second.
     recent: VecDeque<(Instant, u64)>,
     /// Frames.
     pub(super) count: usize,
 }
 
-struct Row {
-    frame: Frame,
-    at: Instant,
-    count: usize,
-    /// The last distances, in microseconds.
-    gaps: VecDeque<u64>,
-    words: String,
+const fn key(id: CanId) -> (bool, u32) {
+    (id.is_extended(), id.raw())
 }
 
-impl Row {
-    /// The mean distance of frames, in ms.
-    fn period(&self) -> Option<f64> {
-        let sum: u64 = self.gaps.iter().sum();
-        (!self.gaps.is_empty()).then(|| sum as f64 / self.gaps.len() as f64 / 1e3)
-    }
+/// Jitter in ms.
+fn jitter(row: &Row) -> Option<f64> {
+    row.jitter().map(|micros| micros as f64 / 1e3)
+}
 
-    /// The longest minus the shortest distance, in ms.
-    fn jitter(&self) -> Option<f64> {
-        let (low, high) = (self.gaps.iter().min()?, self.gaps.iter().max()?);
-        (self.gaps.len() > 1).then(|| (high - low) as f64 / 1e3)
-    }
+/// The mean distance of the last frames, in ms.
+fn period(row: &Row) -> Option<f64> {
+    row.recent_period().map(|micros| micros / 1e3)
 }
 
 impl Stats {
@@ -54,26 +46,16 @@ impl Stats {
         let bits = bits(&told.frame).len() as u64 + INTERMISSION;
         self.recent.push_back((told.at, bits));
         self.forget(told.at);
-        let id = told.frame.id();
-        let row = self
-            .rows
-            .entry((id.is_extended(), id.raw()))
-            .or_insert_with(|| Row {
-                frame: told.frame,
-                at: told.at,
-                count: 0,
-                gaps: VecDeque::new(),
-                words: String::new(),
-            });
-        if row.count > 0 {
-            row.gaps.push_back(told.at.micros_since(row.at));
-            if row.gaps.len() > GAPS {
-                row.gaps.pop_front();
-            }
-        }
-        row.count += 1;
-        (row.frame, row.at) = (told.frame, told.at);
-        row.words = told.words.to_string();
+        self.ids.take(told.at, &told.frame);
+        self.words
+            .insert(key(told.frame.id()), told.words.to_string());
+    }
+
+    /// The words of the last frame of a row.
+    fn words(&self, row: &Row) -> &str {
+        self.words
+            .get(&key(row.frame.id()))
+            .map_or("", String::as_str)
     }
 
     fn forget(&mut self, now: Instant) {
@@ -105,18 +87,17 @@ impl Stats {
             "{:>8} {:>7} {:>7} {:>7}  {:<16}  last frame",
             "COB-ID", "frames", "per s", "jitter", "data"
         )];
-        let rows = self.rows.values().filter(|row| {
+        let rows = self.ids.rows().filter(|row| {
             filter.passes(&Seen {
                 frame: &row.frame,
                 sent: false,
-                words: &row.words,
+                words: self.words(row),
             })
         });
         lines.extend(rows.map(|row| {
             let number =
                 |number: Option<f64>| number.map_or(String::from("-"), |n| format!("{n:.1}"));
-            let rate = row
-                .period()
+            let rate = period(row)
                 .filter(|period| *period > 0.0)
                 .map(|period| 1e3 / period);
             format!(
@@ -124,9 +105,9 @@ impl Stats {
                 row.frame.id().to_string(),
                 row.count,
                 number(rate),
-                number(row.jitter()),
+                number(jitter(row)),
                 values::hex(row.frame.data()).replace(' ', ""),
-                row.words
+                self.words(row)
             )
         }));
         lines
@@ -134,14 +115,14 @@ impl Stats {
 
     pub(super) fn json(&mut self, now: Instant, kbit: u16) -> Value {
         let load = self.load(now, kbit);
-        let rows = self.rows.values().map(|row| {
+        let rows = self.ids.rows().map(|row| {
             json!({
                 "id": row.frame.id().to_string(),
                 "frames": row.count,
-                "period_ms": row.period(),
-                "jitter_ms": row.jitter(),
+                "period_ms": period(row),
+                "jitter_ms": jitter(row),
                 "data": values::hex(row.frame.data()),
-                "text": row.words,
+                "text": self.words(row),
             })
         });
         json!({
@@ -154,6 +135,8 @@ impl Stats {
 
 #[cfg(test)]
 mod tests {
+    use od_wire::Frame;
+
     use super::*;
     use crate::bus::names::Names;
     use crate::bus::words::Narrator;

@@ -73,7 +73,8 @@ export function step(micros: number, frames = 0): void {
 /** Goes back to the moment before the newest frame. */
 export function stepBack(): void {
   setRunning(false);
-  const newest = state.ring.get(state.ring.end - 1)?.time;
+  const { ring } = state.live;
+  const newest = ring.get(ring.end - 1)?.time;
   send({ op: 'back', to: (newest ?? state.now.value) - 1 });
 }
 
@@ -108,33 +109,6 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
-}
-
-/** Frames of a log that was opened last. */
-let opened: Uint8Array | null = null;
-
-/** Shows a log of another tool in the console; time is paused, so that nothing mixes with it. */
-export async function openLog(name: string, bytes: Uint8Array): Promise<void> {
-  const read = await use('readLog', bytes);
-  if ('error' in read) {
-    state.toast.value = { text: T.frames.unreadable(name, read.error), tone: 'error' };
-    return;
-  }
-  const log = read.value;
-  setRunning(false);
-  clearConsole();
-  state.ring.append(log.frames);
-  state.captured.value = state.ring.end;
-  opened = log.frames;
-  const skipped = log.skipped ? ` ${T.frames.skipped(log.skipped, log.line, log.why)}` : '';
-  state.toast.value = { text: T.frames.opened(name, log.count) + skipped, tone: log.skipped ? 'error' : 'info', action: { text: T.frames.replay, run: replayLog } };
-}
-
-/** Sends the frames of the opened log, in their rhythm. */
-export function replayLog(): void {
-  if (!opened) return;
-  send({ op: 'replay', frames: opened, speed: 1 });
-  setRunning(true);
 }
 
 /** Puts a device on the bus, in the place of another or in a new one; false when its file cannot be used. */

@@ -6,7 +6,7 @@ import type { FrameTemplate, ObjectRecord, Value } from './sim/api';
 import { T } from './texts';
 import { grouped } from './format';
 
-export { checkRun, frameBits, readInput, Transfers } from './wasm/core/od_playground';
+export { checkRun, frameBits, mappedValues, readInput, readValues, Statistics, Transfers } from './wasm/core/od_playground';
 
 /** Before the worker has sent the module there is nothing to ask. */
 const isReady = signal(false);

@@ -34,6 +34,8 @@ async function open(): Promise<void> {
 
 /** What can wait until the bench runs. A frame in another page keeps nothing. */
 async function settle(): Promise<void> {
+  const { start: record } = await import('./seeing/tracks');
+  record();
   if ('embed' in document.documentElement.dataset) return;
   const { start: keep } = await import('./share/keep');
   await keep();

@@ -35,6 +35,8 @@ export const rate = signal(0);
 export const replaying = signal(false);
 /** Frames of a log that are still to be sent. */
 export const toSend = signal(0);
+/** A log that can be sent, or played to be looked at; its frames are packed. */
+export const log = signal<{ name: string; frames: Uint8Array; count: number } | null>(null);
 
 export const powered = computed(() => status.value?.powered ?? false);
 export const nmt = computed(() => status.value?.nmt ?? 'off');
@@ -53,8 +55,14 @@ export const unsaved = signal<ReadonlySet<number>>(new Set());
 /** The EEPROM of the selected device, while somebody looks. */
 export const eeprom = signal<Uint8Array | null>(null);
 
-/** Captured frames; `captured` changes whenever the ring does. */
+/** The frames that are shown; `captured` changes whenever the ring does. */
 export const ring = new Ring();
+/** Where new frames go: another ring while a log is shown in the place of the capture. */
+export const live = { ring };
+/** A trigger stops the capture: new frames go nowhere. */
+export const capturing = signal(true);
+/** What a trigger is doing, in words. */
+export const trigger = signal<{ phase: 'armed' | 'fired' | 'stopped'; text: string } | null>(null);
 export const captured = signal(0);
 /** Number of the last frame that the console shows while it is paused. */
 export const pausedAt = signal<number | null>(null);
@@ -103,6 +111,8 @@ export interface Offer {
   text: string;
   action: string;
   run(): void;
+  /** Other ways to take it. */
+  others?: { text: string; run(): void }[];
 }
 export const offers = signal<Offer[]>([]);
 

@@ -42,7 +42,9 @@ export type Command =
   /** Each call has its own arguments. */
   | { op: 'ask'; ticket: number; name: keyof Questions; calls: unknown[][] }
   | { op: 'tool'; ticket: number; name: keyof Tools; args: unknown[] }
-  | { op: 'replay'; frames: Uint8Array; speed: number }
+  | { op: 'replay'; ticket: number; frames: Uint8Array; speed: number; paused: boolean }
+  /** Of the log that is sent: another speed, a pause or its end, the next frame now, or no more. */
+  | { op: 'player'; speed?: number; paused?: boolean; steps?: boolean; ends?: boolean }
   | { op: 'drawn' }
   /** Answered at once, whatever else there is to do. */
   | { op: 'ping' };

@@ -70,6 +70,7 @@ export class Engine {
         break;
       }
       case 'restore':
+        this.replay = null;
         this.isBusy = true;
         await world.restore(command.entries, command.quiet);
         this.isBusy = false;
@@ -129,6 +130,16 @@ export class Engine {
         return;
       case 'replay':
         this.replay = new Replay(command.frames, world.bus.now(), command.speed);
+        this.replay.set(world.bus.now(), command);
+        this.answer(command.ticket, true);
+        break;
+      case 'player':
+        this.replay?.set(world.bus.now(), command);
+        if (command.ends) this.replay = null;
+        if (command.steps && this.replay) {
+          this.sendNext(this.replay);
+          if (!this.running) this.sendOut();
+        }
         break;
       case 'still':
         this.answer(command.ticket, world.bus.still());
@@ -223,9 +234,9 @@ export class Engine {
 
   /** The next frame of a log; what it answers is the bench's business. */
   private sendNext(replay: Replay): void {
-    const input = replay.next();
+    const input = replay.take(this.world.bus.now());
     if (input) void this.world.act(input);
-    else this.replay = null;
+    if (replay.left === 0) this.replay = null;
   }
 
   private measure(wall: number): void {

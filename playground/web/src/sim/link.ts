@@ -6,6 +6,8 @@ import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
 import type { Added, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
+import { showLive } from '../seeing/shelf';
+import { Ring } from '../trace/ring';
 import { trusted } from '../trusted';
 import { FRAME_BYTES } from './packed';
 
@@ -180,13 +182,13 @@ export function select(node: number): void {
 }
 
 function rewound(to: number): void {
-  const { ring } = state;
+  const { ring } = state.live;
   let end = ring.end;
   while (end > ring.first && (ring.get(end - 1)?.time ?? 0) > to) end -= 1;
   ring.truncate(end);
   batch(() => {
     state.lastPdo.value = null;
-    for (let number = end - 1; number >= ring.first && state.lastPdo.value === null; number--) notePdo(number);
+    for (let number = end - 1; number >= ring.first && state.lastPdo.value === null; number--) notePdo(number, ring);
 
     state.pausedAt.value = null;
     state.chosenFrame.value = null;
@@ -195,9 +197,13 @@ function rewound(to: number): void {
   });
 }
 
+/** What comes is of another bench. */
 export function dropFrames(): void {
+  showLive();
   state.ring.clear();
   batch(() => {
+    state.capturing.value = true;
+    state.trigger.value = null;
     state.chosenFrame.value = null;
     state.pausedAt.value = null;
     state.captured.value = state.ring.end;
@@ -206,7 +212,7 @@ export function dropFrames(): void {
 }
 
 function apply(snapshot: Snapshot): void {
-  const first = state.ring.end;
+  const first = state.live.ring.end;
   batch(() => {
     state.now.value = snapshot.now;
     state.rate.value = snapshot.rate;
@@ -234,16 +240,19 @@ function apply(snapshot: Snapshot): void {
   for (const listener of listeners) listener(snapshot, first);
 }
 
+/** Frames while the capture is stopped: the last PDO is known all the same. */
+const passing = new Ring();
+
 function frames(snapshot: Snapshot): void {
-  const { ring } = state;
+  const ring = state.capturing.peek() ? state.live.ring : passing;
   ring.append(snapshot.frames);
-  for (let number = ring.end - snapshot.frames.length / FRAME_BYTES; number < ring.end; number++) notePdo(number);
-  state.captured.value = ring.end;
+  for (let number = ring.end - snapshot.frames.length / FRAME_BYTES; number < ring.end; number++) notePdo(number, ring);
+  if (ring === state.ring) state.captured.value = ring.end;
 }
 
 /** Keeps a frame that is PDO1 of the device that is shown. */
-function notePdo(number: number): void {
-  const frame = state.ring.get(number);
+function notePdo(number: number, ring: Ring): void {
+  const frame = ring.get(number);
   const isOurs = frame?.tag.text === 'PDO1' && frame.node === state.nodeId.value && !frame.fromPage;
   if (isOurs) state.lastPdo.value = { time: frame.time, data: frame.data };
 }

@@ -1,35 +1,54 @@
-// A log that is sent again: its frames, each as long after the first as they were.
+// A log that is sent again: its frames, each as long after the first as they were, at any speed,
+// with pauses, and one by one.
 
 import type { Input } from './api';
-import { FRAME_BYTES, unpack } from './packed';
+import { FRAME_BYTES, unpack, type Packed } from './packed';
 
 export class Replay {
   private place = 0;
-  private readonly first: number;
+  /** This moment of the log is that of the bench. */
+  private log: number;
+  private isPaused = false;
 
-  /** `frames` are packed, in the order of their times; `from` is the moment of the first. */
+  /** `frames` are packed, in the order of their times; `bench` is the moment of the first. */
   constructor(
     private readonly frames: Uint8Array,
-    private readonly from: number,
-    private readonly speed: number,
+    private bench: number,
+    private speed: number,
   ) {
-    this.first = frames.length ? unpack(frames, 0).time : 0;
+    this.log = this.next?.time ?? 0;
   }
 
   get left(): number {
     return this.frames.length / FRAME_BYTES - this.place;
   }
 
-  /** When the next frame is due. */
-  get due(): number {
-    if (this.left <= 0) return -Infinity;
-    return Math.round(this.from + Math.max(0, unpack(this.frames, this.place * FRAME_BYTES).time - this.first) / this.speed);
+  private get next(): Packed | null {
+    return this.left > 0 ? unpack(this.frames, this.place * FRAME_BYTES) : null;
   }
 
-  next(): Extract<Input, { op: 'send' }> | null {
-    if (this.left <= 0) return null;
-    const frame = unpack(this.frames, this.place * FRAME_BYTES);
+  /** When the next frame is due. */
+  get due(): number {
+    const { next } = this;
+    if (!next) return -Infinity;
+    return this.isPaused ? Infinity : Math.round(this.bench + Math.max(0, next.time - this.log) / this.speed);
+  }
+
+  /** Another speed, a pause or its end: the rest of the way to the next frame is the same. */
+  set(now: number, { speed = this.speed, paused = this.isPaused }: { speed?: number | undefined; paused?: boolean | undefined }): void {
+    if (!this.isPaused) this.log = Math.min(this.next?.time ?? Infinity, this.log + Math.max(0, now - this.bench) * this.speed);
+    this.bench = now;
+    this.speed = speed;
+    this.isPaused = paused;
+  }
+
+  /** The next frame as an input; null: it was disturbed on the wire it was recorded from, or there is none. */
+  take(now: number): Extract<Input, { op: 'send' }> | null {
+    const frame = this.next;
+    if (!frame) return null;
     this.place += 1;
+    if (this.isPaused) [this.log, this.bench] = [frame.time, now];
+    if (frame.disturbed) return null;
     const data = frame.remote ? new Uint8Array(frame.dlc) : frame.data.slice();
     return { op: 'send', id: frame.id, data, extended: frame.extended, remote: frame.remote };
   }

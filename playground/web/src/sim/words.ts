@@ -16,9 +16,12 @@ const asked = new Set<number>();
 /** Changes when words arrived late. */
 export const wordsArrived = signal(0);
 
-listen(({ words }) => {
+listen(({ words, frames }, first) => {
   if (known.size > MOST_KEPT) known.clear();
-  const from = ring.end - words.length;
+  const end = first + frames.length / FRAME_BYTES;
+  // Others are not shown, or not captured.
+  if (end !== ring.end) return;
+  const from = end - words.length;
   words.forEach((text, i) => known.set(from + i, text));
 });
 

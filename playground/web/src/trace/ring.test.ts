@@ -43,3 +43,17 @@ test('a batch larger than the ring leaves its end', () => {
   assert.equal(ring.get(CAPACITY + 9)?.time, CAPACITY + 9);
   assert.equal(ring.get(10)?.time, 10);
 });
+
+test('old frames are forgotten, and two captures change places', () => {
+  const [one, other] = [new Ring(), new Ring()];
+  one.append(frames(0, 5000));
+  one.forgetBefore(100);
+  assert.deepEqual([one.first, one.get(99), one.get(100)?.time], [100, undefined, 100]);
+  one.forgetBefore(50);
+  assert.equal(one.first, 100);
+  other.append(frames(70_000, 3));
+  one.exchange(other);
+  assert.deepEqual([one.end, one.get(2)?.time, other.first, other.get(4999)?.time], [3, 70_002, 100, 4999]);
+  one.append(frames(1, 1));
+  assert.deepEqual([one.get(3)?.time, other.end], [1, 5000]);
+});

@@ -72,6 +72,18 @@ export class Ring {
     if (end < this.end) this.end = Math.max(end, this.first);
   }
 
+  /** Forgets the oldest frames, up to before this number. */
+  forgetBefore(number: number): void {
+    this.first = Math.max(this.first, Math.min(number, this.end));
+  }
+
+  /** Takes what another one has, and gives it what was here. */
+  exchange(other: Ring): void {
+    const { bytes, marks, first, end } = this;
+    Object.assign(this, { bytes: other.bytes, marks: other.marks, first: other.first, end: other.end });
+    Object.assign(other, { bytes, marks, first, end });
+  }
+
   /** The frame with this number, if it is still there. */
   get(number: number): Frame | undefined {
     if (number < this.first || number >= this.end) return undefined;

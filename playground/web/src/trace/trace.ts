@@ -1,26 +1,17 @@
 // The views of the capture: its rows in order (filtered, folded), its identifiers with
-// their rhythm, and the load of the bus. All of them follow one store.
+// their figures, and the load of the bus. All of them follow one store.
 
-import { Transfers } from '../codec';
+import { Statistics, Transfers } from '../codec';
 import { EXTENDED, FRAME_BYTES, DISTURBED, REMOTE } from '../sim/packed';
 import type { Transfer } from '../sim/api';
 import type { Filter } from './filter';
 import { CAPACITY, type Frame, type Ring } from './ring';
 
-/** One identifier: how often, how regularly, and what it said last. */
+/** One identifier, and the number of its latest frame. */
 export interface Identifier {
-  key: number;
   id: number;
   extended: boolean;
-  count: number;
-  /** Number of the latest frame, and of the one before. */
   last: number;
-  before: number;
-  /** Microseconds between the last two, and the shortest and longest so far. */
-  cycle: number;
-  least: number;
-  most: number;
-  time: number;
 }
 
 /** Bits on the wire, with the average of stuff bits. */
@@ -39,10 +30,12 @@ export class Trace {
   /** The next frame that is to be looked at. */
   private next = 0;
   private made: Transfers | undefined;
+  private figures: Statistics | undefined;
   /** Numbers of the first frames of transfers that have several. */
   private readonly folded = new Set<number>();
   /** For each kept frame, the one before with its identifier; by number modulo capacity. */
   private readonly previous = new Int32Array(CAPACITY).fill(-1);
+  /** By CAN-ID, plus 2³² where it has 29 bits. */
   readonly identifiers = new Map<number, Identifier>();
   private recent: { time: number; bits: number; frames: number }[] = [];
   errors = 0;
@@ -66,6 +59,11 @@ export class Trace {
   /** Made when the first frame is there: by then the module is, too. */
   private get transfers(): Transfers {
     return (this.made ??= new Transfers());
+  }
+
+  /** Figures of each CAN-ID and each SDO client. */
+  get statistics(): Statistics {
+    return (this.figures ??= new Statistics());
   }
 
   /** The transfer that is folded into the row of this frame. */
@@ -100,7 +98,9 @@ export class Trace {
     const { ring } = this;
     if (this.next > ring.end) this.restart();
     if (this.next < ring.first) this.next = ring.first;
+    const from = this.next;
     for (; this.next < ring.end; this.next++) this.take(this.next);
+    if (this.next > from) this.statistics.take(ring.slice(from, this.next));
     let lost = 0;
     while (this.head < this.rows.length && this.rows[this.head]! < ring.first) {
       this.folded.delete(this.rows[this.head]!);
@@ -123,7 +123,7 @@ export class Trace {
     const time = view.getFloat64(0, true);
     this.previous[number % CAPACITY] = -1;
     if (flags & DISTURBED) this.errors += 1;
-    else this.note(id, (flags & EXTENDED) !== 0, number, time);
+    else this.note(id, (flags & EXTENDED) !== 0, number);
     this.load(time, bitsOf(flags, bytes[13]!));
     this.place(number);
   }
@@ -136,21 +136,11 @@ export class Trace {
     else if (!filter || filter.test(ring.get(number)!, filter.needsWords ? this.words(number) : undefined)) this.rows.push(number);
   }
 
-  private note(id: number, extended: boolean, number: number, time: number): void {
+  private note(id: number, extended: boolean, number: number): void {
     const key = extended ? id + 0x1_0000_0000 : id;
     const known = this.identifiers.get(key);
-    if (!known) {
-      this.identifiers.set(key, { key, id, extended, count: 1, last: number, before: -1, cycle: 0, least: Infinity, most: 0, time });
-      return;
-    }
-    this.previous[number % CAPACITY] = known.last;
-    known.cycle = time - known.time;
-    known.least = Math.min(known.least, known.cycle);
-    known.most = Math.max(known.most, known.cycle);
-    known.before = known.last;
-    known.last = number;
-    known.time = time;
-    known.count += 1;
+    if (known) this.previous[number % CAPACITY] = known.last;
+    this.identifiers.set(key, { id, extended, last: number });
   }
 
   private load(time: number, bits: number): void {
@@ -194,6 +184,7 @@ export class Trace {
     this.folded.clear();
     this.made?.clear();
     this.identifiers.clear();
+    this.figures?.clear();
     this.recent = [];
     this.errors = 0;
     this.next = this.ring.first;

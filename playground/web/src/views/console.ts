@@ -11,20 +11,21 @@ import { openFile } from './files';
 import { icons } from './icons';
 import { View } from './view';
 import './frame-list';
-import './identifiers';
 import './frame-detail';
 
 const FORMATS = ['log', 'asc', 'trc', 'pcapng'] as const;
 
 class Console extends View {
-  static override properties = { isFinding: { state: true }, finding: { state: true }, findNote: { state: true } };
+  static override properties = { isFinding: { state: true }, hasTrigger: { state: true }, finding: { state: true }, findNote: { state: true } };
   declare isFinding: boolean;
+  declare hasTrigger: boolean;
   declare finding: string;
   declare findNote: string;
 
   constructor() {
     super();
     this.isFinding = false;
+    this.hasTrigger = false;
     this.finding = '';
     this.findNote = '';
     this.addEventListener('keydown', (event) => {
@@ -38,6 +39,11 @@ class Console extends View {
   private openFind(): void {
     this.isFinding = true;
     void this.updateComplete.then(() => this.querySelector<HTMLInputElement>('.find input')?.select());
+  }
+
+  private showTrigger(): void {
+    this.hasTrigger = !this.hasTrigger;
+    load(() => import('../seeing/trigger-bar'));
   }
 
   private async onFind(event: KeyboardEvent): Promise<void> {
@@ -59,11 +65,12 @@ class Console extends View {
         aria-invalid=${error !== null} aria-describedby="filter-note" .value=${filterText.value} @input=${(event: Event) => setFilter((event.target as HTMLInputElement).value)}></label>
       <span class="segmented" role="group" aria-label=${t.view}>
         <button class="small" aria-pressed=${view.value === 'order'} @click=${() => (view.value = 'order')}>${t.order}</button>
-        <button class="small" aria-pressed=${view.value === 'ids'} @click=${() => (view.value = 'ids')}>${t.ids}</button>
-        <button class="small" aria-pressed=${view.value === 'plot'} @click=${showPlot}>${T.plot.title}</button>
+        <button class="small" aria-pressed=${view.value === 'ids'} @click=${() => show('ids', () => import('../seeing/identifiers'))}>${t.ids}</button>
+        <button class="small" aria-pressed=${view.value === 'plot'} @click=${() => show('plot', () => import('../seeing/plot'))}>${T.plot}</button>
       </span>
       <button class="icon-button" aria-pressed=${folds.value} aria-label=${t.folds} title=${t.folds} @click=${() => setFolds(!folds.value)}>${icons.fold}</button>
       <button class="icon-button" aria-label=${t.find} title=${t.findTitle} @click=${() => this.openFind()}>${icons.search}</button>
+      <button class="icon-button" aria-pressed=${this.hasTrigger} aria-label=${t.trigger} title=${t.triggerTitle} @click=${() => this.showTrigger()}>${icons.trigger}</button>
       ${state.bookmarks.value.size ? html`<button class="icon-button" aria-label=${t.nextMark} title=${t.nextMark} @click=${() => nextBookmark(1)}>${icons.mark}</button>` : nothing}
       ${error ? html`<p id="filter-note" class="note" data-tone="error" role="status">${caret(filterText.value, error.at)} ${error.error}</p>` : nothing}
       ${this.isFinding
@@ -71,6 +78,7 @@ class Console extends View {
             @input=${(event: Event) => { this.finding = (event.target as HTMLInputElement).value; this.findNote = ''; }} @keydown=${(event: KeyboardEvent) => void this.onFind(event)}>
             <span class="note" data-tone="error" role="status">${this.findNote}</span></div>`
         : nothing}
+      ${this.hasTrigger ? html`<od-trigger></od-trigger>` : nothing}
     </div>`;
   }
 
@@ -81,11 +89,13 @@ class Console extends View {
     const kept = state.ring.end - state.ring.first;
     const waiting = paused === null ? 0 : state.ring.end - Math.max(paused, state.ring.first);
     const t = T.frames;
+    const trigger = state.trigger.value;
     return html`
       <header class="panel-head">
-        <h2>${t.title}</h2>
+        <h2>${t.title}</h2><od-shelf></od-shelf>
         <span class="muted num count" aria-label=${t.captured}>${grouped(kept)}</span>
         ${paused === null ? nothing : html`<span class="pill" data-tone="amber">${t.paused}${waiting ? html`, <span class="num">${grouped(waiting)}</span> ${t.fresh}` : nothing}</span>`}
+        ${trigger ? html`<button class="pill" data-tone=${trigger.phase === 'armed' ? '' : 'amber'} title=${trigger.text} @click=${() => { this.hasTrigger = true; }}>${t.triggers[trigger.phase]}</button>` : nothing}
         <div class="spacer"></div>
         <button class="small" aria-pressed=${paused !== null} title=${t.pauseTitle} @click=${togglePause}>
           ${paused === null ? icons.pause : icons.play} ${paused === null ? t.pause : t.goOn}
@@ -112,10 +122,14 @@ class Console extends View {
   }
 }
 
-/** The plots come with a library that nobody else needs. */
-function showPlot(): void {
-  view.value = 'plot';
-  import('./plot').catch(() => (state.toast.value = { text: T.plot.unloaded, tone: 'error' }));
+/** A view that comes when it is asked for. */
+function show(name: 'ids' | 'plot', part: () => Promise<unknown>): void {
+  view.value = name;
+  load(part);
+}
+
+function load(part: () => Promise<unknown>): void {
+  part().catch(() => (state.toast.value = { text: T.frames.unloaded, tone: 'error' }));
 }
 
 /** The part of a text that is wrong, and what follows. */

@@ -1,6 +1,6 @@
 // An EDS file from the user's disk to the bus.
 
-import { openDevice, openLog } from '../actions';
+import { openDevice } from '../actions';
 import { use } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
@@ -11,6 +11,13 @@ const LONGEST_LOG = 100_000_000;
 
 /** Longest file that is worth a try: the largest known EDS files have about 2 MB. */
 const LONGEST = 8_000_000;
+
+/** Opens a log of another tool; a capture that it would replace is not thrown away unasked. */
+async function openLog(name: string, bytes: Uint8Array): Promise<void> {
+  const [read, { opened }] = await Promise.all([use('readLog', bytes), import('../seeing/log')]);
+  if ('error' in read) state.toast.value = { text: T.frames.unreadable(name, read.error), tone: 'error' };
+  else opened(name, read.value);
+}
 
 export async function openFile(file: File, nodeId: number, place: number | 'new'): Promise<boolean> {
   if (LOG.test(file.name) && file.size < LONGEST_LOG) {

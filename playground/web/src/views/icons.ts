@@ -19,6 +19,7 @@ export const icons = {
   search: icon(svg`<circle cx="9" cy="9" r="5"/><path d="m12.8 12.8 3.6 3.6"/>`),
   filter: icon(svg`<path d="M3.5 4.5h13L11.5 10.6v4.6l-3 1.6v-6.2z"/>`),
   fold: icon(svg`<path d="M4 5h12M7 10h9M7 15h9M4 8.2v7.4"/>`),
+  trigger: icon(svg`<path d="M3 14.5h5V5.5h9M10.4 8 8 5.5 5.6 8"/>`),
   mark: icon(svg`<path d="M6 3.4h8v13.2l-4-3.4-4 3.4z"/>`),
   lesson: icon(svg`<path d="M10 5.2C8.4 4 6 3.6 3.4 3.8v11.4c2.6-.2 5 .2 6.6 1.4 1.6-1.2 4-1.6 6.6-1.4V3.8C14 3.6 11.6 4 10 5.2zM10 5.2v11.4"/>`),
   tick: icon(svg`<path d="m4.4 10.6 3.8 3.8 7.4-8.4" stroke-width="2"/>`),

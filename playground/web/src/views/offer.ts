@@ -11,10 +11,11 @@ class Offers extends View {
     const drop = (offer: state.Offer): void => void (state.offers.value = state.offers.value.filter((one) => one !== offer));
     // Over a lesson there is no place for the bench of last time.
     const offers = state.offers.value.filter((one) => one.key !== 'kept' || state.lesson.value === null);
-    return html`<div class="offers" role="region" aria-label=${T.share.offers} ?hidden=${offers.length === 0}>${offers.map(
+    return html`<div class="offers" role="region" aria-live="polite" aria-label=${T.share.offers} ?hidden=${offers.length === 0}>${offers.map(
       (offer) => html`<div class="offer">
         <span>${offer.text}</span>
         <button class="small primary" @click=${() => { drop(offer); offer.run(); }}>${offer.action}</button>
+        ${offer.others?.map(({ text, run }) => html`<button class="small" @click=${() => { drop(offer); run(); }}>${text}</button>`)}
         <button class="quiet" aria-label=${T.share.notNow} title=${T.share.notNow} @click=${() => drop(offer)}>${icons.close}</button>
       </div>`,
     )}</div>`;

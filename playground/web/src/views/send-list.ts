@@ -1,9 +1,10 @@
 // Frames that are sent again and again: by a click, or in a rhythm. The list is kept.
 
 import { html, nothing } from 'lit';
-import { signal } from '@preact/signals-core';
+import { effect, signal } from '@preact/signals-core';
 import { readTyped } from '../actions';
 import { act } from '../sim/link';
+import * as state from '../state';
 import { T } from '../texts';
 import { icons } from './icons';
 import { View } from './view';
@@ -71,11 +72,17 @@ function set(item: Item, change_: Partial<Item>): void {
   change(items.value.map((one) => (one.key === item.key ? { ...one, ...change_ } : one)));
 }
 
+// A log that was opened has its place here.
+effect(() => {
+  if (state.log.value) isShown.value = true;
+});
+
 class SendList extends View {
   protected override render() {
     const t = T.sendList;
     return html`<details class="send-list" ?open=${isShown.value} @toggle=${(event: Event) => (isShown.value = (event.target as HTMLDetailsElement).open)}>
       <summary>${t.title} <span class="muted num">${items.value.length || ''}</span></summary>
+      ${state.log.value ? html`<od-player></od-player>` : nothing}
       <ul class="scroll">${items.value.map((item) => this.row(item))}</ul>
       <button class="small quiet" @click=${() => addToList('')}>${icons.plus} ${t.add}</button>
     </details>`;

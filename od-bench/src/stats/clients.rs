@@ -1,0 +1,198 @@
+//! Figures of the SDO client of each node (its default SDO, CiA 301, chapter 7.2.4): time to answer, aborts.
+
+use od_wire::sdo::{Request, Response};
+use od_wire::{Frame, Instant};
+
+use super::{Sum, Times};
+use crate::sorted::Sorted;
+
+/// The first byte of an abort, of a client as of a server.
+const ABORT: u8 = 0x80;
+
+/// Where a block transfer is: its segments have no command specifier.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+enum Block {
+    #[default]
+    None,
+    Download,
+    Upload,
+}
+
+/// The requests to one node, and its answers.
+#[derive(Clone, Debug, Default)]
+pub struct Client {
+    /// Requests that want an answer; of a block the segments do not count.
+    pub requests: u32,
+    /// Transfers that the client or the server aborted.
+    pub aborts: u32,
+    /// Requests that were not answered before the next one.
+    pub unanswered: u32,
+    times: Sum,
+    /// When the last request came, while it waits for its answer.
+    asked: Option<Instant>,
+    block: Block,
+}
+
+impl Client {
+    /// Time from a request to its answer; `None` before the first answer.
+    pub fn times(&self) -> Option<Times> {
+        self.times.times()
+    }
+
+    fn ask(&mut self, at: Instant, frame: &Frame) {
+        let request = Request::parse(frame.bytes());
+        if frame.bytes()[0] == ABORT {
+            self.aborts += 1;
+            self.unanswered += u32::from(self.asked.take().is_some());
+            self.block = Block::None;
+        } else if self.block == Block::Download {
+            // The answer comes after the last segment of a block.
+            self.asked = Some(at);
+        } else if request == Request::EndBlockUpload {
+            self.block = Block::None;
+        } else {
+            if self.asked.replace(at).is_some() {
+                self.unanswered += 1;
+                self.block = Block::None;
+            }
+            self.requests += 1;
+        }
+    }
+
+    fn answer(&mut self, at: Instant, frame: &Frame) {
+        if let Some(asked) = self.asked.take() {
+            self.times.add(at.micros_since(asked));
+        }
+        if frame.bytes()[0] == ABORT {
+            self.aborts += 1;
+            self.block = Block::None;
+            return;
+        }
+        if self.block == Block::Upload {
+            return;
+        }
+        self.block = match Response::parse(frame.bytes()) {
+            Response::InitiateBlockDownload { .. } => Block::Download,
+            Response::InitiateBlockUpload { .. } => Block::Upload,
+            Response::EndBlockDownload => Block::None,
+            _ => self.block,
+        };
+    }
+}
+
+/// The SDO clients of a bus, by the node ID of their server.
+#[derive(Clone, Debug, Default)]
+pub struct Clients(Sorted<u8, Client>);
+
+impl Clients {
+    /// Takes the next frame; others than those of a default SDO change nothing.
+    pub fn take(&mut self, at: Instant, frame: &Frame) {
+        let id = frame.id().as_standard().filter(|_| !frame.is_remote());
+        let Some(id @ (0x581..=0x5FF | 0x601..=0x67F)) = id else {
+            return;
+        };
+        let client = self.0.get_or_default((id & 0x7F) as u8);
+        match id < 0x600 {
+            true => client.answer(at, frame),
+            false => client.ask(at, frame),
+        }
+    }
+
+    /// The clients, by ascending node ID.
+    pub fn all(&self) -> impl Iterator<Item = (u8, &Client)> {
+        self.0.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::logs::candump::parse_frame;
+
+    /// Frames 1 ms apart: requests, aborts, unanswered, times.
+    #[track_caller]
+    fn check(lines: &[&str], counts: [u32; 3], times: Option<(u64, u64)>) {
+        let mut clients = Clients::default();
+        for (at, line) in (0..).zip(lines) {
+            let frame = parse_frame(line).expect(line);
+            clients.take(Instant::from_millis(at), &frame);
+        }
+        let (node, client) = clients.all().next().expect("a client");
+        let Client {
+            requests,
+            aborts,
+            unanswered,
+            ..
+        } = *client;
+        assert_eq!((node, [requests, aborts, unanswered]), (1, counts));
+        let times = times.map(|(least, most)| (least * 1000, most * 1000));
+        assert_eq!(client.times().map(|one| (one.least, one.most)), times);
+    }
+
+    #[test]
+    fn an_answer_has_its_time() {
+        check(
+            &[
+                "601#4004600000000000",
+                "581#4304600001020304",
+                "601#4004600000000000",
+                "701#05",
+                "581#4304600001020304",
+            ],
+            [2, 0, 0],
+            Some((1, 2)),
+        );
+    }
+
+    #[test]
+    fn aborts_count_for_server_and_client_and_silence_counts() {
+        check(
+            &[
+                "601#4000700000000000",
+                "581#8000700000000206",
+                "601#4004600000000000",
+                "601#8004600000000405",
+                "601#4004600000000000",
+                "601#4004600000000000",
+            ],
+            [4, 2, 2],
+            Some((1, 1)),
+        );
+    }
+
+    #[test]
+    fn segments_of_a_block_are_no_requests_and_no_answers() {
+        check(
+            &[
+                "601#C201200009000000",
+                "581#A401200008000000",
+                "601#0131323334353637",
+                "601#8238390000000000",
+                "581#A202080000000000",
+                "601#D500000000000000",
+                "581#A100000000000000",
+                "601#4004600000000000",
+                "581#4304600001020304",
+            ],
+            [2, 0, 0],
+            Some((1, 1)),
+        );
+        check(
+            &[
+                "601#A408100008000000",
+                "581#C208100009000000",
+                "601#A300000000000000",
+                // Segment 36 looks like the start of a block download.
+                "581#2431323334353637",
+                "581#A438390000000000",
+                "601#A202080000000000",
+                "581#D500000000000000",
+                "601#A100000000000000",
+                "601#4004600000000000",
+                "581#4304600001020304",
+            ],
+            [4, 0, 0],
+            Some((1, 1)),
+        );
+    }
+}

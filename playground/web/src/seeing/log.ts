@@ -1,0 +1,58 @@
+// A log that was read comes to the console: beside the capture, or in its place.
+
+import { clearConsole, saveLog, setRunning } from '../actions';
+import type { Log } from '../sim/api';
+import * as state from '../state';
+import { Ring } from '../trace/ring';
+import { start } from './player';
+import { close, putBeside, showLive } from './shelf';
+import './shelf-tabs';
+import { S } from './texts';
+
+/** The end of the capture while it is a log, and nothing came since. */
+let onlyLog: { cleared: number; end: number } | null = null;
+
+/** Shows a log. A capture that somebody may want is not replaced unasked. */
+export function opened(name: string, log: Log): void {
+  const { ring } = state.live;
+  const isFree = ring.end === ring.first || (onlyLog?.end === ring.end && onlyLog.cleared === state.cleared.value);
+  state.offers.value = state.offers.value.filter(({ key }) => key !== 'log');
+  if (isFree) return replace(name, log);
+  const text = S.log.ask(name, log.count, ring.end - ring.first) + skipped(log);
+  const save = async (): Promise<void> => {
+    showLive();
+    await saveLog('log');
+    replace(name, log);
+  };
+  const others = [
+    { text: S.log.save, run: () => void save() },
+    { text: S.log.replace, run: () => replace(name, log) },
+  ];
+  state.offers.value = [...state.offers.value, { key: 'log', text, action: S.log.beside, run: () => beside(name, log), others }];
+}
+
+const skipped = (log: Log): string => (log.skipped ? ` ${S.log.skipped(log.skipped, log.line, log.why)}` : '');
+
+function tell(name: string, log: Log, isBeside: boolean): void {
+  state.log.value = { name, frames: log.frames, count: log.count };
+  const text = S.log.opened(name, log.count, isBeside) + skipped(log);
+  state.toast.value = { text, tone: log.skipped ? 'error' : 'info', action: { text: S.log.send, run: () => start('bus') } };
+}
+
+function beside(name: string, log: Log): void {
+  const ring = new Ring();
+  ring.append(log.frames);
+  putBeside(name, ring);
+  tell(name, log, true);
+}
+
+/** Time is paused, so that nothing mixes with it. */
+function replace(name: string, log: Log): void {
+  close();
+  setRunning(false);
+  clearConsole();
+  state.ring.append(log.frames);
+  state.captured.value = state.ring.end;
+  onlyLog = { cleared: state.cleared.value, end: state.ring.end };
+  tell(name, log, false);
+}

@@ -1,0 +1,85 @@
+// One value over virtual time. There is room for so many points: older ones become coarser, and
+// their lowest and highest values stay.
+
+import type { Value } from '../sim/api';
+
+export const MOST_POINTS = 16_000;
+
+/** A value as a number, or null where it is none: a gap in the line. */
+export function numeric(value: Value | undefined): number | null {
+  if (typeof value === 'bigint') return Number(value);
+  if (typeof value === 'boolean') return Number(value);
+  return typeof value === 'number' ? value : null;
+}
+
+export class Series {
+  /** Virtual seconds, not falling. */
+  times: number[] = [];
+  values: (number | null)[] = [];
+
+  constructor(private readonly most = MOST_POINTS) {}
+
+  clear(): void {
+    this.times = [];
+    this.values = [];
+  }
+
+  /** Adds a value. A time that is before the last was reached by a step back: what came after it goes. */
+  push(time: number, value: number | null): void {
+    let end = this.times.length;
+    while (end > 0 && this.times[end - 1]! > time) end -= 1;
+    this.times.length = end;
+    this.values.length = end;
+    this.times.push(time);
+    this.values.push(value);
+    if (this.times.length > this.most) this.coarsen();
+  }
+
+  /** Of each four points of the older half, the lowest and the highest stay. */
+  private coarsen(): void {
+    const half = this.most >> 1;
+    const times: number[] = [];
+    const values: (number | null)[] = [];
+    for (let from = 0; from < half; from += 4) {
+      const group = this.values.slice(from, Math.min(half, from + 4));
+      const known = group.filter((value) => value !== null);
+      const [low, high] = [group.indexOf(Math.min(...known)), group.lastIndexOf(Math.max(...known))];
+      // A gap stays a gap, and the first moment the first.
+      const kept = new Set([from === 0 ? 0 : low, low, high, group.indexOf(null)]);
+      for (const place of [...kept].filter((place) => place >= 0).sort((a, b) => a - b)) {
+        times.push(this.times[from + place]!);
+        values.push(group[place]!);
+      }
+    }
+    this.times = times.concat(this.times.slice(half));
+    this.values = values.concat(this.values.slice(half));
+  }
+
+  /** The last place whose time is not after this one; -1 where there is none. */
+  placeAt(time: number): number {
+    let [low, high] = [0, this.times.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.times[middle]! <= time) low = middle + 1;
+      else high = middle;
+    }
+    return low - 1;
+  }
+
+  /** The value that held at a moment: the last one that came before. */
+  at(time: number): number | null {
+    return this.values[this.placeAt(time)] ?? null;
+  }
+
+  /** The lowest and the highest value between two moments; the lowest is above the highest where there is none. */
+  range(from: number, to: number): { least: number; most: number } {
+    let [least, most] = [Infinity, -Infinity];
+    for (let place = this.placeAt(to); place >= 0 && this.times[place]! >= from; place--) {
+      const value = this.values[place];
+      if (value === null || value === undefined) continue;
+      least = Math.min(least, value);
+      most = Math.max(most, value);
+    }
+    return { least, most };
+  }
+}

@@ -1,0 +1,157 @@
+// Seeing: figures of each CAN-ID and SDO client, plots of the whole capture.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, stays, stopTime, until } from './bench.mjs';
+import { checks } from './check.mjs';
+
+const check = checks(booted);
+
+const milliseconds = (text) => Number.parseFloat(text) * (/µs/.test(text) ? 0.001 : / s/.test(text) ? 1000 : 1);
+const saved = async (page, name) => {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name, exact: true }).click()]);
+  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+};
+
+check('statistics: period, jitter and last change of a CAN-ID; time to answer and aborts of an SDO client', async (page) => {
+  await sdo(page, '1017', '100');
+  await becomes('the answer', () => sdoNote(page), /written/);
+  await sdo(page, '6001', '9000');
+  await becomes('the abort', () => sdoNote(page), /^Value/);
+  await page.getByRole('button', { name: 'By CAN-ID' }).click();
+  const table = page.getByRole('region', { name: 'By CAN-ID' });
+  const cells = (text) => table.getByRole('row').filter({ hasText: text }).first().getByRole('cell').allTextContents();
+  await until('ten heartbeats', async () => Number((await cells('701'))[2]) > 10);
+  await stopTime(page);
+  const [, , count, , least, mean, most, jitter, changed] = await cells('701');
+  const [low, middle, high] = [least, mean, most].map(milliseconds);
+  assert.ok(low <= middle && middle <= high && Math.abs(low - 100) < 5, `${least} ${mean} ${most}`);
+  // The way from the boot-up message to the first heartbeat is a period, too.
+  assert.ok(milliseconds(jitter) <= high - low + 0.1, `${jitter} of ${least} to ${most}`);
+  assert.ok(Number(changed) > 0 && Number(count) > 10, changed);
+  assert.match((await cells('601'))[8], /^\d+\.\d{3}$/);
+  const client = await page.getByRole('table', { name: 'SDO clients' }).getByRole('row').nth(1).getByRole('cell').allTextContents();
+  assert.deepEqual([client[0], client[1], client[5], client[6]], ['1', '2', '1', '0']);
+  assert.ok(milliseconds(client[2]) > 0 && milliseconds(client[2]) <= milliseconds(client[4]), client.join());
+  // The status bar is below the table, and nothing lies over it.
+  const bar = await page.locator('.bus-status').boundingBox();
+  const box = await page.locator('.ids').boundingBox();
+  assert.ok(bar.y >= box.y + box.height - 1, 'the status bar is below');
+  await page.getByRole('button', { name: '1', exact: true }).click();
+  await becomes('the filter', () => page.getByRole('searchbox', { name: 'Filter frames' }).inputValue(), 'node:1 sdo');
+});
+
+check('a plot shows the whole capture by the mapping of the PDOs, on own and shared axes, and keeps it', async (page) => {
+  await page.getByRole('spinbutton', { name: 'Speed' }).fill('60');
+  await page.keyboard.press('Enter');
+  await nmt(page, 'Start');
+  await until('some PDOs', async () => (await captured(page)) > 8);
+  await page.getByRole('button', { name: 'Plot', exact: true }).click();
+  const add = page.getByRole('combobox', { name: 'Plot an object' });
+  const option = add.locator('optgroup').first().locator('option', { hasText: 'TPDO1: 6004h Position value' });
+  await until('the mapped object', () => option.count());
+  await add.selectOption(await option.getAttribute('value'));
+  await page.getByRole('combobox', { name: 'Time shown' }).selectOption('0');
+  await stopTime(page);
+  const file = async () => {
+    const { name, bytes } = await saved(page, 'Save the values as CSV');
+    assert.equal(name, 'odkit-plot.csv');
+    const [head, ...lines] = String(bytes).trim().split('\n');
+    return { head, lines: lines.map((line) => line.split(',')) };
+  };
+  const { head, lines } = await file();
+  assert.equal(head, 'time in s,"6004h Position value","Shaft speed in rpm","TPDO1: 6004h Position value"');
+  const pdos = lines.filter((line) => line[3] !== '');
+  const live = lines.filter((line) => line[1] !== '');
+  assert.ok(pdos.length >= 3, 'the PDOs from before the plot was opened');
+  assert.ok(Number(pdos[0][0]) < Number(live.at(-1)[0]) - 0.1, 'from before');
+  assert.ok(new Set(pdos.map((line) => line[3])).size > 2, 'their values change');
+  assert.equal(await page.locator('.plot-area').count(), 3);
+  await page.getByRole('button', { name: 'Shared axes' }).click();
+  await becomes('charts', () => page.locator('.plot-area canvas').count(), 1);
+  await page.getByRole('button', { name: 'In order', exact: true }).click();
+  await page.getByRole('button', { name: 'Plot', exact: true }).click();
+  await becomes('what is plotted', () => page.locator('.plot figcaption b').allTextContents(), ['6004h Position value', 'Shaft speed in rpm', 'TPDO1: 6004h Position value']);
+  assert.deepEqual((await file()).lines, lines, 'the values are kept');
+  await page.getByRole('img', { name: /TPDO1: 6004h Position value: .* to / }).waitFor();
+  const picture = await saved(page, 'Save the plot as a picture (PNG)');
+  assert.deepEqual([picture.name, [...picture.bytes.subarray(0, 4)]], ['odkit-plot.png', [0x89, 0x50, 0x4e, 0x47]]);
+});
+
+check('two cursors show time, values and their differences', async (page) => {
+  await page.getByRole('spinbutton', { name: 'Speed' }).fill('60');
+  await page.keyboard.press('Enter');
+  await page.getByRole('button', { name: 'Plot', exact: true }).click();
+  await page.getByRole('combobox', { name: 'Time shown' }).selectOption('0');
+  await until('values', () => page.getByRole('img', { name: /^6004h Position value: .* to / }).count());
+  await stopTime(page);
+  const area = await page.locator('.plot-area .u-over').first().boundingBox();
+  for (const part of [0.25, 0.75]) await page.mouse.click(area.x + area.width * part, area.y + area.height / 2);
+  const [a, b] = await Promise.all(['A', 'B'].map((name) => page.getByRole('spinbutton', { name: `Cursor ${name} in seconds` }).inputValue().then(Number)));
+  assert.ok(b > a && a > 0, `${a} to ${b}`);
+  const table = page.getByRole('table', { name: 'Cursors' });
+  const line = async (name) => (await table.getByRole('row', { name }).getByRole('cell').allTextContents()).map((text) => text.replaceAll(/[^\d.+−-]/g, ''));
+  const value = (text) => Number(text.replace('−', '-'));
+  const [timeA, timeB, span] = await line(/^Time/);
+  assert.ok(Math.abs(value(timeB) - value(timeA) - value(span)) < 1e-5, `${timeA} ${timeB} ${span}`);
+  const [from, to, change] = (await line(/^6004h/)).map(value);
+  assert.equal(to - from, change);
+  await page.getByRole('spinbutton', { name: 'Cursor B in seconds' }).fill(String(a));
+  await page.keyboard.press('Tab');
+  await becomes('the difference', async () => (await line(/^Time/))[2], '0');
+  await page.getByRole('button', { name: 'Remove the cursors' }).click();
+  await becomes('tables of cursors', () => table.count(), 0);
+});
+
+const trigger = async (page, text, { before = '', after = '0' } = {}) => {
+  if (!(await page.getByRole('textbox', { name: 'Stop the capture at' }).isVisible())) await page.getByRole('button', { name: 'Trigger', exact: true }).click();
+  await page.getByRole('textbox', { name: 'Stop the capture at' }).fill(text);
+  await page.getByRole('spinbutton', { name: /before the frame/ }).fill(before);
+  await page.getByRole('spinbutton', { name: /after the frame/ }).fill(after);
+  await page.getByRole('button', { name: /^Arm/ }).click();
+};
+const said = (page) => page.locator('#trigger-note').textContent();
+
+check('a trigger stops the capture at a frame, marks it, and keeps so much before and after', async (page) => {
+  await sdo(page, '1017', '50');
+  await row(page, 'heartbeats', (one) => one.id === '701' && one.data === '7F');
+  await trigger(page, 'nod:5');
+  await becomes('what is wrong', () => said(page), /nod:5: “nod” is not a field/);
+  await trigger(page, 'sdo abort', { before: '200', after: '200' });
+  await becomes('the state', () => said(page), /^Armed: waits for a frame that passes “sdo abort”/);
+  await until('heartbeats meanwhile', async () => (await captured(page)) > 20);
+  await sdo(page, '6001', '9000');
+  await becomes('the state', () => said(page), /^Fired at \d+\.\d{6} s: the frame is marked, and the capture is stopped\.$/);
+  const at = Number(/at ([\d.]+)/.exec(await said(page))[1]);
+  await becomes('the marked frame', () => page.locator('.frame[data-marked] .id').allTextContents(), ['581']);
+  const kept = await rows(page);
+  assert.ok(kept.every(({ time }) => time >= at - 0.2001 && time <= at + 0.2001), kept.map(({ time }) => time).join());
+  assert.ok(kept.filter(({ time, id }) => id === '701' && time > at).length >= 3, 'heartbeats after the frame');
+  const count = await captured(page);
+  await stays(page, 'the number of frames', () => captured(page), 300);
+  assert.equal(await captured(page), count);
+  await page.getByRole('button', { name: 'Capture stopped' }).waitFor();
+  await page.getByRole('button', { name: 'Continue the capture' }).click();
+  await until('more frames', async () => (await captured(page)) > count);
+});
+
+check('a trigger waits for the value of an object, in a PDO or in the answer to an SDO, and for words', async (page) => {
+  await trigger(page, '6004 >= 4000');
+  await becomes('the state', () => said(page), /^Armed: waits for 6004h >= 4000 in a PDO or an SDO response\.$/);
+  await nmt(page, 'Start');
+  await row(page, 'a PDO of a shaft that stands', (one) => one.id === '181');
+  await page.getByRole('spinbutton', { name: 'Speed' }).fill('120');
+  await page.keyboard.press('Enter');
+  await becomes('the state', () => said(page), /^Fired at .* stopped\.$/);
+  const [last, ...others] = (await rows(page)).filter(({ id }) => id === '181').reverse();
+  const value = ({ data }) => Number.parseInt(data.split(' ').reverse().join(''), 16);
+  assert.ok(value(last) >= 4000 && others.every((one) => value(one) < 4000), `${value(last)} after ${others.map(value)}`);
+  await trigger(page, '1018:1 != 0');
+  await becomes('the state', () => said(page), /^Armed/);
+  await sdo(page, '1018:01');
+  await becomes('the state', () => said(page), /^Fired/);
+  await becomes('the frame', () => page.locator('.frame-detail').textContent(), /Vendor|1018h/);
+  await trigger(page, '"heartbeat time"');
+  await nmt(page, 'Pre-op');
+  await sdo(page, '1017', '100');
+  await becomes('the frame', () => page.locator('.frame-detail').textContent(), /Write 1017h/);
+});
