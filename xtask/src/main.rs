@@ -51,9 +51,10 @@ usage: cargo xtask <command> [options]
         --minutes; installs a nightly compiler and cargo-fuzz
   shots
         build and serve the page, write its screenshots to target/shots/
-  size [--format table|json] [--accept]
+  size [--format table|json] [--services] [--accept]
         build the programs of firmware/, run them on an emulated Cortex-M3, and print
-        what a node costs; --accept renews the table in README.md
+        what a node costs, or with --services what each service adds to one;
+        --accept renews both tables in README.md
   wasm-pack [arguments]
         run wasm-pack with the right tools in place; without arguments:
         build playground --target web

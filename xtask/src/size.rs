@@ -1,13 +1,18 @@
 //! `cargo xtask size`: what a node costs on a microcontroller, measured on an emulated Cortex-M3.
 
+pub(crate) mod measure;
+mod services;
+mod text;
+
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 
-use crate::console::{Console, cargo, clean, say, which};
+use crate::console::{Console, say};
 use crate::error::{Error, Result};
 use crate::repo::Repo;
-use crate::setup::{apt, target};
+
+use measure::{COUNTS, Cost, LINKED, boot, build, play, prepare};
+use text::{grouped, has_grown, readme, row, split};
 
 /// The programs in `firmware/src/bin`, and what each is.
 const PROGRAMS: [(&str, &str); 3] = [
@@ -23,98 +28,67 @@ const MARKS: (&str, &str) = ("<!-- size -->\n", "<!-- /size -->");
 const HEAD: &str = "| | flash, `s` | flash, `z` | static RAM | stack | power-on | SDO upload | SYNC → TPDO | frame for another | idle timeout |
 |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|
 ";
-/// The optimisation at which a program with a path to a panic does not link.
-const LINKED: &str = "s";
-const EMULATOR: &str = "qemu-system-arm";
 
-/// What a program reports: bytes, and instructions from an input until its last frame is out.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Cost {
-    flash: u64,
-    /// Flash with the optimisation `z`.
-    flash_z: u64,
-    ram: u64,
-    stack: u64,
-    instructions: [u64; 5],
-}
-
-/// What is measured in instructions.
-const COUNTS: [&str; 5] = ["power_on", "upload", "sync", "foreign", "idle"];
-
-/// Measures, and prints a table or JSON; `--accept` renews the table in README.md.
+/// Measures, and prints a table or JSON; `--services` prints what each service costs. `--accept`
+/// renews both tables in README.md.
 pub(crate) fn run(repo: &Repo, args: &[String]) -> Result<()> {
     let args: Vec<&str> = args.iter().flat_map(|arg| arg.split('=')).collect();
-    let console = Console::terminal();
+    prepare(repo, &Console::terminal())?;
     match args[..] {
-        [] => say(table(&measure(repo, &console)?).trim_end()),
-        ["--format", "table"] => say(table(&measure(repo, &console)?).trim_end()),
-        ["--format", "json"] => say(&json(&measure(repo, &console)?)),
+        [] | ["--format", "table"] => say(table(&measure(repo)?).trim_end()),
+        ["--format", "json"] => say(&json(&measure(repo)?)),
+        ["--services"] => say(services::table(&services::measure(repo)?).trim_end()),
         ["--accept"] => {
-            let table = table(&measure(repo, &console)?);
-            let (path, text) = readme(repo)?;
-            let (before, _, after) = split(&text)?;
-            fs::write(&path, [before, &table, after].concat())
-                .map_err(|e| Error::io("write", &path, &e))?;
+            let (path, mut text) = readme(repo)?;
+            let tables = [
+                (MARKS, table(&measure(repo)?)),
+                (services::MARKS, services::table(&services::measure(repo)?)),
+            ];
+            for (marks, table) in tables {
+                let (before, _, after) = split(&text, marks)?;
+                text = [before, &table, after].concat();
+            }
+            fs::write(&path, text).map_err(|e| Error::io("write", &path, &e))?;
         }
         _ => {
-            let text = "size accepts `--format table`, `--format json` and `--accept`";
+            let text =
+                "size accepts `--format table`, `--format json`, `--services` and `--accept`";
             return Err(Error::Usage(String::from(text)));
         }
     }
     Ok(())
 }
 
-/// Fails where something has grown by more than 2 % since the table in README.md was made.
-pub(crate) fn check(repo: &Repo, console: &Console) -> Result<()> {
+/// Fails where something has grown by more than 2 % since the tables in README.md were made; the one
+/// by service takes 14 builds, and is checked in a long run.
+pub(crate) fn check(repo: &Repo, console: &Console, long: bool) -> Result<()> {
+    prepare(repo, console)?;
     let (_, text) = readme(repo)?;
-    let (_, listed, _) = split(&text)?;
-    let costs = measure(repo, console)?;
-    let grown = grown(listed, &table(&costs));
-    if grown.is_empty() {
+    let (_, listed, _) = split(&text, MARKS)?;
+    let mut rows = grown(listed, &table(&measure(repo)?));
+    if long {
+        let (_, listed, _) = split(&text, services::MARKS)?;
+        rows.extend(services::grown(listed, &services::measure(repo)?));
+    }
+    if rows.is_empty() {
         return Ok(());
     }
-    let list = grown.join("\n");
+    let list = rows.join("\n");
     Err(Error::Failed(format!(
-        "larger than the table in README.md says; `cargo xtask size --accept` renews it:\n{list}"
+        "larger than the tables in README.md say; `cargo xtask size --accept` renews them:\n{list}"
     )))
 }
 
 /// The rows of which a number is more than 2 % above the listed one, or that are not listed.
 fn grown(listed: &str, now: &str) -> Vec<String> {
-    let numbers = |row: &str| -> Vec<u64> {
-        let cells = row
-            .split('|')
-            .skip(2)
-            .map(|cell| cell.trim().replace(',', ""));
-        cells.filter_map(|cell| cell.parse().ok()).collect()
+    let is_grown = |line: &&str| {
+        row(line).is_some_and(|(name, now)| {
+            let mut known = listed.lines().filter_map(row);
+            let before = known.find(|(other, _)| *other == name);
+            has_grown(&before.unwrap_or_default().1, &now)
+        })
     };
-    let name = |row: &str| row.split('`').nth(1).map(String::from);
-    let is_grown = |row: &&str| {
-        let mut lines = listed.lines();
-        let known = lines.find(|line| name(line) == name(row));
-        let (now, before) = (numbers(row), numbers(known.unwrap_or_default()));
-        let pairs = now.iter().zip(&before);
-        now.len() != before.len()
-            || pairs
-                .into_iter()
-                .any(|(now, before)| now * 50 > before * 51)
-    };
-    let rows = now.lines().filter(|row| row.starts_with("| `"));
-    rows.filter(is_grown).map(String::from).collect()
-}
-
-fn readme(repo: &Repo) -> Result<(std::path::PathBuf, String)> {
-    let path = repo.root.join("README.md");
-    let text = fs::read_to_string(&path).map_err(|e| Error::io("read", &path, &e))?;
-    Ok((path, text))
-}
-
-/// Text before the table, the table, and text after it.
-fn split(text: &str) -> Result<(&str, &str, &str)> {
-    let missing = || Error::Failed(format!("README.md lacks {}", MARKS.0.trim_end()));
-    let start = text.find(MARKS.0).ok_or_else(missing)? + MARKS.0.len();
-    let end = text[start..].find(MARKS.1).ok_or_else(missing)? + start;
-    Ok((&text[..start], &text[start..end], &text[end..]))
+    now.lines().filter(is_grown).map(String::from).collect()
 }
 
 fn table(costs: &[Cost]) -> String {
@@ -128,14 +102,6 @@ fn table(costs: &[Cost]) -> String {
         text.push('\n');
     }
     text
-}
-
-/// A number with a comma before each three digits.
-fn grouped(number: u64) -> String {
-    match number {
-        0..1000 => number.to_string(),
-        _ => format!("{},{:03}", grouped(number / 1000), number % 1000),
-    }
 }
 
 fn json(costs: &[Cost]) -> String {
@@ -159,49 +125,20 @@ fn json(costs: &[Cost]) -> String {
     format!("{{{}}}", programs.collect::<Vec<_>>().join(", "))
 }
 
-/// Installs the target and the emulator, if they are missing.
-pub(crate) fn prepare(repo: &Repo, console: &Console) -> Result<()> {
-    target::add(repo, console, target::BARE)?;
-    let why = "the emulator of the Cortex-M3 is missing";
-    match which(EMULATOR) {
-        Some(_) => Ok(()),
-        None => apt::install(console, &[EMULATOR], why),
-    }
-}
-
 /// Builds and runs every program.
-fn measure(repo: &Repo, console: &Console) -> Result<Vec<Cost>> {
-    prepare(repo, console)?;
-    let built = |level: &str| -> Result<Vec<Cost>> {
-        let folder = repo.root.join("firmware");
-        let mut build = cargo(&folder, &["build", "--quiet", "--release", "--bins"]);
-        build
-            .args(["--target", target::BARE, "--target-dir"])
-            .arg(&repo.target);
-        build
-            .arg("--config")
-            .arg(format!("profile.release.opt-level=\"{level}\""));
-        if level != LINKED {
-            // What the linker sees of panics depends on the level; the programs are made for one.
-            build.args(["--features", "may-panic"]);
-        }
-        let output = build
-            .output()
-            .map_err(|e| Error::Missing(format!("cargo: {e}")))?;
-        if !output.status.success() {
-            let text = String::from_utf8_lossy(&output.stderr).into_owned();
-            return Err(Error::Failed(format!(
-                "the firmware does not compile:\n{text}"
-            )));
-        }
-        let binaries = repo.target.join(target::BARE).join("release");
-        boot(&binaries.join("boot_loader"))?;
-        let programs = PROGRAMS.iter();
-        programs
-            .map(|(name, _)| play(&binaries.join(name)))
-            .collect()
+fn measure(repo: &Repo) -> Result<Vec<Cost>> {
+    let names = PROGRAMS.map(|(name, _)| name);
+    let played = |level: &str, others: &[&str], features: &[&str]| {
+        let folder = build(repo, &[&names, others].concat(), level, features)?;
+        others
+            .iter()
+            .try_for_each(|name| boot(&folder.join(name)))?;
+        let costs = names.iter().map(|name| play(&folder.join(name)));
+        costs.collect::<Result<Vec<Cost>>>()
     };
-    let (small, smaller) = (built(LINKED)?, built("z")?);
+    let small = played(LINKED, &["boot_loader"], &[])?;
+    // What the linker sees of panics depends on the level; the programs are made for one.
+    let smaller = played("z", &[], &["may-panic"])?;
     let both = small.into_iter().zip(smaller);
     Ok(both
         .map(|(s, z)| Cost {
@@ -209,77 +146,6 @@ fn measure(repo: &Repo, console: &Console) -> Result<Vec<Cost>> {
             ..s
         })
         .collect())
-}
-
-/// Has the boot loader receive a program and start it.
-fn boot(program: &Path) -> Result<()> {
-    let text = emulate(program)?;
-    match text.lines().any(|line| line == "the program runs") {
-        true => Ok(()),
-        false => Err(failed(program, &text)),
-    }
-}
-
-fn failed(program: &Path, text: &str) -> Error {
-    Error::Failed(format!("{} has failed:\n{text}", program.display()))
-}
-
-fn play(program: &Path) -> Result<Cost> {
-    let text = emulate(program)?;
-    read(&text).ok_or_else(|| failed(program, &text))
-}
-
-/// Runs a program on the emulator, with a clock that counts its instructions. Returns what it
-/// prints.
-fn emulate(program: &Path) -> Result<String> {
-    let folder = program.parent().unwrap_or(Path::new("."));
-    let mut command = clean(
-        Path::new(EMULATOR),
-        folder,
-        &["-M", "lm3s6965evb", "-nographic"],
-    );
-    command.args([
-        "-monitor",
-        "none",
-        "-serial",
-        "none",
-        "-icount",
-        "shift=10,sleep=off",
-    ]);
-    command
-        .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-        .arg(program);
-    let output = command.stdin(std::process::Stdio::null()).output();
-    let output = output.map_err(|e| Error::Missing(format!("{EMULATOR}: {e}")))?;
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    match output.status.success() {
-        true => Ok(text),
-        false => Err(failed(program, &text)),
-    }
-}
-
-/// The lines of a report: a name, and a number in hex.
-fn read(text: &str) -> Option<Cost> {
-    let number = |wanted: &str| {
-        let mut pairs = text.lines().filter_map(|line| line.split_once(' '));
-        let (_, number) = pairs.find(|(name, _)| *name == wanted)?;
-        u64::from_str_radix(number, 16).ok()
-    };
-    // 12.8 ticks of the clock are an instruction.
-    let overhead = number("overhead")?;
-    let count = |name| Some(((number(name)?.saturating_sub(overhead)) * 10 + 64) / 128);
-    let mut instructions = [0; COUNTS.len()];
-    for (to, name) in instructions.iter_mut().zip(COUNTS) {
-        *to = count(name)?;
-    }
-    let (flash, ram, stack) = (number("flash")?, number("ram")?, number("stack")?);
-    Some(Cost {
-        flash,
-        flash_z: flash,
-        ram,
-        stack,
-        instructions,
-    })
 }
 
 #[cfg(test)]
@@ -302,15 +168,5 @@ mod tests {
         assert!(grown(&listed, &with(46_316 / 50 * 51)).is_empty());
         assert_eq!(grown(&listed, &with(47_250)).len(), 1);
         assert_eq!(grown("", &listed).len(), 1);
-    }
-
-    #[test]
-    fn a_report_is_read_in_instructions() {
-        let text = "Timer\nflash 0000b9f8\nram 10\nstack 20\noverhead 1a\npower_on 2c480\n\
-                    upload 1f8d\nsync 2d74\nforeign 190d\nidle 188d\n";
-        let cost = read(text).unwrap();
-        assert_eq!((cost.flash, cost.ram, cost.stack), (0xB9F8, 16, 32));
-        assert_eq!(cost.instructions[1], 629);
-        assert_eq!(read("flash 1\n"), None);
     }
 }

@@ -7,7 +7,7 @@ use crate::console::cargo;
 use crate::error::{Error, Result};
 use crate::packages::{BENCHES, CLI, COMPILE, NO_STD, PEER, TESTS};
 use crate::setup::target;
-use crate::size;
+use crate::size::{self, measure};
 use crate::test::context::Context;
 
 /// All that is built for the host, except the benchmarks with their heavy peers. Always these
@@ -136,12 +136,12 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
 }
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
-    size::check(context.repo, context.console)
+    size::check(context.repo, context.console, context.long)
 }
 
 /// The conformance scripts of three devices, on an emulated microcontroller.
 pub(super) fn firmware(context: &Context<'_>) -> Result<()> {
-    size::prepare(context.repo, context.console)?;
+    measure::prepare(context.repo, context.console)?;
     let build = ["build", "--release", "--package", "odkit-firmware-twin"];
     let mut command = cargo(&context.repo.root.join("firmware"), &build);
     command
