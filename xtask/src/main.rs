@@ -2,12 +2,15 @@
 //!
 //! `play` and `shots` set up, build and serve the browser page, `test` runs every
 //! check, `mutants` checks the tests, `fuzz` runs libFuzzer, `corpus` reads a folder of device
-//! files, `size` says what a node costs, `wasm-pack` makes the npm package. Standard library only.
+//! files, `size` says what a node costs, `dist` makes a release, `wasm-pack` the npm package.
+//! Standard library only.
 
 mod bundle;
 mod console;
 mod corpus;
+mod dist;
 mod error;
+mod files;
 mod fuzz;
 mod lock;
 mod mutants;
@@ -55,6 +58,10 @@ usage: cargo xtask <command> [options]
         build the programs of firmware/, run them on an emulated Cortex-M3, and print
         what a node costs, or with --services what each service adds to one;
         --accept renews both tables in README.md
+  dist [--only PART]... [--out DIR]
+        make a folder that can be released, dist/ without --out: the command line for
+        three systems, packages of crates, for Python, npm and Visual Studio Code, the page with
+        the documentation, SBOM and checksums; --only makes single parts of it again
   wasm-pack [arguments]
         run wasm-pack with the right tools in place; without arguments:
         build playground --target web
@@ -103,6 +110,10 @@ fn run(args: &[String]) -> Result<ExitCode> {
         "mutants" => {
             let options = mutants::Options::parse(rest)?;
             mutants::run(&Repo::locate()?, &Console::terminal(), &options)?;
+        }
+        "dist" => {
+            let options = dist::Options::parse(rest)?;
+            dist::run(&Repo::locate()?, &Console::terminal(), &options)?;
         }
         "fuzz" => {
             let options = fuzz::Options::parse(rest)?;

@@ -4,6 +4,7 @@ pub(crate) mod apt;
 pub(crate) mod binaryen;
 pub(crate) mod bindgen;
 pub(crate) mod browser;
+pub(crate) mod mdbook;
 pub(crate) mod node;
 pub(crate) mod python;
 pub(crate) mod target;

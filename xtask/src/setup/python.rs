@@ -1,4 +1,4 @@
-//! A Python environment of our own, for the tests against foreign CANopen masters.
+//! Python environments of our own: for the tests against foreign CANopen masters, and to build a wheel.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +10,19 @@ use crate::error::{Error, Result};
 use crate::repo::Repo;
 use crate::stamp::{Fingerprint, Stamp};
 
-/// The Python of an environment with exactly what `requirements` pins.
+/// The Python of an environment for the tests, with exactly what `requirements` pins.
 pub(crate) fn environment(repo: &Repo, console: &Console, requirements: &Path) -> Result<PathBuf> {
-    let dir = repo.cache().join("venv");
+    venv(repo, console, "venv", requirements)
+}
+
+/// The Python of an environment with a name of its own.
+pub(crate) fn venv(
+    repo: &Repo,
+    console: &Console,
+    name: &str,
+    requirements: &Path,
+) -> Result<PathBuf> {
+    let dir = repo.cache().join(name);
     let bin = dir.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let python = bin.join("python");
     let base = base(console)?;

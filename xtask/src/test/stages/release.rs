@@ -1,12 +1,12 @@
 //! The stage that packs every crate.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::console::cargo;
+use crate::dist::crates;
 use crate::error::{Error, Result};
-use crate::packages::UNPUBLISHED;
+use crate::files::entries;
 use crate::test::context::Context;
 
 /// Files that every package contains.
@@ -18,17 +18,10 @@ const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 /// checked together, with the dependencies that clippy has checked already.
 pub(super) fn package(context: &Context<'_>) -> Result<()> {
     let (root, packed) = (&context.repo.root, context.repo.target.join("package"));
-    // What an earlier run has left here would count as packed.
-    let _ = fs::remove_dir_all(&packed);
-    let mut command = cargo(root, &["package", "--workspace", "--no-verify"]);
-    command.args(["--allow-dirty", "--quiet"]);
-    command.args(UNPUBLISHED.iter().flat_map(|name| ["--exclude", name]));
-    context.console.run("packages", &mut command)?;
-
+    let files = crates::pack(context.repo, context.console)?;
     let dir = packed.join("unpacked");
     fs::create_dir_all(&dir).map_err(|e| Error::io("create", &dir, &e))?;
-    let is_crate = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "crate");
-    for file in entries(&packed)?.into_iter().filter(is_crate) {
+    for file in files {
         let mut tar = Command::new("tar");
         tar.arg("-xzf").arg(&file).arg("-C").arg(&dir);
         context.console.run("unpacking", &mut tar)?;
@@ -51,10 +44,4 @@ pub(super) fn package(context: &Context<'_>) -> Result<()> {
     check.args(["--offline", "--target-dir"]);
     check.arg(&context.repo.target);
     context.console.run("what was packed", &mut check)
-}
-
-/// The content of a folder.
-fn entries(dir: &Path) -> Result<Vec<PathBuf>> {
-    let entries = fs::read_dir(dir).map_err(|e| Error::io("read", dir, &e))?;
-    Ok(entries.flatten().map(|entry| entry.path()).collect())
 }

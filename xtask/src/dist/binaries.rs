@@ -1,0 +1,85 @@
+//! The command line for each system, linked with all that it needs.
+
+use std::env;
+use std::path::Path;
+
+use super::Dist;
+use crate::console::{ask_in, cargo, which};
+use crate::error::Result;
+use crate::files;
+use crate::packages::CLI;
+use crate::setup::{apt, target};
+
+/// A system, what it is called in file names, and what links its programs if rustc alone cannot:
+/// the linker and Debian's package of it. `rust-lld` comes with rustc.
+pub(super) struct System {
+    pub(super) triple: &'static str,
+    ending: &'static str,
+    linker: Option<(&'static str, Option<&'static str>)>,
+}
+
+#[rustfmt::skip]
+pub(super) const SYSTEMS: [System; 3] = [
+    System { triple: "x86_64-unknown-linux-musl", ending: "", linker: None },
+    System { triple: "aarch64-unknown-linux-musl", ending: "", linker: Some(("rust-lld", None)) },
+    System {
+        triple: "x86_64-pc-windows-gnu",
+        ending: ".exe",
+        linker: Some(("x86_64-w64-mingw32-gcc", Some("gcc-mingw-w64-x86-64"))),
+    },
+];
+
+pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
+    let (repo, console) = (dist.repo, dist.console);
+    for System { linker, .. } in &SYSTEMS {
+        if let Some((program, Some(package))) = linker
+            && which(program).is_none()
+        {
+            let why = format!("{program} is missing, which links programs for Windows");
+            apt::install(console, &[package], &why)?;
+        }
+    }
+    for System {
+        triple,
+        ending,
+        linker,
+    } in &SYSTEMS
+    {
+        target::add(repo, console, triple)?;
+        let mut build = cargo(&repo.root, &["build", "--release", "--locked"]);
+        build.args(["--package", CLI.0, "--bin", CLI.1, "--target", triple]);
+        build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
+        if let Some((program, _)) = linker {
+            let name = triple.to_uppercase().replace('-', "_");
+            build.env(format!("CARGO_TARGET_{name}_LINKER"), program);
+        }
+        console.run(&format!("odkit for {triple}"), &mut build)?;
+        let built = repo.target.join(triple).join("release");
+        let name = format!("{}-{}-{triple}{ending}", CLI.1, dist.version);
+        files::copy(
+            &built.join(format!("{}{ending}", CLI.1)),
+            &folder.join(name),
+        )?;
+    }
+    Ok(())
+}
+
+/// Flags of rustc, with which the places of messages are the same wherever it is built.
+pub(super) fn without_paths(root: &Path) -> String {
+    let home = |name: &str, place: &str| {
+        let path =
+            env::var(name).or_else(|_| env::var("HOME").map(|home| format!("{home}/{place}")));
+        path.unwrap_or_default()
+    };
+    let sysroot = ask_in(root, "rustc", &["--print", "sysroot"]).unwrap_or_default();
+    [
+        (root.display().to_string(), "odkit"),
+        (home("CARGO_HOME", ".cargo"), "cargo"),
+        (sysroot, "rust"),
+    ]
+    .iter()
+    .filter(|(path, _)| !path.is_empty())
+    .map(|(path, name)| format!("--remap-path-prefix={path}={name}"))
+    .collect::<Vec<_>>()
+    .join("\u{1f}")
+}

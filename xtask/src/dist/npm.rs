@@ -1,0 +1,18 @@
+//! The npm package, as `<script type="module">` takes it.
+
+use std::path::Path;
+
+use super::Dist;
+use crate::error::Result;
+use crate::setup::node;
+use crate::wasm_pack;
+
+pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
+    wasm_pack::run(dist.repo, dist.console, &[])?;
+    let package = dist.repo.root.join("playground/pkg");
+    let mut pack = node::npm(
+        &package,
+        &["pack", "--ignore-scripts", "--pack-destination"],
+    );
+    dist.console.run("the npm package", pack.arg(folder))
+}

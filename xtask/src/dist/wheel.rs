@@ -1,0 +1,31 @@
+//! The Python package: a wheel for this system, and its sources for the others.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::Dist;
+use super::binaries::without_paths;
+use crate::console::clean;
+use crate::error::Result;
+use crate::setup::python;
+
+/// What builds wheels, in the version that this was tried with.
+const REQUIREMENTS: &str = "xtask/tools/wheel.txt";
+
+pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
+    let (repo, console) = (dist.repo, dist.console);
+    let requirements = repo.root.join(REQUIREMENTS);
+    let python = python::venv(repo, console, "wheel-venv", &requirements)?;
+    let maturin = |args: &[&str]| -> Command {
+        let mut command = clean(&python, &repo.root, &["-m", "maturin"]);
+        command.args(args).arg("--out").arg(folder);
+        command.args(["--manifest-path", "python/Cargo.toml"]);
+        command.env("SOURCE_DATE_EPOCH", &dist.epoch);
+        command
+    };
+    let mut wheel = maturin(&["build", "--release", "--locked"]);
+    wheel.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
+    wheel.arg("--target-dir").arg(repo.target.join("wheel"));
+    console.run("the wheel", &mut wheel)?;
+    console.run("its sources", &mut maturin(&["sdist"]))
+}
