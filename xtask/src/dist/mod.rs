@@ -213,13 +213,19 @@ mod tests {
         let mut steps = 0;
         for file in files::entries(&folder).expect("there are workflows") {
             let text = files::read(&file).expect("it can be read");
-            for line in text.lines().filter_map(|line| line.trim().strip_prefix("- ")) {
+            for line in text
+                .lines()
+                .filter_map(|line| line.trim().strip_prefix("- "))
+            {
                 let is_ours = line.starts_with("run: cargo xtask ");
                 let is_foreign = line.starts_with("uses: actions/");
                 assert!(is_ours || is_foreign, "{}: {line}", file.display());
                 steps += usize::from(is_ours);
             }
-            assert_eq!(text.matches("run:").count(), text.matches("- run: cargo xtask ").count());
+            assert_eq!(
+                text.matches("run:").count(),
+                text.matches("- run: cargo xtask ").count()
+            );
         }
         assert!(steps >= 3);
     }

@@ -2,6 +2,7 @@
 
 mod boards;
 mod c;
+mod dist;
 mod editor;
 mod page;
 mod python;
@@ -113,5 +114,6 @@ pub(super) const STAGES: &[Stage] = &[
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
     stage("package", Check, "every crate can be published, with its licences", release::package),
+    stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

@@ -1,0 +1,53 @@
+//! The stage that makes a release and uses it as somebody who has nothing else. Only with `--long`.
+
+use std::env;
+use std::process::Command;
+
+use crate::console::{ask_in, which};
+use crate::dist::{self, Options};
+use crate::error::Result;
+use crate::setup::browser::chromium;
+use crate::setup::{apt, node};
+use crate::test::context::Context;
+
+/// What runs the programs of other systems, and Debian's packages of it. Without them, and where they cannot be
+/// installed, the tests of these programs are skipped.
+const EMULATORS: [(&str, &[&str]); 2] = [
+    ("qemu-aarch64-static", &["qemu-user-static"]),
+    ("wine", &["wine", "wine64"]),
+];
+
+/// Each part of a release, installed from its folder alone: of the one that `ODKIT_DIST` names, or of a new one.
+pub(super) fn dist(context: &Context<'_>) -> Result<()> {
+    let (repo, console) = (context.repo, context.console);
+    node::check()?;
+    let chromium = chromium(console)?;
+    let browser = repo.root.join("tests/browser");
+    node::ci(
+        console,
+        &browser,
+        "fetching the browser tests' npm packages",
+    )?;
+    for (program, packages) in EMULATORS {
+        if which(program).is_none()
+            && let Err(why) = apt::install(console, packages, &format!("{program} is missing"))
+        {
+            console.note(why.message());
+        }
+    }
+    let given = env::var_os("ODKIT_DIST").map(|dir| repo.root.join(dir));
+    let folder = given.clone().unwrap_or_else(|| repo.cache().join("dist"));
+    if given.is_none() {
+        dist::run(repo, console, &Options::whole(&folder))?;
+    }
+    let mut tests = Command::new("node");
+    tests.args(["--test", "--test-reporter=tap"]);
+    tests.current_dir(repo.root.join("tests/dist"));
+    tests.env("ODKIT_DIST", &folder).env("CHROMIUM", chromium);
+    // The packages are built by the compiler that they were packed with.
+    let rustc = ask_in(&repo.root, "rustup", &["show", "active-toolchain"]);
+    if let Some(name) = rustc.as_deref().and_then(|text| text.split(' ').next()) {
+        tests.env("RUSTUP_TOOLCHAIN", name);
+    }
+    console.run("a release, installed and used", &mut tests)
+}
