@@ -8,7 +8,6 @@
 mod bundle;
 mod console;
 mod corpus;
-mod dist;
 mod error;
 mod files;
 mod fuzz;
@@ -16,6 +15,7 @@ mod lock;
 mod mutants;
 mod packages;
 mod play;
+mod release;
 mod repo;
 mod serve;
 mod setup;
@@ -112,8 +112,8 @@ fn run(args: &[String]) -> Result<ExitCode> {
             mutants::run(&Repo::locate()?, &Console::terminal(), &options)?;
         }
         "dist" => {
-            let options = dist::Options::parse(rest)?;
-            dist::run(&Repo::locate()?, &Console::terminal(), &options)?;
+            let options = release::Options::parse(rest)?;
+            release::run(&Repo::locate()?, &Console::terminal(), &options)?;
         }
         "fuzz" => {
             let options = fuzz::Options::parse(rest)?;

@@ -4,8 +4,8 @@ use std::env;
 use std::process::Command;
 
 use crate::console::{ask_in, which};
-use crate::dist::{self, Options};
 use crate::error::Result;
+use crate::release::{self, Options};
 use crate::setup::browser::chromium;
 use crate::setup::{apt, node};
 use crate::test::context::Context;
@@ -38,7 +38,7 @@ pub(super) fn dist(context: &Context<'_>) -> Result<()> {
     let given = env::var_os("ODKIT_DIST").map(|dir| repo.root.join(dir));
     let folder = given.clone().unwrap_or_else(|| repo.cache().join("dist"));
     if given.is_none() {
-        dist::run(repo, console, &Options::whole(&folder))?;
+        release::run(repo, console, &Options::whole(&folder))?;
     }
     let mut tests = Command::new("node");
     tests.args(["--test", "--test-reporter=tap"]);

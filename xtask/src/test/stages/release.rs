@@ -4,9 +4,9 @@ use std::fs;
 use std::process::Command;
 
 use crate::console::cargo;
-use crate::dist::crates;
 use crate::error::{Error, Result};
 use crate::files::entries;
+use crate::release::crates;
 use crate::test::context::Context;
 
 /// Files that every package contains.

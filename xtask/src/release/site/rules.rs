@@ -1,9 +1,9 @@
 //! A page for each rule, from what `odkit explain` says of it.
 
 use crate::console::{ask_in, cargo};
-use crate::dist::Dist;
 use crate::error::{Error, Result};
 use crate::packages::CLI;
+use crate::release::Dist;
 use crate::repo::program;
 
 /// Code and page of each rule of the catalogue.

@@ -142,7 +142,7 @@ mod tests {
     use std::path::Path;
 
     use super::{Places, join, relative};
-    use crate::dist::site::pages::all;
+    use crate::release::site::pages::all;
 
     #[test]
     fn paths() {
