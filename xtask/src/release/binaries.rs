@@ -3,7 +3,7 @@
 use std::env;
 use std::path::Path;
 
-use super::Dist;
+use super::dist::Dist;
 use crate::console::{ask_in, cargo, which};
 use crate::error::Result;
 use crate::files;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{Dist, PARTS};
+use super::dist::Dist;
 use crate::console::ask_in;
 use crate::error::{Error, Result};
 use crate::files;
@@ -15,16 +15,20 @@ const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 /// Files of a folder that the README names; a folder with more is one line.
 const NAMED: usize = 20;
 
-/// Writes README, licences and checksums for the parts that there are.
-pub(super) fn write(dist: &Dist<'_>, out: &Path) -> Result<()> {
+/// Writes README, licences and checksums for those of the parts, by name and content, that there are.
+pub(super) fn write(
+    dist: &Dist<'_>,
+    out: &Path,
+    of: &[(&'static str, &'static str)],
+) -> Result<()> {
     for name in LICENCES {
         files::copy(&dist.repo.root.join(name), &out.join(name))?;
     }
     let mut parts = Vec::new();
-    for part in &PARTS {
-        let folder = out.join(part.name);
+    for (name, about) in of.iter().copied() {
+        let folder = out.join(name);
         if folder.is_dir() {
-            parts.push((part.name, part.about, files::tree(&folder)?));
+            parts.push((name, about, files::tree(&folder)?));
         }
     }
     let git = |args: &[&str]| ask_in(&dist.repo.root, "git", args);

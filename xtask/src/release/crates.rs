@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Dist;
+use super::dist::Dist;
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
 use crate::files;

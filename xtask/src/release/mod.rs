@@ -6,6 +6,7 @@
 mod binaries;
 mod contents;
 pub(crate) mod crates;
+mod dist;
 mod npm;
 mod sbom;
 mod site;
@@ -19,6 +20,7 @@ use crate::console::{Console, ask_in};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::repo::Repo;
+use dist::Dist;
 
 /// A part of a release: `--only` has its name, and so has its folder.
 struct Part {
@@ -38,15 +40,6 @@ const PARTS: [Part; 7] = [
     Part { name: "python", about: "the package for Python 3.9 and later: `pip install FILE`", make: wheel::make },
     Part { name: "bin", about: "the command line, without further files: rename the one of your system to `odkit`", make: binaries::make },
 ];
-
-/// A release that is being made.
-struct Dist<'a> {
-    repo: &'a Repo,
-    console: &'a Console,
-    version: String,
-    /// Seconds since 1970 that files and archives bear.
-    epoch: String,
-}
 
 /// The command line of `dist`.
 #[derive(Debug, PartialEq, Eq)]
@@ -136,7 +129,8 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         let text = format!("not made: {}\n{repeat}", failed.join("\n  "));
         return Err(Error::Failed(text));
     }
-    contents::write(&dist, &out)?;
+    let parts = PARTS.map(|part| (part.name, part.about));
+    contents::write(&dist, &out, &parts)?;
     console.note(&format!("the release is in {}", out.display()));
     Ok(())
 }

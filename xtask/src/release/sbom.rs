@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::Dist;
 use super::binaries::SYSTEMS;
+use super::dist::Dist;
 use crate::console::ask_in;
 use crate::error::{Error, Result};
 use crate::files;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Dist;
+use super::dist::Dist;
 use crate::error::Result;
 use crate::setup::node;
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::Dist;
 use super::binaries::without_paths;
+use super::dist::Dist;
 use crate::console::clean;
 use crate::error::Result;
 use crate::setup::python;

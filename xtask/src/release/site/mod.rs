@@ -10,7 +10,7 @@ mod rules;
 use std::path::Path;
 use std::process::Command;
 
-use super::Dist;
+use super::dist::Dist;
 use crate::bundle;
 use crate::error::Result;
 use crate::files;

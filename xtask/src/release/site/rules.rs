@@ -3,7 +3,7 @@
 use crate::console::{ask_in, cargo};
 use crate::error::{Error, Result};
 use crate::packages::CLI;
-use crate::release::Dist;
+use crate::release::dist::Dist;
 use crate::repo::program;
 
 /// Code and page of each rule of the catalogue.
