@@ -1,6 +1,6 @@
 //! Reasons of this package, as Python exceptions.
 
-use pyo3::exceptions::{PyOSError, PyTimeoutError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
 /// Why something is not done.
@@ -8,6 +8,8 @@ use pyo3::prelude::*;
 pub(crate) enum Fault {
     /// The caller asks for something that does not exist, or that does not fit: `ValueError`.
     Value(String),
+    /// A file does not exist: `FileNotFoundError`.
+    Missing(String),
     /// The bus or a file fails: `OSError`.
     System(String),
     /// It did not happen in time: `TimeoutError`.
@@ -36,6 +38,7 @@ impl From<Fault> for PyErr {
     fn from(fault: Fault) -> Self {
         match fault {
             Fault::Value(text) => PyValueError::new_err(text),
+            Fault::Missing(text) => PyFileNotFoundError::new_err(text),
             Fault::System(text) => PyOSError::new_err(text),
             Fault::Late(text) => PyTimeoutError::new_err(text),
         }

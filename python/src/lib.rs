@@ -1,7 +1,7 @@
 //! The Python package `odkit`: a CAN bus with CANopen devices in it, in virtual time.
 //!
 //! `wire` is a bus with its devices and those who listen; `party` and `pass` decide who moves its
-//! time. The classes above it are one file each.
+//! time. The classes above it are one file each. `files/` is about device descriptions.
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
@@ -10,6 +10,7 @@ mod cyclic;
 mod device;
 mod expect;
 mod faults;
+mod files;
 mod filter;
 mod journal;
 mod party;
@@ -31,6 +32,26 @@ mod _odkit {
     use crate::bench::Bench;
     #[pymodule_export]
     use crate::device::Device;
+    #[pymodule_export]
+    use crate::files::canopen::to_canopen;
+    #[pymodule_export]
+    use crate::files::convert::convert;
+    #[pymodule_export]
+    use crate::files::description::{Description, overlay, read};
+    #[pymodule_export]
+    use crate::files::diff::{Difference, diff};
+    #[pymodule_export]
+    use crate::files::entry::Entry;
+    #[pymodule_export]
+    use crate::files::finding::Finding;
+    #[pymodule_export]
+    use crate::files::fix::{Fixed, check, fix};
+    #[pymodule_export]
+    use crate::files::identity::Identity;
+    #[pymodule_export]
+    use crate::files::object::Object;
+    #[pymodule_export]
+    use crate::files::value::Relative;
     #[pymodule_export]
     use crate::port::Port;
     #[pymodule_export]

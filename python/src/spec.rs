@@ -5,14 +5,12 @@ use std::fs;
 use od_bench::bus::Bus;
 use od_bench::{EdsOptions, VirtualDevice};
 use od_devices::DEVICES;
-use od_eds::{Document, Eds, Finding, say};
+use od_eds::Finding;
 use od_runtime::{DeviceKind, NodeId};
 use pyo3::prelude::*;
 
 use crate::faults::Fault;
-
-/// Errors of a file that a message shows.
-const SHOWN: usize = 5;
+use crate::files::source::Source;
 
 /// Names and titles of the built-in devices.
 #[pyfunction]
@@ -105,16 +103,21 @@ fn free_name(names: &[String], base: &str, channel: u8) -> String {
 /// Where devices come from.
 enum Made {
     Kind(&'static DeviceKind),
-    /// Name and text of a file.
-    Text(String, String),
+    /// A file, or a base with an overlay.
+    Text(Source),
 }
 
 impl Made {
     fn of(name: &str) -> Result<Self, Fault> {
-        if let Some(kind) = od_devices::find(name) {
-            return Ok(Self::Kind(kind));
-        }
-        Ok(Self::Text(name.to_owned(), text(name)?))
+        let source = Source::find(name).map_err(|fault| match fault {
+            // It may be a name as well as a path.
+            Fault::Missing(why) => Fault::Value(why),
+            other => other,
+        })?;
+        Ok(match source.kind {
+            Some(kind) => Self::Kind(kind),
+            None => Self::Text(source),
+        })
     }
 
     fn channels(&self) -> u8 {
@@ -158,65 +161,17 @@ impl Made {
     fn make(&self, node_id: Option<NodeId>) -> Result<VirtualDevice, Fault> {
         match self {
             Self::Kind(kind) => Ok(VirtualDevice::new(kind, node_id.unwrap_or(NodeId::ONE))),
-            Self::Text(name, text) => {
+            Self::Text(source) => {
                 let options = EdsOptions {
                     node_id,
                     lenient: false,
                 };
-                let device = VirtualDevice::from_eds(text, options);
-                device.map_err(|findings| Fault::value(format!("{name}: {}", errors(&findings))))
+                let device = VirtualDevice::from_eds(source.document.text(), options);
+                device.map_err(|mut findings| {
+                    findings.retain(Finding::is_unsound);
+                    Fault::Value(source.words(&findings.iter().collect::<Vec<_>>()))
+                })
             }
         }
     }
-}
-
-/// The text of a file; of an overlay on its base with `base+overlay`.
-///
-/// # Errors
-/// Why it cannot be read.
-pub(crate) fn text(name: &str) -> Result<String, Fault> {
-    match (fs::read(name), name.rsplit_once('+')) {
-        (Ok(bytes), _) => Ok(Document::new(bytes).text().to_owned()),
-        (Err(_), Some((base, over))) => {
-            let base = match od_devices::find(base) {
-                Some(kind) => od_devices::text::eds(kind),
-                None => text(base)?,
-            };
-            let made = od_eds::overlay(&base, &text(over)?);
-            made.map(|made| made.text).map_err(|faults| {
-                let faults: Vec<_> = faults
-                    .iter()
-                    .map(|(line, why)| format!("line {line}: {why}"))
-                    .collect();
-                Fault::value(format!("{over}: {}", faults.join("; ")))
-            })
-        }
-        (Err(error), None) if error.kind() == std::io::ErrorKind::NotFound => {
-            let known: Vec<_> = DEVICES.iter().map(|kind| kind.name).collect();
-            let known = known.join(", ");
-            Err(Fault::value(format!(
-                "no built-in device or file is named `{name}`; built-in devices are {known}"
-            )))
-        }
-        (Err(error), None) => Err(Fault::system(format!("{name}: {error}"))),
-    }
-}
-
-/// Errors in words.
-fn errors(findings: &[Finding]) -> String {
-    let unsound: Vec<_> = findings.iter().filter(|one| one.is_unsound()).collect();
-    let mut words: Vec<String> = unsound
-        .iter()
-        .take(SHOWN)
-        .map(|finding| {
-            let line = finding
-                .span()
-                .map_or(String::new(), |span| format!("line {}: ", span.line));
-            format!("{line}{} {}", finding.code(), say(finding, &Eds).message)
-        })
-        .collect();
-    if unsound.len() > SHOWN {
-        words.push(format!("and {} more", unsound.len() - SHOWN));
-    }
-    words.join("; ")
 }

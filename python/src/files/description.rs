@@ -1,0 +1,277 @@
+//! A device description: what `odkit.read` returns.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use od_eds::is_xml;
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use crate::faults::Fault;
+use crate::files::entry::Entry;
+use crate::files::finding::Finding;
+use crate::files::identity::Identity;
+use crate::files::object::{Object, count};
+use crate::files::read::{Found, Read};
+use crate::files::source::Source;
+
+/// A device description that was read: objects, identity, and findings about it.
+///
+/// `description[0x6004]`, `description["Position value"]` are objects, `description[0x1018, 2]`,
+/// `description["1018h:02"]`, `description["Identity object.Vendor-ID"]` values. `for object in
+/// description` goes through the objects by index. `odkit.read` makes one.
+#[pyclass(frozen, module = "odkit")]
+pub(crate) struct Description {
+    pub(crate) read: Arc<Read>,
+}
+
+impl Read {
+    /// # Errors
+    /// It does not define any object.
+    pub(crate) fn has_objects(&self) -> Result<(), Fault> {
+        match self.description.objects.is_empty() {
+            false => Ok(()),
+            true => Err(Fault::value(format!(
+                "{} does not define any object; is it an EDS, DCF or XDD file?",
+                self.source.shown()
+            ))),
+        }
+    }
+}
+
+/// What a caller names, or has read before.
+///
+/// # Errors
+/// It cannot be read.
+pub(crate) fn read_of(source: &Bound<'_, PyAny>) -> PyResult<Arc<Read>> {
+    match source.cast::<Description>() {
+        Ok(description) => Ok(Arc::clone(&description.get().read)),
+        Err(_) => Ok(Arc::new(Read::checked(Source::of(source)?, None))),
+    }
+}
+
+/// The text that a caller names, or that of what it has read before.
+///
+/// # Errors
+/// It cannot be read.
+pub(crate) fn source_of(source: &Bound<'_, PyAny>) -> PyResult<Source> {
+    match source.cast::<Description>() {
+        Ok(description) => Ok(description.get().read.source.clone()),
+        Err(_) => Source::of(source),
+    }
+}
+
+/// Reads and checks an EDS, DCF, XDD or XDC.
+///
+/// `source` is a path, a built-in device, `base.eds+variant.overlay`, a text with line ends, or the
+/// `bytes` of a file in any encoding. What a file says wrongly is a finding, not an exception; with
+/// `strict=True` errors with which no sound device can be built raise `ValueError`, with their lines.
+/// `node_id` (1 to 127) makes numbers of values such as `$NODEID+0x180`; without it that of a DCF does.
+///
+/// Raises `OSError` (`FileNotFoundError`) if the file cannot be read, `ValueError` if the overlay does not
+/// fit its base or the node ID is not valid.
+#[pyfunction]
+#[pyo3(signature = (source, node_id=None, *, strict=false))]
+pub(crate) fn read(
+    source: &Bound<'_, PyAny>,
+    node_id: Option<u8>,
+    strict: bool,
+) -> PyResult<Description> {
+    if node_id.is_some_and(|id| !(1..=127).contains(&id)) {
+        return Err(Fault::value("`node_id` must be 1 to 127").into());
+    }
+    let read = Read::checked(Source::of(source)?, node_id);
+    if strict {
+        let unsound: Vec<_> = read
+            .findings
+            .iter()
+            .filter(|one| one.is_unsound())
+            .collect();
+        if !unsound.is_empty() {
+            return Err(Fault::value(read.source.words(&unsound)).into());
+        }
+        read.has_objects()?;
+    }
+    Ok(Description {
+        read: Arc::new(read),
+    })
+}
+
+/// Lays an overlay over a base, and reads the result: `odkit.read("base.eds+variant.overlay")` with both as
+/// paths, texts with line ends, or `bytes`.
+///
+/// Raises `ValueError` with the line of the overlay if it removes what the base lacks, `OSError` if a file
+/// cannot be read.
+#[pyfunction]
+#[pyo3(signature = (base, overlay, node_id=None))]
+pub(crate) fn overlay(
+    base: &Bound<'_, PyAny>,
+    overlay: &Bound<'_, PyAny>,
+    node_id: Option<u8>,
+) -> PyResult<Description> {
+    let source = Source::of(base)?.with(Source::of(overlay)?)?;
+    Ok(Description {
+        read: Arc::new(Read::checked(source, node_id)),
+    })
+}
+
+impl Description {
+    fn object(&self, index: u16) -> Object {
+        Object {
+            read: Arc::clone(&self.read),
+            index,
+        }
+    }
+}
+
+#[pymethods]
+impl Description {
+    /// The path, or the name of the built-in device; `None` for a text.
+    #[getter]
+    fn path(&self) -> Option<&str> {
+        self.read.source.name.as_deref()
+    }
+
+    /// The text, of base and overlay the two as one.
+    #[getter]
+    fn text(&self) -> &str {
+        self.read.source.document.text()
+    }
+
+    /// The encoding of the file, such as `UTF-8` or `Windows-1252`.
+    #[getter]
+    fn encoding(&self) -> &'static str {
+        self.read.source.document.encoding().name()
+    }
+
+    /// `xdd` for XML, `dcf` for a configured device, else `eds`.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match is_xml(self.text()) {
+            true => "xdd",
+            false if self.read.description.commissioning().is_some() => "dcf",
+            false => "eds",
+        }
+    }
+
+    /// The node ID of `read`, or else that of a DCF; `None` if neither gives one.
+    #[getter]
+    fn node_id(&self) -> Option<u8> {
+        self.read.node_id
+    }
+
+    /// The bit rate of a DCF in kbit/s.
+    #[getter]
+    fn bit_rate(&self) -> Option<u16> {
+        self.read.description.commissioning()?.bit_rate
+    }
+
+    /// Vendor, product and profile.
+    #[getter]
+    fn identity(&self) -> Identity {
+        Identity::of(&self.read)
+    }
+
+    /// All findings, remarks too, in file order.
+    #[getter]
+    fn findings(&self) -> Vec<Finding> {
+        Finding::all(&self.read.source, &self.read.findings)
+    }
+
+    /// The findings that are errors.
+    #[getter]
+    fn errors(&self) -> Vec<Finding> {
+        let errors = self.read.findings.iter().filter(|one| one.is_error());
+        errors
+            .map(|one| Finding::of(&self.read.source, one))
+            .collect()
+    }
+
+    /// The objects, by index.
+    #[getter]
+    fn objects(&self) -> Vec<Object> {
+        let indices = self.read.description.objects.keys();
+        indices.map(|index| self.object(*index)).collect()
+    }
+
+    /// The values of all objects, by index and sub-index.
+    #[getter]
+    fn entries(&self) -> Vec<Entry> {
+        let entries = self.read.description.entries();
+        entries
+            .map(|(address, _)| Entry {
+                read: Arc::clone(&self.read),
+                address,
+            })
+            .collect()
+    }
+
+    /// The sections that describe no object, such as `DeviceInfo`: each its keys and texts.
+    #[getter]
+    fn sections(&self) -> BTreeMap<String, BTreeMap<String, String>> {
+        let sections = self.read.description.sections.iter();
+        sections
+            .map(|section| {
+                let pairs = section.pairs.iter().rev();
+                let pairs = pairs.map(|(key, value)| (key.value.clone(), value.value.clone()));
+                (section.name.value.clone(), pairs.collect())
+            })
+            .collect()
+    }
+
+    /// The object or value with an address or a name. Raises `KeyError` if there is none.
+    fn __getitem__<'p>(
+        &self,
+        py: Python<'p>,
+        key: &Bound<'p, PyAny>,
+    ) -> PyResult<Bound<'p, PyAny>> {
+        Ok(match self.read.find(key)? {
+            Found::Object(index) => Bound::new(py, self.object(index))?.into_any(),
+            Found::Entry(address) => {
+                let read = Arc::clone(&self.read);
+                Bound::new(py, Entry { read, address })?.into_any()
+            }
+        })
+    }
+
+    /// The object or value with an address or a name, or `default` if there is none.
+    #[pyo3(signature = (key, default=None))]
+    fn get<'p>(
+        &self,
+        py: Python<'p>,
+        key: &Bound<'p, PyAny>,
+        default: Option<Bound<'p, PyAny>>,
+    ) -> Option<Bound<'p, PyAny>> {
+        self.__getitem__(py, key).ok().or(default)
+    }
+
+    fn __contains__(&self, key: &Bound<'_, PyAny>) -> bool {
+        self.read.find(key).is_ok()
+    }
+
+    fn __len__(&self) -> usize {
+        self.read.description.objects.len()
+    }
+
+    fn __iter__<'p>(&self, py: Python<'p>) -> PyResult<Bound<'p, PyAny>> {
+        Ok(PyList::new(py, self.objects())?.try_iter()?.into_any())
+    }
+
+    /// Writes the text, of base and overlay the two as one, in UTF-8. Raises `OSError` if it cannot be
+    /// written.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        Ok(fs::write(path, self.text())?)
+    }
+
+    fn __repr__(&self) -> String {
+        let read = &self.read;
+        let objects = count(self.__len__(), "object");
+        let errors = read.findings.iter().filter(|one| one.is_error()).count();
+        let errors = count(errors, "error");
+        let more = count(read.findings.len(), "finding");
+        let name = read.source.shown();
+        format!("<odkit.Description {name}: {objects}, {more} ({errors})>")
+    }
+}
