@@ -228,3 +228,32 @@ test('what is wrong with a lesson or a script is said with its line', () => {
   assert.throws(() => bus.runScript('sdo read 5555h'), /line 1 /);
   assert.equal(bus.nmt(0), 'pre-operational', 'the bus is still there');
 });
+
+test('the language server finds, fixes and compares what an editor has', () => {
+  const text = odkit.deviceEds('gxmm');
+  assert.equal(odkit.deviceEds('nothing'), undefined);
+  const uri = 'page:1/gxmm.eds';
+  const server = new odkit.LanguageServer();
+  /** Sends a message; the answers. */
+  const say = (message) => {
+    server.receive(JSON.stringify({ jsonrpc: '2.0', ...message }));
+    while (server.step());
+    const all = [];
+    for (let one = server.poll(); one !== undefined; one = server.poll()) all.push(JSON.parse(one));
+    return all;
+  };
+  say({ id: 0, method: 'initialize', params: { capabilities: {} } });
+  const wrong = text.replace('[6001]', '[6001]\nHighLimit=many');
+  const [{ params }] = say({ method: 'textDocument/didOpen', params: { textDocument: { uri, languageId: '', version: 1, text: wrong } } });
+  assert.ok(params.diagnostics.some((one) => odkit.ruleTitles()[one.code] && one.message.includes('`many`')));
+  const line = wrong.split('\n').indexOf('HighLimit=many');
+  const position = { line, character: 12 };
+  const [{ result }] = say({ id: 1, method: 'textDocument/hover', params: { textDocument: { uri }, position } });
+  assert.match(result.contents.value, /Source: /);
+
+  assert.deepEqual(odkit.compareEds(text, text), []);
+  const [found] = odkit.compareEds(text, text.replace(/\[2800\][^]*?DefaultValue=0/, (section) => section.replace(/0$/, '5')));
+  assert.deepEqual(found, { place: '2800h', name: 'TPDO1 repeat counter', change: 'default 0 -> 5', breaking: false });
+  const latin = odkit.encodeEds(Uint8Array.from(Buffer.from('[FileInfo]\nCreatedBy=Müller\n', 'latin1')), '[FileInfo]\nCreatedBy=Bär\n');
+  assert.equal(Buffer.from(latin).toString('latin1'), '[FileInfo]\nCreatedBy=Bär\n');
+});

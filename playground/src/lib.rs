@@ -27,6 +27,8 @@ mod device;
 mod diagnostics;
 #[cfg(feature = "direct")]
 mod direct;
+#[cfg(feature = "editor")]
+mod editor;
 #[cfg(feature = "eds")]
 mod eds;
 #[cfg(feature = "eds")]
@@ -53,6 +55,8 @@ pub use codec::{
     Transfers, decode_value, encode_value, frame_bits, read_line, tag_names, tags, type_range,
 };
 pub use device::builtin_devices;
+#[cfg(feature = "editor")]
+pub use editor::{LanguageServer, compare_eds, device_eds, encode_eds, rule_titles};
 #[cfg(feature = "eds")]
 pub use eds::{check_eds, decode_eds, mend_eds};
 pub use journal::{check_run, read_input};

@@ -60,7 +60,7 @@ fn text(titles: &[String; 2], found: &[Difference]) -> String {
         let name = &difference.name;
         lines.push(format!(
             "{mark}{sign} {place:<width$}  {name}: {}",
-            change(difference)
+            difference.change()
         ));
     }
     lines.push(format!(
@@ -70,24 +70,6 @@ fn text(titles: &[String; 2], found: &[Difference]) -> String {
         summary(found)
     ));
     lines.join("\n")
-}
-
-fn change(difference: &Difference) -> String {
-    let Difference {
-        field,
-        before,
-        after,
-        ..
-    } = difference;
-    let shown = |text: &str| match text {
-        "" => String::from("nothing"),
-        text => text.to_owned(),
-    };
-    match field {
-        Field::ObjectAdded | Field::EntryAdded => format!("added, {after}"),
-        Field::ObjectRemoved | Field::EntryRemoved => format!("removed, {before}"),
-        field => format!("{} {} -> {}", field.name(), shown(before), shown(after)),
-    }
 }
 
 fn markdown(titles: &[String; 2], found: &[Difference]) -> String {

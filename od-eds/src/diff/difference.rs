@@ -1,5 +1,6 @@
 //! One difference between two dictionaries, as data.
 
+use alloc::borrow::ToOwned;
 use alloc::string::{String, ToString};
 
 use od_model::Address;
@@ -99,6 +100,20 @@ impl Difference {
         match self.sub {
             Some(sub) => Address::new(self.index, sub).to_string(),
             None => alloc::format!("{:04X}h", self.index),
+        }
+    }
+
+    /// `default 0 -> 5`, `added, VAR of 1 entry`: the change in words.
+    pub fn change(&self) -> String {
+        let shown = |text: &str| match text {
+            "" => String::from("nothing"),
+            text => text.to_owned(),
+        };
+        let (before, after) = (shown(&self.before), shown(&self.after));
+        match self.field {
+            Field::ObjectAdded | Field::EntryAdded => alloc::format!("added, {after}"),
+            Field::ObjectRemoved | Field::EntryRemoved => alloc::format!("removed, {before}"),
+            field => alloc::format!("{} {before} -> {after}", field.name()),
         }
     }
 }

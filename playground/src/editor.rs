@@ -1,0 +1,134 @@
+//! The language server in a page, and what an editor asks beside it.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use od_eds::diff::{Impact, compare};
+use od_eds::{Document, Edit, Finding, Tables, check};
+use od_lsp::{Host, Server};
+use wasm_bindgen::prelude::*;
+
+use crate::record::Record;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** What a master notices of a device in the place of another. */
+export interface Difference {
+  /** `6001h`, or `1018h:02`. */
+  place: string;
+  name: string;
+  /** `default 0 -> 5`. */
+  change: string;
+  /** A master that was set up for the first device may fail. */
+  breaking: boolean;
+}
+"#;
+
+/// Files that the page has; no project settings.
+#[derive(Clone, Default)]
+struct Files(Rc<RefCell<BTreeMap<String, Vec<u8>>>>);
+
+impl Host for Files {
+    fn read(&self, path: &str) -> Option<Vec<u8>> {
+        self.0.borrow().get(path).cloned()
+    }
+
+    fn beside(&self, _: &str) -> Vec<String> {
+        self.0.borrow().keys().cloned().collect()
+    }
+
+    fn judge(&self, _: &str, _: &mut Vec<Finding>) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The server of `odkit lsp`: messages of the Language Server Protocol 3.17 in, messages out, each
+/// the JSON text without its headers.
+#[wasm_bindgen]
+pub struct LanguageServer {
+    server: Server,
+    files: Files,
+}
+
+#[wasm_bindgen]
+impl LanguageServer {
+    /// A server without files.
+    #[allow(clippy::new_without_default)]
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        let files = Files::default();
+        Self {
+            server: Server::new(Box::new(files.clone())),
+            files,
+        }
+    }
+
+    /// Gives the server the bytes of a file as they are on a disk: it reports an encoding that the
+    /// text in the editor does not show. `path` is the one of the file's URI.
+    pub fn put(&mut self, path: String, bytes: Vec<u8>) {
+        self.files.0.borrow_mut().insert(path, bytes);
+    }
+
+    /// Takes a message. Messages that wait are answered by [`step`](Self::step), and a file is
+    /// checked once for all changes among them.
+    pub fn receive(&mut self, message: &str) {
+        self.server.receive(message);
+    }
+
+    /// Does one thing that is due; `false` if there is nothing to do.
+    pub fn step(&mut self) -> bool {
+        self.server.step()
+    }
+
+    /// Returns the next message of the server; `undefined` if there is none.
+    pub fn poll(&mut self) -> Option<String> {
+        self.server.poll()
+    }
+}
+
+/// Returns the EDS of a device that `Bus.addDevice` knows; `undefined` of another.
+#[wasm_bindgen(js_name = deviceEds)]
+pub fn device_eds(name: &str) -> Option<String> {
+    od_devices::find(name).map(od_devices::text::eds)
+}
+
+/// Returns what a master notices when the device of one EDS text takes the place of the device of
+/// another, as `odkit diff` lists it.
+#[wasm_bindgen(js_name = compareEds, unchecked_return_type = "Difference[]")]
+pub fn compare_eds(before: &str, after: &str) -> Vec<JsValue> {
+    let tables = |text| Tables::new(&od_eds::load(text).description);
+    let found = compare(tables(before).dictionary(), tables(after).dictionary());
+    let record = |one: &od_eds::diff::Difference| {
+        Record::new()
+            .with("place", one.place())
+            .with("name", one.name.as_str())
+            .with("change", one.change())
+            .with("breaking", one.impact == Impact::Breaking)
+            .done()
+    };
+    found.iter().map(record).collect()
+}
+
+/// Returns the bytes of a file with another text, in the encoding of the file.
+#[wasm_bindgen(js_name = encodeEds)]
+pub fn encode_eds(file: &[u8], text: &str) -> Vec<u8> {
+    let mut document = Document::new(file);
+    let edit = Edit {
+        range: 0..document.text().len(),
+        text: text.into(),
+    };
+    match document.apply(&[edit]) {
+        Ok(()) => document.bytes().into(),
+        // A character that the encoding lacks.
+        Err(_) => text.into(),
+    }
+}
+
+/// Returns the titles of all rules by their codes.
+#[wasm_bindgen(js_name = ruleTitles, unchecked_return_type = "Record<string, string>")]
+pub fn rule_titles() -> JsValue {
+    check::all()
+        .fold(Record::new(), |all, rule| all.with(rule.code, rule.title))
+        .done()
+}
