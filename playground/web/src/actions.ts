@@ -2,7 +2,7 @@
 
 import type { Input, Source } from './sim/api';
 import { readLine, type ReadLine, type Typed } from './codec';
-import { act, add, dropFrames, restore, select, send, use } from './sim/link';
+import { act, add, dropFrames, restore, select, send, takeBack, use } from './sim/link';
 import * as state from './state';
 import { parseAddress } from './views/object-search';
 import { T } from './texts';
@@ -111,16 +111,31 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-/** Puts a device on the bus, in the place of another or in a new one; false when its file cannot be used. */
-export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value): Promise<boolean> {
-  const isNew = place === 'new' || place >= state.devices.value.length;
-  const input: Input = { op: 'add', source, nodeId, ...(isNew ? {} : { place }) };
-  const { node, diagnostics } = await add(input);
-  state.diagnostics.value = diagnostics;
-  if (node === null) return false;
+/**
+ * Puts a device on the bus, in the place of another or in a new one; null when its file cannot be used, and why if that
+ * is not in the file. It says so where it took the place of another, unless it is not to be `told`.
+ */
+export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value, told = true): Promise<{ node: number | null; why: string }> {
+  const before = place === 'new' ? undefined : state.devices.value[place];
+  const input: Input = { op: 'add', source, nodeId, ...(before && { place: Number(place) }) };
+  const { node, diagnostics, entry } = await add(input);
+  if (node === null) return { node, why: diagnostics[0]?.message ?? '' };
   if (node !== state.selectedNode.value) select(node);
+  if (before && entry !== undefined) {
+    const { name } = before;
+    state.replaced.value = { name, entry };
+    if (told) state.toast.value = { text: T.dialog.replaced(name, state.devices.value[node]?.name ?? source.name), tone: 'info', action: { text: T.dialog.undo(name), run: () => void undoReplace() } };
+  }
   remember();
-  return true;
+  return { node, why: '' };
+}
+
+/** The bench goes back to the moment before a device took the place of another. */
+export async function undoReplace(): Promise<void> {
+  const before = state.replaced.value;
+  state.report.value = null;
+  if (before) await takeBack(before.entry);
+  remember();
 }
 
 /** Takes a device off the bus. */
@@ -162,7 +177,7 @@ export function recall(): { source: Source; nodeId: number }[] {
 export async function begin(wanted: { source: Source; nodeId: number }[]): Promise<void> {
   restore([], 0);
   for (const { source, nodeId } of wanted) {
-    if (await openDevice(source, nodeId, 'new')) continue;
+    if ((await openDevice(source, nodeId, 'new')).node !== null) continue;
     state.toast.value = { text: T.app.noDevice(source.name), tone: 'error' };
     if (state.devices.value.length === 0) await openDevice({ kind: 'builtin', name: 'gxmm' }, nodeId, 'new');
   }

@@ -23,7 +23,6 @@ export const status = computed<Status | null>(() => statuses.value[selectedNode.
 export const source = computed<Source>(() => device.value?.source ?? { kind: 'builtin', name: 'gxmm' });
 /** The devices that need no file. */
 export const builtins = signal<Builtin[]>([]);
-export const diagnostics = signal<Diagnostic[]>([]);
 
 export const now = signal(0);
 export const running = signal(true);
@@ -122,8 +121,34 @@ export const helpDialog = signal(false);
 export const shareDialog = signal(false);
 /** The PDO mapping that the editor opens with, 1A00h if it is 0; null while it is closed. */
 export const mappingDialog = signal<number | null>(null);
-/** A file that could not be opened, and why. */
-export const attempt = signal<{ name: string; text: string; diagnostics: Diagnostic[] } | null>(null);
+/** The device that another took the place of last, and the entry of the journal that did it. */
+export const replaced = signal<{ name: string; entry: number } | null>(null);
+
+/** An EDS text for a place on the bus; `bytes`: the file that it comes from. */
+export interface OpenedDevice {
+  name: string;
+  text: string;
+  bytes?: Uint8Array;
+  nodeId: number;
+  place: number | 'new';
+}
+
+/** What the editor opens; `builtin`: the device of ours whose EDS it is; `at`: where its cursor goes. */
+export interface Editing extends OpenedDevice {
+  builtin?: string;
+  at: { line: number; character: number } | null;
+}
+
+/** A file that was opened, and what came of it; `device`: null where it is not an EDS. */
+export interface Opened {
+  name: string;
+  said: string;
+  isBad: boolean;
+  device: OpenedDevice | null;
+  action?: { text: string; run(): void };
+}
+export const report = signal<Opened | null>(null);
+export const editing = signal<Editing | null>(null);
 
 export const keyOf = (index: number, sub: number): number => index * 256 + sub;
 

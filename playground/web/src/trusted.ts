@@ -1,6 +1,6 @@
 // Scripts by address: Trusted Types let only those that are named here through.
 
-const NAMES: ReadonlySet<string> = new Set(['worker.js', 'sw.js']);
+const NAMES: ReadonlySet<string> = new Set(['worker.js', 'editor.js', 'sw.js']);
 
 /** The address of one of the page's own scripts. */
 function own(name: string): string {
@@ -17,4 +17,4 @@ const { trustedTypes } = globalThis as { trustedTypes?: { createPolicy(name: str
 const policy = trustedTypes?.createPolicy('odkit', { createScriptURL: own });
 
 /** The address of a worker, as a browser with Trusted Types wants it. */
-export const trusted = (name: 'worker.js' | 'sw.js'): string => (policy ? policy.createScriptURL(name) : own(name));
+export const trusted = (name: 'worker.js' | 'editor.js' | 'sw.js'): string => (policy ? policy.createScriptURL(name) : own(name));

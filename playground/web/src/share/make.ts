@@ -32,7 +32,6 @@ export function open(bench: Bench): void {
   restore(entries, trace ? bench.now : 0, !trace);
   setSpeed(bench.speed);
   setRunning(bench.running);
-  state.diagnostics.value = [];
   // It can be shown when it is there.
   const stop = effect(() => {
     if (state.devices.value.length <= node || state.replaying.value) return;

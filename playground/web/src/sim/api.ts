@@ -31,7 +31,9 @@ export type Command =
   | { op: 'run'; running: boolean }
   | { op: 'speed'; factor: number }
   | { op: 'step'; micros: number; frames: number }
+  /** To a moment, what came after comes again; or to the one before an entry of the journal, for good. */
   | { op: 'back'; to: number }
+  | { op: 'back'; to: null; entry: number; ticket: number }
   | { op: 'select'; node: number }
   /** `chosen`: the one whose saved value is wanted, too. */
   | { op: 'watch'; addresses: Address[]; chosen: Address | null }

@@ -94,11 +94,13 @@ export class Engine {
       case 'back':
         this.until = null;
         this.isBusy = true;
-        await world.rewind(command.to);
+        if (command.to === null) await world.takeBack(command.entry);
+        else await world.rewind(command.to);
         this.isBusy = false;
         world.reachedGoal();
         this.tellDevices();
         this.report({ op: 'rewound', to: world.bus.now() });
+        if (command.to === null) this.answer(command.ticket, null);
         break;
       case 'select':
         this.selected = command.node;

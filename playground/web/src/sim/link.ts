@@ -68,8 +68,11 @@ export function ask<T>(make: (ticket: number) => Command, otherwise: T): Promise
 }
 
 /** Puts a device on the bus, begins a lesson, plays a script; what was there stays when it cannot be. */
-export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added> =>
+export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>): Promise<Added & { entry?: number }> =>
   ask((ticket) => ({ op: 'do', input, ticket }), { node: null, diagnostics: [] });
+
+/** Goes back to the moment before an entry of the journal, and forgets what was done since. */
+export const takeBack = (entry: number): Promise<null> => ask((ticket) => ({ op: 'back', to: null, entry, ticket }), null);
 
 /** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false, waits = false): void {
@@ -183,6 +186,7 @@ export function select(node: number): void {
 
 function rewound(to: number): void {
   const { ring } = state.live;
+  state.replaced.value = null;
   let end = ring.end;
   while (end > ring.first && (ring.get(end - 1)?.time ?? 0) > to) end -= 1;
   ring.truncate(end);

@@ -55,9 +55,16 @@ export class World {
   }
 
   /** Something happens now. */
-  async act(input: Input): Promise<Added> {
+  async act(input: Input): Promise<Added & { entry?: number }> {
     if (needsWhole(input)) await this.enlarge();
-    const added = this.bus.act(input);
+    const { bus } = this;
+    if (input.op === 'add') {
+      // The findings of a file are for the report, which asks the language server.
+      const entry = input.place == null ? undefined : bus.entries().length - bus.toCome();
+      const { node, diagnostics } = bus.act(input);
+      return { node, diagnostics: diagnostics.filter(({ code }) => !code), ...(entry !== undefined && { entry }) };
+    }
+    const added = bus.act(input);
     if (input.op === 'lesson' && added.node !== null) this.unseen = new Uint8Array(0);
     return added;
   }
@@ -123,6 +130,14 @@ export class World {
   async rewind(to: number): Promise<void> {
     this.unseen = new Uint8Array(0);
     await this.again(this.bus.entries(), to);
+  }
+
+  /** Goes back to the moment before an entry of the journal; what came after is forgotten. */
+  async takeBack(entry: number): Promise<void> {
+    const entries = this.bus.entries();
+    const at = entries[entry]?.at;
+    this.unseen = new Uint8Array(0);
+    if (at !== undefined) await this.again(entries.slice(0, entry), at);
   }
 
   /** Makes a run again to a moment, unseen, and stays answerable meanwhile. */

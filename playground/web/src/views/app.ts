@@ -56,6 +56,12 @@ class App extends View {
       if (state.lessonDialog.value) void import('./lessons');
     });
     effect(() => {
+      if (state.report.value) void import('../editor/report');
+    });
+    effect(() => {
+      if (state.editing.value) void import('../editor/dialog');
+    });
+    effect(() => {
       const { value } = state.toast;
       if (value) setTimeout(() => state.toast.value === value && (state.toast.value = null), value.action ? 20_000 : 6000);
     });
@@ -106,7 +112,7 @@ class App extends View {
     const tab = state.tab.value;
     return html`
       <od-topbar></od-topbar>
-      <div><od-tour></od-tour><od-offers></od-offers></div>
+      <div><od-tour></od-tour><od-offers></od-offers><od-report></od-report></div>
       <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null} data-encoder=${state.encoderOpen.value ? 'open' : 'folded'}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">
@@ -131,6 +137,7 @@ class App extends View {
       <od-share></od-share>
       <od-mapping></od-mapping>
       <od-lessons></od-lessons>
+      <od-editor></od-editor>
       ${this.isDropping ? html`<div class="drop-veil"><p>${icons.file} ${T.app.drop}</p></div>` : nothing}
       ${state.health.value === 'failed'
         ? html`<div class="failed" role="alert">

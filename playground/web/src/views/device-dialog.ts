@@ -2,22 +2,17 @@
 
 import { html, nothing, type PropertyValues } from 'lit';
 import { effect } from '@preact/signals-core';
-import type { Builtin, Diagnostic } from '../sim/api';
-import { openDevice, removeDevice } from '../actions';
+import type { Builtin } from '../sim/api';
+import { openDevice, removeDevice, undoReplace } from '../actions';
 import * as state from '../state';
 import { T } from '../texts';
-import { openFile, openText } from './files';
+import { openFile } from './files';
 import { icons } from './icons';
 import { View } from './view';
 
-/** Findings that are shown at a time: thousands would hold the page up. */
-const MORE = 200;
-
 class DeviceDialog extends View {
-  static override properties = { node: { state: true }, isOver: { state: true }, most: { state: true } };
+  static override properties = { node: { state: true }, isOver: { state: true } };
   declare node: string;
-  /** So many findings are shown. */
-  declare most: number;
   declare isOver: boolean;
   private unopen: (() => void) | undefined;
 
@@ -25,7 +20,6 @@ class DeviceDialog extends View {
     super();
     this.node = '1';
     this.isOver = false;
-    this.most = MORE;
   }
 
   protected override firstUpdated(changed: PropertyValues): void {
@@ -66,14 +60,12 @@ class DeviceDialog extends View {
 
   private close(): void {
     state.deviceDialog.value = null;
-    state.attempt.value = null;
-    this.most = MORE;
   }
 
   private async choose(name: string): Promise<void> {
     const node = this.nodeId();
     if (node === null) return;
-    if (await openDevice({ kind: 'builtin', name }, node, this.place)) this.close();
+    if ((await openDevice({ kind: 'builtin', name }, node, this.place)).node !== null) this.close();
   }
 
   private async openFirst(files: FileList | null | undefined): Promise<void> {
@@ -84,7 +76,16 @@ class DeviceDialog extends View {
 
   private async apply(): Promise<void> {
     const node = this.nodeId();
-    if (node !== null && (await openDevice(this.source(), node, this.place))) this.close();
+    if (node !== null && (await openDevice(this.source(), node, this.place)).node !== null) this.close();
+  }
+
+  /** Opens the EDS of the device in the editor. */
+  private edit(): void {
+    const { place } = this;
+    const source = this.source();
+    const nodeId = this.nodeId() ?? 1;
+    this.close();
+    state.editing.value = { name: source.kind === 'eds' ? source.name : `${source.name}.eds`, text: source.kind === 'eds' ? source.text : '', builtin: source.kind === 'eds' ? '' : source.name, nodeId, place, at: null };
   }
 
   private source() {
@@ -123,7 +124,10 @@ class DeviceDialog extends View {
             void this.openFirst(input.files).then(() => (input.value = ''));
           }}>
         </label>
-        ${this.faults()}
+        ${isNew ? nothing : html`<div class="button-row">
+          <button @click=${() => this.edit()}>${T.dialog.edit(current.name)}</button>
+          ${state.replaced.value ? html`<button @click=${() => { this.close(); void undoReplace(); }}>${T.dialog.undo(state.replaced.value.name)}</button>` : nothing}
+        </div>`}
         <div class="dialog-foot">
           <label for="node-id">${T.dialog.nodeId}</label>
           <input id="node-id" class="num" type="number" min="1" max="127" .value=${this.node} aria-invalid=${isBad} @keydown=${(event: KeyboardEvent) => event.key === 'Enter' && void this.apply()} @input=${(event: Event) => (this.node = (event.target as HTMLInputElement).value)}>
@@ -134,32 +138,6 @@ class DeviceDialog extends View {
         </div>
       </div>
     </dialog>`;
-  }
-
-  private faults() {
-    const attempt = state.attempt.value;
-    if (!attempt) return nothing;
-    const lines = attempt.text.split(/\r\n|\r|\n/);
-    const rank = { error: 0, warning: 1 } as Record<string, number>;
-    const sorted = [...attempt.diagnostics].sort((a, b) => (rank[a.severity] ?? 2) - (rank[b.severity] ?? 2));
-    const errors = attempt.diagnostics.filter((one) => one.severity === 'error').length;
-    return html`<section class="faults" role="alert" aria-label=${T.dialog.faults}>
-      <header>
-        <h3>${T.dialog.broken(attempt.name, errors)}</h3>
-        <button class="small" title=${T.dialog.anywayTitle} @click=${() => void openText(attempt.name, attempt.text, this.nodeId() ?? 1, true, this.place)}>${T.dialog.anyway}</button>
-      </header>
-      <ol class="scroll">${sorted.slice(0, this.most).map((one) => this.fault(one, lines))}</ol>
-      ${sorted.length > this.most ? html`<button class="small" @click=${() => (this.most += MORE)}>${T.dialog.more(Math.min(MORE, sorted.length - this.most), sorted.length - this.most)}</button>` : nothing}
-    </section>`;
-  }
-
-  private fault(one: Diagnostic, lines: string[]) {
-    const source = lines[one.line - 1] ?? '';
-    const at = Math.max(0, one.column - 1);
-    return html`<li data-severity=${one.severity}>
-      <span class="num where">${one.line ? `${one.line}:${one.column}` : '–'}</span>
-      <span><span class="code">${one.code}</span> ${withCode(one.message)}${source.trim() ? html`<code class="source">${source.slice(0, at)}<mark>${source.slice(at, at + 120).trimEnd()}</mark></code>` : nothing}${one.help ? html`<span class="muted help">${withCode(one.help)}</span>` : nothing}</span>
-    </li>`;
   }
 }
 
@@ -173,8 +151,5 @@ function families(): [string, Builtin[]][] {
   }
   return [...all];
 }
-
-/** Text between backticks is code. */
-const withCode = (text: string): unknown[] => text.split('`').map((part, i) => (i % 2 ? html`<code>${part}</code>` : part));
 
 customElements.define('od-device-dialog', DeviceDialog);

@@ -1,6 +1,5 @@
-// An EDS file from the user's disk to the bus.
+// A file from the user's disk.
 
-import { openDevice } from '../actions';
 import { use } from '../sim/link';
 import * as state from '../state';
 import { T } from '../texts';
@@ -36,23 +35,6 @@ export async function openFile(file: File, nodeId: number, place: number | 'new'
     const share = await import('../share/make');
     return share.openText(await file.text(), file.name);
   }
-  const text = await use('decodeEds', new Uint8Array(await file.arrayBuffer()));
-  return 'value' in text && openText(file.name, text.value, nodeId, false, place);
-}
-
-/** Runs an EDS text; a lenient try leaves out what is wrong with it. */
-export async function openText(name: string, text: string, nodeId: number, lenient: boolean, place: number | 'new'): Promise<boolean> {
-  state.attempt.value = null;
-  const isOpen = await openDevice({ kind: 'eds', name, text, lenient }, nodeId, place);
-  const found = state.diagnostics.value;
-  if (isOpen) {
-    const warnings = found.filter((one) => one.severity === 'warning').length;
-    const rest = lenient ? T.files.lenient : warnings ? T.files.warnings(warnings) : '';
-    state.toast.value = { text: T.files.open(name, rest), tone: 'info' };
-    state.deviceDialog.value = null;
-  } else {
-    state.attempt.value = { name, text, diagnostics: found };
-    state.deviceDialog.value ??= place;
-  }
-  return isOpen;
+  const { openBytes } = await import('../editor/open');
+  return openBytes(file.name, new Uint8Array(await file.arrayBuffer()), nodeId, place);
 }

@@ -1,0 +1,63 @@
+// The findings of a text as a list shows them: errors first, then by their rules.
+
+import { PLACE, SEVERITIES, type Finding, type Group, type Range, type Severity } from './api';
+
+/** A finding as the language server has it. */
+export interface Diagnostic {
+  range: Range;
+  /** 1 for an error, 2, 3. */
+  severity: number;
+  code: string;
+  message: string;
+}
+
+const rank = (one: Diagnostic): number => Math.min(Math.max(one.severity - 1, 0), SEVERITIES.length - 1);
+
+export class Findings {
+  readonly groups: Group[];
+  readonly counts: Record<Severity, number> = { error: 0, warning: 0, info: 0 };
+  /** In the order of the groups, those of one by place. */
+  private readonly sorted: Diagnostic[];
+
+  constructor(all: Diagnostic[], titles: Record<string, string>) {
+    const groups = new Map<string, { severity: Severity; all: Diagnostic[] }>();
+    for (const one of all) {
+      const severity = SEVERITIES[rank(one)]!;
+      const key = `${rank(one)}${one.code}`;
+      const group = groups.get(key);
+      if (group) group.all.push(one);
+      else groups.set(key, { severity, all: [one] });
+      this.counts[severity] += 1;
+    }
+    const ordered = [...groups].sort(([a], [b]) => (a < b ? -1 : 1)).map(([, group]) => group);
+    this.sorted = ordered.flatMap((group) => group.all.sort(byPlace));
+    this.groups = ordered.map(({ severity, all: own }) => {
+      const { code } = own[0]!;
+      return { code, title: titles[code] ?? '', severity, count: own.length };
+    });
+  }
+
+  slice(from: number, to: number): Diagnostic[] {
+    return this.sorted.slice(from, to);
+  }
+
+  /** Where all are, for marks in the text. */
+  readonly places = (): Uint32Array<ArrayBuffer> => {
+    const all = [...this.sorted].sort(byPlace);
+    const places = new Uint32Array(all.length * PLACE);
+    all.forEach((one, i) => {
+      const { start, end } = one.range;
+      places.set([start.line, start.character, end.line, end.character, rank(one)], i * PLACE);
+    });
+    return places;
+  };
+}
+
+const byPlace = (a: Diagnostic, b: Diagnostic): number => a.range.start.line - b.range.start.line || a.range.start.character - b.range.start.character;
+
+/** A finding for a row; its help is behind its message. */
+export function finding(one: Diagnostic, lines: string[] | null): Finding {
+  const [message = '', ...help] = one.message.split('\nhelp: ');
+  const { range, code } = one;
+  return { range, code, severity: SEVERITIES[rank(one)]!, message, help: help.join(' '), source: lines?.[range.start.line] ?? '' };
+}

@@ -1,0 +1,62 @@
+// What a file is that is not an EDS: by its first bytes, as `file` tells, or by its text.
+
+import type { Log } from '../sim/api';
+import { use } from '../sim/link';
+import { E } from '../texts/editor';
+
+/** What it is, and what to do with it; a log can be shown. */
+export interface Kind {
+  what: string;
+  next?: string;
+  log?: Log;
+}
+
+const k = E.kinds;
+
+/** First bytes, as text where each is a character of its own. */
+const MAGIC: [RegExp, Kind][] = [
+  [/^\x89PNG\r\n/, { what: k.picture('PNG') }],
+  [/^\xff\xd8\xff/, { what: k.picture('JPEG') }],
+  [/^GIF8[79]a/, { what: k.picture('GIF') }],
+  [/^BM[^]{4}\0\0\0\0/, { what: k.picture('BMP') }],
+  [/^RIFF[^]{4}WEBP/, { what: k.picture('WebP') }],
+  [/^(II\*\0|MM\0\*)/, { what: k.picture('TIFF') }],
+  [/^%PDF-/, { what: k.pdf }],
+  [/^PK(\x03\x04|\x05\x06)/, { what: k.zip, next: k.unpack }],
+  [/^\x1f\x8b/, { what: k.archive('gzip'), next: k.unpack }],
+  [/^7z\xbc\xaf\x27\x1c/, { what: k.archive('7z'), next: k.unpack }],
+  [/^Rar!\x1a\x07/, { what: k.archive('RAR'), next: k.unpack }],
+  [/^(\x7fELF|MZ[^]{58})/, { what: k.program }],
+  [/^\0asm/, { what: k.program }],
+];
+const HEAD = 4096;
+/** A section, a comment or a key with a value: a line of an EDS. */
+const SECTION = /^[ \t]*\[[^\]\r\n]+\]/m;
+
+/** What a file is; null for one that may be an EDS, a DCF or an XDD. */
+export async function kindOf(bytes: Uint8Array): Promise<Kind | null> {
+  if (bytes.length === 0) return { what: k.empty };
+  const head = Array.from(bytes.subarray(0, HEAD), (byte) => String.fromCharCode(byte)).join('');
+  const known = MAGIC.find(([pattern]) => pattern.test(head));
+  if (known) return known[1];
+  const log = await use('readLog', bytes);
+  if ('value' in log && log.value.count > 0) return { what: k.log(log.value.count), log: log.value };
+  const decoded = await use('decodeEds', bytes);
+  const text = 'value' in decoded ? decoded.value : '';
+  if (/^\s*$/.test(text)) return { what: k.blank };
+  if (/\0/.test(text)) return { what: k.binary };
+  if (/^\s*<(!doctype html|html)/i.test(text)) return { what: k.webPage };
+  if (/^\s*<\?xml|^\s*<[a-z]/i.test(text)) return /ISO15745Profile/.test(text) ? null : { what: k.xml };
+  // A section can be an array of JSON, too.
+  if (/^\s*[[{]/.test(text) && isJson(text)) return { what: k.json };
+  return SECTION.test(text) ? null : { what: k.text };
+}
+
+function isJson(text: string): boolean {
+  try {
+    JSON.parse(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

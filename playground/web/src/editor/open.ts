@@ -1,0 +1,38 @@
+// A file that may be an EDS: to the bus, and a report of what odkit finds in it.
+
+import { openDevice } from '../actions';
+import { opened } from '../seeing/log';
+import { use } from '../sim/link';
+import * as state from '../state';
+import { E } from '../texts/editor';
+import { kindOf } from './kind';
+
+/** Opens the bytes of a file; false where it is not on the bus. */
+export async function openBytes(name: string, bytes: Uint8Array, nodeId: number, place: number | 'new'): Promise<boolean> {
+  const kind = await kindOf(bytes);
+  if (kind) {
+    const { what, next, log } = kind;
+    const action = log ? { text: E.report.asLog, run: () => opened(name, log) } : undefined;
+    report({ name, said: E.report.not(name, what, next), isBad: true, device: null, ...(action && { action }) });
+    return false;
+  }
+  const text = await use('decodeEds', bytes);
+  return 'value' in text && openText({ name, text: text.value, bytes, nodeId, place }, false);
+}
+
+/** Runs an EDS text; a lenient try leaves out what is wrong with it. */
+export async function openText(device: state.OpenedDevice, lenient: boolean): Promise<boolean> {
+  const { name, text, nodeId, place } = device;
+  const { node, why } = await openDevice({ kind: 'eds', name, text, lenient }, nodeId, place, false);
+  const isOpen = node !== null;
+  const said = isOpen ? (lenient ? E.report.lenient : E.report.runs)(name, nodeId) : why ? E.report.full(name, why) : E.report.cannot(name);
+  report({ name, said, isBad: !isOpen, device: { ...device, place: node ?? place } });
+  return isOpen;
+}
+
+function report(about: state.Opened): void {
+  state.deviceDialog.value = null;
+  // Its text waits behind the report.
+  state.editing.value = null;
+  state.report.value = about;
+}

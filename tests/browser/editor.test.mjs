@@ -1,0 +1,156 @@
+// The editor of EDS files, the report of a file that is opened, and the way back to the device before.
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { becomes, booted, nmt, row, sdo, sdoNote, state, until } from './bench.mjs';
+import { checks } from './check.mjs';
+
+const check = checks(booted);
+const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** Opens the editor with the device that is shown. */
+async function edit(page) {
+  await page.locator('.device-button').click();
+  await page.getByRole('button', { name: /^Edit the EDS of/ }).click();
+  await page.locator('.cm-line').first().waitFor();
+}
+
+/** Puts the cursor at the end of a key's line in a section. */
+async function to(page, section, key) {
+  await page.getByRole('button', { name: 'Outline' }).click();
+  await page.getByRole('searchbox', { name: 'Search the sections' }).fill(section);
+  await page.locator('.outline-row', { hasText: section }).first().click();
+  const line = page.locator('.cm-activeLine');
+  await becomes('the line', () => line.textContent(), /^\[/);
+  while (!(await line.textContent()).startsWith(key)) await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('End');
+}
+
+const findings = (page) => page.locator('.editor-side .finding');
+const note = (page) => page.locator('.editor-note').textContent();
+const line = (page) => page.locator('.cm-activeLine').textContent();
+
+/** Drops a file whose text or bytes an expression in the page makes. */
+const drop = (page, name, content) =>
+  page.evaluate(
+    ([name, content]) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([eval(content)], name));
+      document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+    },
+    [name, content],
+  );
+
+check('an edited device boots, a master’s view of it is beside it, and the device before comes back', async (page) => {
+  await sdo(page, '6001', '4096');
+  await becomes('the answer', () => sdoNote(page), /6001h written/);
+  await nmt(page, 'Start');
+  await edit(page);
+  await to(page, '2800h', 'DefaultValue');
+  await page.keyboard.type('x');
+  await page.getByRole('button', { name: 'Findings' }).click();
+  await becomes('the finding', () => findings(page).allTextContents().then(String), /E0412 2800h "TPDO1 repeat counter": DefaultValue 0x is not a valid UNSIGNED8/);
+  await page.getByRole('button', { name: 'Run it' }).click();
+  await becomes('why it cannot run', () => note(page), /Cannot run\. Line \d+: 2800h "TPDO1 repeat counter": DefaultValue/);
+  await becomes('the line of it', () => line(page), 'DefaultValue=0x');
+  await page.keyboard.press('End');
+  await page.keyboard.press('Backspace');
+  await page.keyboard.press('Backspace');
+  await page.keyboard.type('5');
+  await until('no findings', async () => (await findings(page).count()) === 0);
+  await page.getByRole('button', { name: 'Run it' }).click();
+  await becomes('what became of it', () => note(page), /Node 1 boots with this text\. Its EEPROM is that of a new device\./);
+  await becomes('what a master notices', () => page.getByRole('list', { name: 'Differences for a master' }).textContent(), /2800h.*TPDO1 repeat counter: default 0 -> 5/);
+  await page.getByRole('button', { name: 'Show the bench' }).click();
+  await sdo(page, '2800');
+  await becomes('the new default', () => sdoNote(page), /2800h = 5/);
+  await becomes('its state', () => state(page), 'Pre-operational');
+  await page.locator('.device-button').click();
+  await page.getByRole('button', { name: 'Undo: back to gxmm' }).click();
+  await becomes('the state before', () => state(page), 'Operational');
+  await becomes('the device before', () => page.locator('.device-button strong').textContent(), 'gxmm');
+  await sdo(page, '6001');
+  await becomes('a value before', () => sdoNote(page), /6001h = 4.?096/);
+});
+
+check('hover, completion, jumps and fixes are those of the language server', async (page) => {
+  await edit(page);
+  await to(page, '1A00h:01', 'DefaultValue');
+  await page.keyboard.press('F12');
+  await becomes('the mapped object', () => line(page), '[6004]');
+  await page.keyboard.press('Control+End');
+  await page.keyboard.insertText('\n[2999]\n');
+  await page.keyboard.type('AccessT');
+  const list = page.locator('.cm-tooltip-autocomplete');
+  await until('AccessType in the list', async () => (await list.isVisible()) && /AccessType/.test(await list.textContent()));
+  await page.keyboard.press('Enter');
+  await becomes('the key', () => line(page), /^AccessType/);
+  await page.keyboard.press('Control+Home');
+  await to(page, '2801h', 'AccessType');
+  await page.keyboard.press('Backspace');
+  await page.keyboard.type('/w');
+  const wrong = page.locator('.cm-activeLine .od-warning').first();
+  await wrong.waitFor();
+  await wrong.hover();
+  await becomes('the rule', () => page.locator('.od-prose').textContent(), /W0424[^]*Source: CiA 306/);
+  await page.getByRole('button', { name: 'Findings' }).click();
+  await findings(page).filter({ hasText: 'W0424' }).getByRole('button').first().click();
+  await page.locator('.fixes button', { hasText: 'Fix W0424: write AccessType=rw' }).click();
+  await becomes('the fixed line', async () => (await page.locator('.cm-content').textContent()).includes('AccessType=r/w'), false);
+});
+
+check('the editor leaves Tab and Escape alone, and axe finds nothing', async (page) => {
+  await edit(page);
+  await to(page, '2801h', 'DefaultValue');
+  await page.keyboard.type('z');
+  await page.getByRole('button', { name: 'Findings' }).click();
+  await findings(page).first().waitFor();
+  await page.evaluate(axe);
+  const look = () => page.evaluate(() => globalThis.axe.run().then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html)}`)));
+  await becomes('what axe finds', look, []);
+  await page.locator('.cm-content').focus();
+  await page.keyboard.press('Tab');
+  await becomes('the focus behind the text', () => page.evaluate(() => document.activeElement.textContent), 'Findings');
+  await page.keyboard.press('Shift+Tab');
+  await page.keyboard.press('Escape');
+  await page.getByRole('dialog', { name: /gxmm\.eds/ }).waitFor({ state: 'hidden' });
+  // What was typed is still there.
+  await edit(page);
+  await becomes('the line', () => line(page), 'DefaultValue=0z');
+});
+
+check('20,000 findings: errors first, by rule, all of them in reach, little of them in the page', async (page) => {
+  const found = "'[FileInfo]\\nFileName=x.eds\\n[2000]\\nParameterName=Lamp\\nDataType=0x0005\\nAccessType=rw\\nDefaultValue=lots\\n' + Array.from({ length: 10000 }, (_, i) => `Mystery${i}=1\\nline ${i}\\n`).join('')";
+  await drop(page, 'many.eds', found);
+  const report = page.getByRole('alert', { name: 'Findings in the file' });
+  await becomes('the count', () => report.locator('header').textContent(), /many\.eds cannot run\.[^]*5 errors, 10,\d{3} warnings, 10,\d{3} remarks/);
+  await becomes('the first rule', () => report.locator('.rule').first().textContent(), /E0412/);
+  const bottom = () => report.locator('.found').evaluate((list) => (list.scrollTop = list.scrollHeight));
+  await bottom();
+  await report.locator('.rule', { hasText: 'I0' }).locator('button[aria-expanded=false]').last().click();
+  const last = async () => {
+    await bottom();
+    return (await report.locator('.finding').last().textContent()).replaceAll(/\s+/g, ' ');
+  };
+  await becomes('the last one', last, /^ ?20006:1.*Mystery9999/);
+  assert.ok((await page.locator('.report *').count()) < 1500, 'few elements');
+});
+
+check('a file that is no EDS says what it is, and the bench stays', async (page) => {
+  const report = page.getByRole('alert', { name: 'Findings in the file' });
+  for (const [name, content, said] of [
+    ['photo.eds', "Uint8Array.from('\\x89PNG\\r\\n\\x1a\\n\\0\\0', (c) => c.charCodeAt())", /photo\.eds is a picture \(PNG\), not an EDS file/],
+    ['files.eds', "Uint8Array.from('PK\\x03\\x04\\0\\0', (c) => c.charCodeAt())", /files\.eds is a ZIP archive, not an EDS file\. Unpack it/],
+    ['none.eds', "''", /none\.eds is empty, not an EDS file/],
+    ['trace.txt', "'(1.0) can0 701#00\\n(1.1) can0 181#0011\\n'", /trace\.txt is a log of a bus with 2 frames, not an EDS file/],
+    ['notes.txt', "'Call the plumber.\\n'", /notes\.txt is a text without a section such as \[FileInfo\], not an EDS file/],
+    ['data.eds', "'[{\"a\": [1]}]'", /data\.eds is a JSON file, not an EDS file/],
+  ]) {
+    await drop(page, name, content);
+    await becomes('what it is', () => report.textContent(), said);
+  }
+  await becomes('the device', () => page.locator('.device-button strong').textContent(), 'gxmm');
+  await drop(page, 'trace.txt', "'(1.0) can0 701#00\\n(1.1) can0 181#0011\\n'");
+  await report.getByRole('button', { name: 'Open it as a log' }).click();
+  await row(page, 'a frame of the log', (one) => one.id === '181');
+});
