@@ -66,6 +66,9 @@ pub struct VirtualDevice {
     pub(super) has_leds: bool,
     /// Receives the calls of this device, too.
     pub(super) twin: Option<Box<dyn Twin>>,
+    /// What is known of the node of a real bus that it describes.
+    #[cfg(feature = "real")]
+    pub(super) described: Option<crate::described::Described>,
 }
 
 /// So many events are kept for whoever asks.
@@ -128,6 +131,8 @@ impl VirtualDevice {
             channels: 1,
             has_leds: true,
             twin: None,
+            #[cfg(feature = "real")]
+            described: None,
         }
     }
 
@@ -171,7 +176,7 @@ impl VirtualDevice {
     /// Power comes. A device that keeps its node ID in 2101h and has an empty EEPROM starts
     /// with the ID that it was made with.
     pub fn power_on(&mut self, now: Instant) {
-        if self.node.is_powered() {
+        if self.is_powered() {
             return;
         }
         if let Some(memory) = self.storage.memory() {
@@ -204,13 +209,21 @@ impl VirtualDevice {
         self.node.is_bus_off()
     }
 
-    /// Is there power?
+    /// Is there power? A node of a real bus that it describes has some.
     pub fn is_powered(&self) -> bool {
+        #[cfg(feature = "real")]
+        if self.is_described() {
+            return true;
+        }
         self.node.is_powered()
     }
 
     /// A frame was received.
     pub fn handle_frame(&mut self, now: Instant, frame: &Frame) {
+        #[cfg(feature = "real")]
+        if self.is_described() {
+            return self.observe(frame);
+        }
         self.handle(now, Input::Frame(frame));
         self.falls_dark(now);
     }
@@ -297,6 +310,10 @@ impl VirtualDevice {
 
     /// The NMT state.
     pub fn state(&self) -> State {
+        #[cfg(feature = "real")]
+        if let Some(state) = self.seen_state() {
+            return state;
+        }
         self.node.state()
     }
 

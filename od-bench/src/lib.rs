@@ -17,6 +17,8 @@ mod compiled;
 #[cfg(feature = "eds")]
 mod configured;
 mod cursor;
+#[cfg(feature = "real")]
+mod described;
 mod device;
 mod eeprom;
 pub mod faults;

@@ -17,6 +17,10 @@ impl VirtualDevice {
     /// The value at an address as an SDO would carry it now, without a frame on the bus;
     /// empty where there is no such object. Also what a master may not read.
     pub fn read(&mut self, address: Address, now: Instant) -> Vec<u8> {
+        #[cfg(feature = "real")]
+        if let Some(value) = self.seen_value(address) {
+            return value.to_vec();
+        }
         #[cfg(feature = "eds")]
         if let Some(value) = self.long.as_ref().and_then(|long| long.get(address)) {
             return value.to_vec();

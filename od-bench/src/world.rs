@@ -28,6 +28,9 @@ impl VirtualDevice {
     /// The encoder behind the dictionary, if there is one.
     pub fn encoder(&self) -> Option<&Encoder<Shaft>> {
         match &self.behaviour {
+            // The shaft of a real node is somewhere else.
+            #[cfg(feature = "real")]
+            _ if self.is_described() => None,
             Behaviour::Encoder(encoder) => Some(encoder),
             _ => None,
         }

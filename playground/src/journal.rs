@@ -24,30 +24,9 @@ impl Bus {
         #[wasm_bindgen(unchecked_param_type = "Input")] input: &JsValue,
     ) -> Result<JsValue, JsError> {
         let input = read(input).map_err(error)?;
-        let text = match &input {
-            Input::Add {
-                source: Source::Eds { text, .. },
-                ..
-            } => text.clone(),
-            _ => String::new(),
-        };
-        let Added { node, trouble } = self.journal.act(input);
-        let diagnostics = match trouble {
-            Trouble::None => list(std::iter::empty()),
-            Trouble::Message(message) => list([diagnostics::message(&message)].into_iter()),
-            #[cfg(feature = "eds")]
-            Trouble::Findings(found) => diagnostics::findings(&found, &text),
-            Trouble::Problems(all) => list(all.iter().map(diagnostics::problem)),
-        };
-        #[cfg(not(feature = "eds"))]
-        drop(text);
-        Ok(Record::new()
-            .with(
-                "node",
-                node.map_or(JsValue::NULL, |node| (node as u32).into()),
-            )
-            .with("diagnostics", diagnostics)
-            .done())
+        let text = text_of(&input);
+        let added = self.journal.act(input);
+        Ok(outcome(added, &text))
     }
 
     /// Makes an empty bench on a real bus line, and a run that is made again as time passes. A
@@ -158,14 +137,45 @@ pub fn check_run(
     })
 }
 
-fn error(fault: Fault) -> JsError {
+/// What came of an input, and of the text of its device.
+pub(crate) fn outcome(Added { node, trouble }: Added, text: &str) -> JsValue {
+    let diagnostics = match trouble {
+        Trouble::None => list(std::iter::empty()),
+        Trouble::Message(message) => list([diagnostics::message(&message)].into_iter()),
+        #[cfg(feature = "eds")]
+        Trouble::Findings(found) => diagnostics::findings(&found, text),
+        Trouble::Problems(all) => list(all.iter().map(diagnostics::problem)),
+    };
+    #[cfg(not(feature = "eds"))]
+    let _ = text;
+    Record::new()
+        .with(
+            "node",
+            node.map_or(JsValue::NULL, |node| (node as u32).into()),
+        )
+        .with("diagnostics", diagnostics)
+        .done()
+}
+
+/// The text of the device that an input adds.
+pub(crate) fn text_of(input: &Input) -> String {
+    match input {
+        Input::Add {
+            source: Source::Eds { text, .. },
+            ..
+        } => text.clone(),
+        _ => String::new(),
+    }
+}
+
+pub(crate) fn error(fault: Fault) -> JsError {
     JsError::new(match fault {
         Fault::Cut => "cut",
         Fault::Newer => "newer",
     })
 }
 
-fn read(input: &JsValue) -> Result<Input, Fault> {
+pub(crate) fn read(input: &JsValue) -> Result<Input, Fault> {
     let fields = Object::of(input).ok_or(Fault::Cut)?;
     let Value::Text(op) = fields.get("op") else {
         return Err(Fault::Newer);

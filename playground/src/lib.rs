@@ -41,6 +41,8 @@ mod lesson;
 mod logs;
 mod objects;
 mod packed;
+#[cfg(feature = "real")]
+mod real;
 mod record;
 mod sdo;
 mod signals;
@@ -64,6 +66,8 @@ pub use journal::{check_run, read_input};
 pub use lesson::{judge_answer, parse_lesson};
 #[cfg(feature = "logs")]
 pub use logs::{read_log, write_log};
+#[cfg(feature = "real")]
+pub use real::{Adapter, identify};
 pub use signals::{mapped_values, read_values};
 pub use statistics::Statistics;
 pub use templates::frame_templates;

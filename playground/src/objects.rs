@@ -16,8 +16,7 @@ impl Bus {
         let address = Address::new(index, sub);
         let value = self.journal.rig.with(device, |device, now| {
             let data_type = device.dictionary().find(address).ok()?.data_type;
-            device
-                .is_powered()
+            (device.is_powered() && is_known(device, address))
                 .then(|| values::value(data_type, &device.read(address, now)))
         });
         value.flatten().unwrap_or(JsValue::NULL)
@@ -27,7 +26,7 @@ impl Bus {
     /// `index * 256 + sub`; with `saved`, those that are saved as they are.
     pub fn unsaved(&mut self, device: usize, saved: bool) -> Vec<u32> {
         let look = |device: &mut VirtualDevice| {
-            if !device.is_powered() {
+            if !device.is_powered() || is_described(device) {
                 return Vec::new();
             }
             let image = device.saved();
@@ -59,5 +58,27 @@ impl Bus {
             .with(device, |device, _| look(device))
             .flatten()
             .unwrap_or(JsValue::NULL)
+    }
+}
+
+/// Does it only describe a node of a real bus?
+pub(crate) fn is_described(device: &VirtualDevice) -> bool {
+    #[cfg(feature = "real")]
+    return device.is_described();
+    #[cfg(not(feature = "real"))]
+    {
+        let _ = device;
+        false
+    }
+}
+
+/// Is the value at this address the device's own, not one of its file?
+fn is_known(device: &VirtualDevice, address: Address) -> bool {
+    #[cfg(feature = "real")]
+    return device.is_known(address);
+    #[cfg(not(feature = "real"))]
+    {
+        let _ = (device, address);
+        true
     }
 }

@@ -6,7 +6,7 @@
 //! | 8 | `u32`, identifier |
 //! | 12 | `u8`, flags: 1 extended, 2 remote, 4 sent by [`Bus::send`](crate::Bus::send), 8 disturbed |
 //! | 13 | `u8`, DLC |
-//! | 14 | `u8`, number of the device that sent it, counted from 1; 0 for none |
+//! | 14 | `u8`, number of the device that sent it or describes its sender, counted from 1; 0 for none |
 //! | 15 | `u8`, reserved |
 //! | 16 | eight bytes of data, the unused ones 0 |
 //!
@@ -52,6 +52,15 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
 pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
     let (one, counter) = match seen {
         Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
+        #[cfg(feature = "real")]
+        Seen::Heard { at, device, frame } => {
+            let start = batch.len();
+            push(batch, *at, *device, frame);
+            if let Some(flags) = batch.get_mut(start + 12) {
+                *flags &= !OWN;
+            }
+            return;
+        }
         Seen::Disturbed(one, counter) => (one, counter),
     };
     let why = match one.trouble {

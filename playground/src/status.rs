@@ -11,6 +11,7 @@ use od_wire::nmt::State;
 use wasm_bindgen::prelude::*;
 
 use crate::bus::Bus;
+use crate::objects::is_described;
 use crate::record::{Record, integer, list};
 
 #[wasm_bindgen]
@@ -21,6 +22,10 @@ impl Bus {
         let Some(device) = self.device(device).filter(|device| device.is_powered()) else {
             return "off".into();
         };
+        #[cfg(feature = "real")]
+        if device.is_described() && device.seen_state().is_none() {
+            return "unknown".into();
+        }
         match device.state() {
             State::Initialising => "initialising",
             State::PreOperational => "pre-operational",
@@ -122,6 +127,7 @@ impl Bus {
             .with("controller", controller.condition().name())
             .with("plugged", self.journal.rig.bus.line.is_plugged(device + 1))
             .with("moves", self.journal.rig.moves(device))
+            .with("real", is_described(one))
             .done()
     }
 

@@ -149,7 +149,8 @@ export interface EdsResult {
   diagnostics: Diagnostic[];
 }
 
-export type Nmt = 'off' | 'initialising' | 'pre-operational' | 'operational' | 'stopped';
+/** `unknown`: a real node that has not said it. */
+export type Nmt = 'off' | 'unknown' | 'initialising' | 'pre-operational' | 'operational' | 'stopped';
 
 export type Lamp = 'off' | 'on' | 'flashing';
 
@@ -190,6 +191,8 @@ export interface Status {
   plugged: boolean;
   /** The shaft follows a profile. */
   moves: boolean;
+  /** Describes a node of a real bus. */
+  real: boolean;
 }
 
 /** The wire, and the controller of the outside. */

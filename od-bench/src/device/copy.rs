@@ -31,6 +31,8 @@ impl VirtualDevice {
             channels: self.channels,
             has_leds: self.has_leds,
             twin: None,
+            #[cfg(feature = "real")]
+            described: None,
         })
     }
 }

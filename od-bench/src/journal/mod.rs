@@ -53,6 +53,8 @@ pub struct Journal {
     told: usize,
     /// Why inputs of a run that is made again could not be carried out.
     refused: Vec<String>,
+    /// Nothing is kept: what happens on a real bus cannot be made again.
+    is_live: bool,
 }
 
 impl Journal {
@@ -68,6 +70,7 @@ impl Journal {
             done: 0,
             told: 0,
             refused: Vec::new(),
+            is_live: false,
         }
     }
 
@@ -121,7 +124,26 @@ impl Journal {
         added
     }
 
+    /// Puts the bench on a real bus: a link is its outside, and nothing is kept any more.
+    #[cfg(feature = "real")]
+    pub fn go_live(&mut self) {
+        self.is_live = true;
+        self.rig.open_port();
+    }
+
+    /// Adds the description of a node of the real bus, as `Input::Add` adds a device.
+    #[cfg(feature = "real")]
+    pub fn describe(&mut self, input: &Input) -> Added {
+        self.rig.describes = true;
+        let added = self.apply(input);
+        self.rig.describes = false;
+        added
+    }
+
     fn record(&mut self, at: Instant, input: Input) {
+        if self.is_live {
+            return;
+        }
         self.entries.push(Entry { at, input });
         self.done += 1;
     }

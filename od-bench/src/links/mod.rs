@@ -2,12 +2,14 @@
 //!
 //! | module | who speaks it |
 //! |---|---|
+//! | [`adapter`] | the client's side of slcan |
 //! | [`slcan`] | serial adapters, `slcand`, python-can's `slcan` |
 //! | [`socketcand`] | the daemon of that name, python-can's `socketcand`, Kayak |
 //! | `web_socket` | slcan in a WebSocket, for pages; feature `serve` |
 //! | [`can_frame`] | a raw socket of Linux |
 //! | [`lines`] | standard input and output of `odkit sim --link -` |
 
+pub mod adapter;
 pub mod can_frame;
 pub mod codec;
 pub mod lines;

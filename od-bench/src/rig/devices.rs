@@ -16,6 +16,10 @@ impl Rig {
         let others = (0..).zip(devices).filter(|(at, _)| Some(*at) != place);
         let rate = others.map(|(_, one)| one).find_map(VirtualDevice::bit_rate);
         device.set_up_for(self.bus.line.bit_rate.or(rate));
+        #[cfg(feature = "real")]
+        if self.describes {
+            device = device.describing();
+        }
         let number = match place.filter(|place| *place < self.bus.devices().len()) {
             Some(place) => {
                 self.follow(place, &[], false);
@@ -43,6 +47,10 @@ impl Rig {
                 .delivered();
             let devices = self.bus.devices();
             device.set_up_for(devices.get(first).and_then(VirtualDevice::bit_rate));
+            #[cfg(feature = "real")]
+            if self.describes {
+                device = device.describing();
+            }
             let number = self.bus.add_beside(device, first);
             self.start(number);
         }

@@ -2,7 +2,7 @@
 
 use std::prelude::v1::*;
 
-use od_wire::{Frame, Instant};
+use od_wire::Instant;
 
 use super::taken::Taken;
 use super::{Rig, Seen};
@@ -90,11 +90,20 @@ impl Rig {
         result.map(|_| ()).map_err(|stop| stop.to_string())
     }
 
-    /// A frame came through, from outside or from a device.
-    pub(super) fn watched(&mut self, at: Instant, device: Option<usize>, frame: &Frame) {
+    /// A frame came through, from outside or from a device. What came over a link is a device's.
+    pub(super) fn watched(&mut self, seen: &Seen) {
+        let (at, origin, frame) = match *seen {
+            Seen::Frame { at, device, frame } => {
+                (at, device.map_or(Origin::Script, Origin::Device), frame)
+            }
+            #[cfg(feature = "real")]
+            Seen::Heard { at, device, frame } => {
+                (at, Origin::Device(device.unwrap_or(usize::MAX)), frame)
+            }
+            Seen::Disturbed(..) => return,
+        };
         if let Some(taken) = &mut self.taken {
-            let origin = device.map_or(Origin::Script, Origin::Device);
-            taken.progress.frame(at, origin, frame);
+            taken.progress.frame(at, origin, &frame);
             taken.progress.look(&mut self.bus);
         }
     }

@@ -6,6 +6,8 @@ mod clockwork;
 mod devices;
 #[cfg(feature = "lessons")]
 mod lesson;
+#[cfg(feature = "real")]
+mod port;
 #[cfg(feature = "lessons")]
 mod taken;
 
@@ -17,7 +19,7 @@ use od_wire::{Frame, Instant, NodeId};
 
 use self::client::Asker;
 use self::clockwork::{Clockwork, Tick};
-use crate::bus::Bus;
+use crate::bus::{Bus, Sent};
 use crate::device::VirtualDevice;
 use crate::wire::Disturbance;
 
@@ -35,6 +37,16 @@ pub enum Seen {
         /// The frame.
         frame: Frame,
     },
+    /// A frame that came over a link, and the device that describes its sender.
+    #[cfg(feature = "real")]
+    Heard {
+        /// When.
+        at: Instant,
+        /// The device that describes its sender.
+        device: Option<usize>,
+        /// The frame.
+        frame: Frame,
+    },
     /// A frame that was disturbed, and the transmit error counter of its sender.
     Disturbed(Disturbance, u16),
 }
@@ -48,6 +60,12 @@ pub struct Rig {
     seen: Vec<Seen>,
     asker: Asker,
     outcomes: VecDeque<Outcome>,
+    /// Devices that come describe nodes of the real bus.
+    #[cfg(feature = "real")]
+    pub(crate) describes: bool,
+    /// The link to a real bus.
+    #[cfg(feature = "real")]
+    port: Option<port::Port>,
     /// The lesson that is taken.
     #[cfg(feature = "lessons")]
     taken: Option<taken::Taken>,
@@ -80,11 +98,18 @@ impl Rig {
 
     /// Sends a frame from outside.
     pub fn send(&mut self, frame: &Frame) {
+        if !self.passes(frame) {
+            return;
+        }
         let now = self.bus.now();
         let came_through = self.bus.receive(frame);
         self.settle_line();
         if came_through {
-            self.saw(now, None, *frame);
+            self.saw(Seen::Frame {
+                at: now,
+                device: None,
+                frame: *frame,
+            });
         }
         self.settle();
     }
@@ -192,11 +217,14 @@ impl Rig {
     /// Takes what the devices sent, and shows it to all who look.
     pub fn settle(&mut self) {
         self.settle_line();
-        while let Some(sent) = self.bus.poll() {
-            if sent.device.is_some() {
-                self.asker.handle_frame(sent.at, &sent.frame);
+        while let Some(Sent { at, device, frame }) = self.bus.poll() {
+            if !self.passes(&frame) {
+                continue;
             }
-            self.saw(sent.at, sent.device, sent.frame);
+            if device.is_some() {
+                self.asker.handle_frame(at, &frame);
+            }
+            self.saw(Seen::Frame { at, device, frame });
         }
         self.look();
     }
@@ -210,15 +238,25 @@ impl Rig {
         }
     }
 
-    fn saw(&mut self, at: Instant, device: Option<usize>, frame: Frame) {
-        self.seen.push(Seen::Frame { at, device, frame });
-        self.watched(at, device, &frame);
+    fn saw(&mut self, seen: Seen) {
+        self.bound();
+        self.seen.push(seen);
+        self.watched(&seen);
     }
+}
+
+#[cfg(not(feature = "real"))]
+impl Rig {
+    fn passes(&mut self, _: &Frame) -> bool {
+        true
+    }
+
+    fn bound(&mut self) {}
 }
 
 #[cfg(not(feature = "lessons"))]
 impl Rig {
-    fn watched(&mut self, _: Instant, _: Option<usize>, _: &Frame) {}
+    fn watched(&mut self, _: &Seen) {}
 
     fn lost(&mut self, _: Instant) {}
 

@@ -1,0 +1,238 @@
+//! A device that describes a node of a real bus: its names and types are those of its dictionary, its
+//! values and its state are what was seen on the bus. It sends nothing.
+
+use std::collections::BTreeMap;
+use std::prelude::v1::*;
+
+use od_client::watch;
+use od_model::Address;
+use od_runtime::{Frame, Store};
+use od_wire::CobId;
+use od_wire::nmt::{self, Command, State};
+use od_wire::sdo::{Request, Response};
+
+use crate::device::VirtualDevice;
+use crate::pdos;
+use crate::words::fold::{self, Folder};
+
+/// What is known of a node.
+#[derive(Default)]
+pub(super) struct Described {
+    state: Option<State>,
+    /// Values that were seen since the node started.
+    known: BTreeMap<Address, Vec<u8>>,
+    folder: Folder,
+    count: u32,
+    /// The value of a download that is not confirmed.
+    written: Option<(Address, Vec<u8>)>,
+    /// TPDOs by the values that were seen; `None`: to be looked up.
+    tpdos: Option<Vec<pdos::Pdo>>,
+}
+
+impl VirtualDevice {
+    /// Makes it the description of a node of a real bus, with the values of its file.
+    #[must_use]
+    pub fn describing(mut self) -> Self {
+        let dictionary = self.source.dictionary();
+        // `build` made room for the values.
+        if let Ok(mut store) = Store::new(&dictionary, &mut self.values, self.node.node_id()) {
+            store.reset(|_| true);
+        }
+        self.described = Some(Described::default());
+        self
+    }
+
+    /// Returns whether it only describes a node.
+    pub fn is_described(&self) -> bool {
+        self.described.is_some()
+    }
+
+    /// Returns the state of the node that it describes, as far as the bus has shown it.
+    pub fn seen_state(&self) -> Option<State> {
+        self.described.as_ref()?.state
+    }
+
+    /// Returns whether the value of an object is the node's, and not one of its file.
+    pub fn is_known(&self, address: Address) -> bool {
+        let described = self.described.as_ref();
+        described.is_none_or(|one| one.known.contains_key(&address))
+    }
+
+    /// Returns the value of an object that was seen last.
+    pub(super) fn seen_value(&self, address: Address) -> Option<&[u8]> {
+        let described = self.described.as_ref()?;
+        described.known.get(&address).map(Vec::as_slice)
+    }
+
+    /// Keeps a value that the node has.
+    pub fn learn(&mut self, address: Address, bytes: &[u8]) {
+        let dictionary = self.source.dictionary();
+        let (Ok(entry), Some(described)) = (dictionary.find(address), &mut self.described) else {
+            return;
+        };
+        let size = entry.data_type.size().unwrap_or(bytes.len());
+        let bytes = bytes.get(..size).unwrap_or(bytes);
+        described.known.insert(address, bytes.to_vec());
+        if let Ok(mut store) = Store::new(&dictionary, &mut self.values, self.node.node_id()) {
+            // A constant has no room there.
+            let _ = store.put(&entry, bytes);
+        }
+        if (0x1800..0x1C00).contains(&address.index) {
+            described.tpdos = None;
+        }
+    }
+
+    /// Returns whether it describes the node that sent this frame.
+    pub(super) fn is_sender(&self, frame: &Frame) -> bool {
+        let own = u16::from(self.node_id().raw());
+        let id = frame.id().as_standard();
+        self.is_described()
+            && ([0x80, 0x580, 0x700]
+                .map(|base| Some(base + own))
+                .contains(&id)
+                || self.tpdo(frame).is_some())
+    }
+
+    /// The TPDO of the node that this frame is, as far as they were looked up.
+    fn tpdo(&self, frame: &Frame) -> Option<&pdos::Pdo> {
+        let all = self.described.as_ref()?.tpdos.as_ref()?;
+        let is_it = |pdo: &&pdos::Pdo| pdo.cob_id.is_some_and(|id| id.can_id() == frame.id());
+        all.iter().find(is_it)
+    }
+
+    fn look_up_tpdos(&mut self) {
+        let is_wanted = self
+            .described
+            .as_ref()
+            .is_some_and(|one| one.tpdos.is_none());
+        if is_wanted {
+            let is_valid = |id: CobId| id.is_valid() && id.can_id().raw() != 0;
+            let all = pdos::pdos(self).into_iter();
+            let all = all.filter(|pdo| pdo.transmits && pdo.cob_id.is_some_and(is_valid));
+            let all = Some(all.collect());
+            self.described.as_mut().map(|one| one.tpdos = all);
+        }
+    }
+
+    /// A frame of the bus that the node is on.
+    pub(super) fn observe(&mut self, frame: &Frame) {
+        let node = self.node_id();
+        if frame.id().raw() == 0 && !frame.id().is_extended() {
+            return self.commanded(frame);
+        }
+        if let Some((_, state)) = watch::parse(frame).filter(|(sender, _)| *sender == node)
+            && let Some(described) = &mut self.described
+        {
+            // After its start a node has other values; after the boot-up message it is Pre-operational.
+            if state == State::Initialising {
+                described.known.clear();
+            }
+            described.state = Some(match state {
+                State::Initialising => State::PreOperational,
+                state => state,
+            });
+        }
+        self.look_up_tpdos();
+        if let Some(pdo) = self.tpdo(frame).filter(|_| !frame.is_remote()) {
+            let pdo = pdo.clone();
+            self.received(&pdo, frame);
+        }
+        let server = frame.id().as_standard().map(|id| (id & !0x7F, id & 0x7F));
+        match server {
+            Some((0x600, id)) if id == u16::from(node.raw()) => self.sdo(frame, false),
+            Some((0x580, id)) if id == u16::from(node.raw()) => self.sdo(frame, true),
+            _ => {}
+        }
+    }
+
+    /// An NMT command: the node follows it. Its next heartbeat says whether it did.
+    fn commanded(&mut self, frame: &Frame) {
+        let node = self.node_id().raw();
+        if let Some(command) = nmt::Repr::parse(frame.data())
+            && [0, node].contains(&command.node)
+            && let Some(described) = &mut self.described
+        {
+            described.state = match command.command {
+                Command::Start => Some(State::Operational),
+                Command::Stop => Some(State::Stopped),
+                Command::EnterPreOperational => Some(State::PreOperational),
+                Command::ResetNode | Command::ResetCommunication => None,
+            };
+        }
+    }
+
+    /// The values in a PDO of the node, which sends it in Operational only.
+    fn received(&mut self, pdo: &pdos::Pdo, frame: &Frame) {
+        if let Some(described) = &mut self.described {
+            described.state = Some(State::Operational);
+        }
+        let mut data = [0; 8];
+        data.iter_mut()
+            .zip(frame.data())
+            .for_each(|(to, from)| *to = *from);
+        let (data, room) = (u64::from_le_bytes(data), 8 * frame.data().len() as u32);
+        let mut first = 0;
+        for entry in &pdo.entries {
+            let bits = u32::from(entry.bits);
+            if bits == 0 || first + bits > room {
+                return;
+            }
+            let value = (data >> first) & (u64::MAX >> (64 - bits));
+            let len = bits.div_ceil(8) as usize;
+            self.learn(entry.address, &value.to_le_bytes()[..len]);
+            first += bits;
+        }
+    }
+
+    /// A frame of an SDO transfer with the node, whoever its client is.
+    fn sdo(&mut self, frame: &Frame, is_answer: bool) {
+        let Some(described) = &mut self.described else {
+            return;
+        };
+        described.count = described.count.wrapping_add(1);
+        let number = described.count;
+        if let Some(first) = described.folder.take(frame, number) {
+            let done = described.folder.fold(first);
+            if let Some(done) = done.filter(|one| one.state == fold::State::Done) {
+                let (object, bytes) = (done.object, done.bytes.clone());
+                described.folder.clear();
+                self.learn(object, &bytes);
+            }
+            return;
+        }
+        if frame.data().len() < 8 {
+            return;
+        }
+        let value = |bytes: [u8; 4], size: Option<u32>| {
+            let size = size.map_or(4, |size| size.min(4) as usize);
+            bytes[..size].to_vec()
+        };
+        if !is_answer {
+            described.folder.forget_before(number);
+            described.written = match Request::parse(frame.bytes()) {
+                Request::InitiateDownload {
+                    address,
+                    size,
+                    expedited: Some(bytes),
+                } => Some((address, value(bytes, size))),
+                _ => None,
+            };
+            return;
+        }
+        let seen = match Response::parse(frame.bytes()) {
+            Response::InitiateUpload {
+                address,
+                size,
+                expedited: Some(bytes),
+            } => Some((address, value(bytes, size))),
+            Response::InitiateDownload { address } => {
+                let written = described.written.take();
+                written.filter(|(object, _)| *object == address)
+            }
+            _ => None,
+        };
+        if let Some((address, bytes)) = seen {
+            self.learn(address, &bytes);
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! The client's side of slcan: an adapter on a serial line, a server of one, or `odkit sim`.
+
+use std::format;
+use std::prelude::v1::*;
+
+use od_wire::Frame;
+
+use super::slcan;
+
+/// Bit rates in kbit/s, by their number in the command `S`.
+pub const RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
+
+/// Longest line that an adapter sends; of a longer one the end is cut.
+const LONGEST: usize = 256;
+
+/// Line of an adapter.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Said {
+    /// A frame of the bus.
+    Frame(Frame),
+    /// The channel is open.
+    Open,
+    /// The adapter refuses to open the channel.
+    Closed,
+    /// The adapter refuses a frame.
+    Refused,
+    /// An answer that does not matter.
+    Nothing,
+    /// No adapter sends such a line.
+    Noise(Vec<u8>),
+}
+
+/// State of the conversation with an adapter.
+#[derive(Clone, Debug, Default)]
+pub struct Adapter {
+    /// Answers that are due before the channel is open.
+    due: u8,
+    is_open: bool,
+    /// A line without its end.
+    line: Vec<u8>,
+}
+
+impl Adapter {
+    /// Returns the bytes that open the channel: at `rate` in kbit/s, else at the rate that the adapter
+    /// has; with `listens`, without acknowledging frames. `None` for a rate that slcan does not have.
+    pub fn begin(&mut self, rate: Option<u16>, listens: bool) -> Option<Vec<u8>> {
+        // The first end of line ends what an earlier host left.
+        let mut text = String::from("\rC\r");
+        *self = Self {
+            due: 3,
+            ..Self::default()
+        };
+        if let Some(rate) = rate {
+            let number = RATES.iter().position(|one| *one == rate)?;
+            text.push_str(&format!("S{number}\r"));
+            self.due += 1;
+        }
+        text.push_str(if listens { "L\r" } else { "O\r" });
+        Some(text.into_bytes())
+    }
+
+    /// Takes bytes of the adapter.
+    pub fn receive(&mut self, bytes: &[u8], mut said: impl FnMut(Said)) {
+        for byte in bytes {
+            match byte {
+                b'\r' | 0x07 => {
+                    let line = std::mem::take(&mut self.line);
+                    said(self.line(&line, *byte == b'\r'));
+                    self.line = line;
+                    self.line.clear();
+                }
+                b'\n' => {}
+                _ if self.line.len() < LONGEST => self.line.push(*byte),
+                _ => {}
+            }
+        }
+    }
+
+    /// Takes a line without its end, which is the bell where it is not right.
+    pub fn line(&mut self, line: &[u8], is_right: bool) -> Said {
+        if let Some(frame) = slcan::frame_of(line) {
+            return Said::Frame(frame);
+        }
+        match line {
+            [] => self.answer(is_right),
+            [b'z' | b'Z'] | [b'V' | b'v' | b'N' | b'F', ..] => Said::Nothing,
+            // The end of a line whose beginning went to somebody else.
+            _ if !self.is_open => Said::Nothing,
+            line => Said::Noise(line.to_vec()),
+        }
+    }
+
+    /// An answer without text: right, or wrong.
+    fn answer(&mut self, is_right: bool) -> Said {
+        if self.is_open {
+            return if is_right {
+                Said::Nothing
+            } else {
+                Said::Refused
+            };
+        }
+        self.due = self.due.saturating_sub(1);
+        match (self.due, is_right) {
+            (0, true) => {
+                self.is_open = true;
+                Said::Open
+            }
+            (0, false) => Said::Closed,
+            _ => Said::Nothing,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::links::codec::{Codec, Step};
+    use od_wire::Instant;
+
+    fn said(adapter: &mut Adapter, bytes: &[u8]) -> Vec<Said> {
+        let mut all = Vec::new();
+        adapter.receive(bytes, |one| all.push(one));
+        all
+    }
+
+    #[test]
+    fn it_opens_the_channel_of_odkit_sim() {
+        let mut server = slcan::Channel::default();
+        for rate in [None, Some(10), Some(1000)] {
+            let mut adapter = Adapter::default();
+            let begin = adapter.begin(rate, false).unwrap_or_default();
+            let (mut steps, mut answer) = (Vec::new(), Vec::new());
+            server.receive(&begin, Instant::ZERO, &mut steps);
+            for step in steps {
+                if let Step::Reply(bytes) = step {
+                    answer.extend(bytes);
+                }
+            }
+            assert_eq!(
+                said(&mut adapter, &answer).last(),
+                Some(&Said::Open),
+                "{rate:?}"
+            );
+        }
+        assert_eq!(Adapter::default().begin(Some(300), false), None);
+    }
+
+    #[test]
+    fn frames_come_in_pieces_and_the_bell_is_heard() {
+        let mut adapter = Adapter::default();
+        assert!(
+            adapter
+                .begin(None, true)
+                .is_some_and(|text| text.ends_with(b"L\r"))
+        );
+        assert_eq!(said(&mut adapter, b"\r\r\x07").last(), Some(&Said::Closed));
+        assert!(adapter.begin(Some(500), false).is_some());
+        assert_eq!(said(&mut adapter, b"\r\r\r\r").last(), Some(&Said::Open));
+        assert_eq!(said(&mut adapter, b"t7011"), []);
+        let boot = Said::Frame(Frame::standard(0x701, &[5]));
+        assert_eq!(
+            said(&mut adapter, b"05\rz\r\x07"),
+            [boot, Said::Nothing, Said::Refused]
+        );
+        let long = [b'x'; 2 * LONGEST];
+        assert_eq!(said(&mut adapter, &long), []);
+        assert_eq!(
+            said(&mut adapter, b"\r"),
+            [Said::Noise(vec![b'x'; LONGEST])]
+        );
+    }
+}
