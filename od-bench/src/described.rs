@@ -101,16 +101,15 @@ impl VirtualDevice {
     }
 
     fn look_up_tpdos(&mut self) {
-        let is_wanted = self
-            .described
-            .as_ref()
-            .is_some_and(|one| one.tpdos.is_none());
-        if is_wanted {
-            let is_valid = |id: CobId| id.is_valid() && id.can_id().raw() != 0;
-            let all = pdos::pdos(self).into_iter();
-            let all = all.filter(|pdo| pdo.transmits && pdo.cob_id.is_some_and(is_valid));
-            let all = Some(all.collect());
-            self.described.as_mut().map(|one| one.tpdos = all);
+        if !matches!(&self.described, Some(one) if one.tpdos.is_none()) {
+            return;
+        }
+        let is_valid = |id: CobId| id.is_valid() && id.can_id().raw() != 0;
+        let all = pdos::pdos(self).into_iter();
+        let all = all.filter(|pdo| pdo.transmits && pdo.cob_id.is_some_and(is_valid));
+        let all = all.collect();
+        if let Some(one) = &mut self.described {
+            one.tpdos = Some(all);
         }
     }
 

@@ -49,6 +49,9 @@ impl Bus {
     pub fn saved_value(&mut self, device: usize, index: u16, sub: u8) -> JsValue {
         let address = Address::new(index, sub);
         let look = |device: &mut VirtualDevice| {
+            if is_described(device) {
+                return None;
+            }
             let mut saved = device.saved();
             let data_type = device.dictionary().find(address).ok()?.data_type;
             Some(values::value(data_type, &saved.bytes(device, address)?))

@@ -52,7 +52,6 @@ pub(crate) fn push(batch: &mut Vec<u8>, at: Instant, device: Option<usize>, fram
 pub(crate) fn push_seen(batch: &mut Vec<u8>, seen: &Seen) {
     let (one, counter) = match seen {
         Seen::Frame { at, device, frame } => return push(batch, *at, *device, frame),
-        #[cfg(feature = "real")]
         Seen::Heard { at, device, frame } => {
             let start = batch.len();
             push(batch, *at, *device, frame);

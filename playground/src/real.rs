@@ -110,6 +110,8 @@ impl Adapter {
         let mut adapter = std::mem::take(&mut self.adapter);
         adapter.receive(bytes, |said| match said {
             Said::Frame(frame) => {
+                // Some adapters never answer; one whose frames come is open.
+                self.is_open = true;
                 self.frames = self.frames.saturating_add(1);
                 let node = watch::parse(&frame).map(|(node, _)| node.raw());
                 let answer = frame.id().as_standard().filter(|id| id & !0x7F == 0x580);
@@ -140,7 +142,7 @@ impl Adapter {
     /// Has the adapter opened the channel, or sent a frame?
     #[wasm_bindgen(js_name = isOpen)]
     pub fn is_open(&self) -> bool {
-        self.is_open || self.frames > 0
+        self.is_open
     }
 
     /// Has the adapter refused to open the channel?

@@ -6,10 +6,13 @@ import { createHash } from 'node:crypto';
 /** The policies of lit and DOMPurify, and the page's own for its workers (`src/trusted.ts`). */
 const TYPES = 'lit-html dompurify odkit';
 
+/** A bus that odkit serves on this computer; a plain request says why a WebSocket was refused. A policy cannot name [::1]. */
+const BUS = ['ws', 'http'].flatMap((scheme) => [`${scheme}://127.0.0.1:*`, `${scheme}://localhost:*`]).join(' ');
+
 /** `scripts`: hashes of the scripts inside an HTML file, as `inline` gives them; `connect`: where lessons may come from. */
 export const policy = (scripts, connect = "'self'") =>
   `default-src 'none'; script-src 'self' 'wasm-unsafe-eval'${scripts}; style-src 'self'; style-src-attr 'unsafe-inline'; ` +
-  `img-src 'self'; connect-src ${connect}; ` + "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; " +
+  `img-src 'self'; connect-src ${connect} ${BUS}; ` + "worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; " +
   `require-trusted-types-for 'script'; trusted-types ${TYPES}`;
 
 /** The hashes of the scripts inside an HTML file, as a policy names them. */

@@ -44,7 +44,9 @@ fn bench(inputs: Vec<Input>) -> Journal {
 
 fn frames(journal: &mut Journal) -> Vec<String> {
     let line = |seen: Seen| match seen {
-        Seen::Frame { at, frame, .. } => Some(format!("{} {frame}", at.as_micros())),
+        Seen::Frame { at, frame, .. } | Seen::Heard { at, frame, .. } => {
+            Some(format!("{} {frame}", at.as_micros()))
+        }
         Seen::Disturbed(..) => None,
     };
     journal.rig.drain().into_iter().filter_map(line).collect()

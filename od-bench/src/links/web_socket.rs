@@ -260,11 +260,12 @@ fn written(response: &tungstenite::handshake::server::Response) -> Vec<u8> {
     bytes
 }
 
-/// A response that says why there is no WebSocket.
+/// A response that says why there is no WebSocket. A page can read it, which is not told more of a
+/// WebSocket than that it failed; it contains nothing secret.
 pub(crate) fn refusal(status: StatusCode, why: &str) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\
-         Connection: close\r\n\r\n{why}\n",
+         Access-Control-Allow-Origin: *\r\nConnection: close\r\n\r\n{why}\n",
         why.len() + 1
     )
 }

@@ -96,7 +96,6 @@ impl Rig {
             Seen::Frame { at, device, frame } => {
                 (at, device.map_or(Origin::Script, Origin::Device), frame)
             }
-            #[cfg(feature = "real")]
             Seen::Heard { at, device, frame } => {
                 (at, Origin::Device(device.unwrap_or(usize::MAX)), frame)
             }

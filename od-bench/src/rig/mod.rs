@@ -38,7 +38,6 @@ pub enum Seen {
         frame: Frame,
     },
     /// A frame that came over a link, and the device that describes its sender.
-    #[cfg(feature = "real")]
     Heard {
         /// When.
         at: Instant,

@@ -89,7 +89,13 @@ fn text(args: &Options, bus: &Bus, links: &[Opened]) -> String {
     // Writing to a String cannot fail.
     let devices = bus.devices();
     if devices.is_empty() {
-        let _ = writeln!(text, "{places}\n\nPress Ctrl-C to stop.");
+        let _ = writeln!(text, "{places}");
+        for link in links {
+            if let Opened::Listener(Protocol::WebSocket(gate), _, address) = link {
+                page(&mut text, &gate.address(*address));
+            }
+        }
+        text.push_str("\nPress Ctrl-C to stop.\n");
         return text;
     }
     if let [device] = devices {
@@ -165,6 +171,15 @@ fn place(link: &Opened) -> String {
     }
 }
 
+/// How the page of odkit reaches a WebSocket.
+fn page(text: &mut String, address: &str) {
+    let _ = writeln!(
+        text,
+        "\nthe page of odkit: open Connect and paste\n  {address}\nor, while `cargo xtask play` serves it, open\n  \
+         http://127.0.0.1:8080/#bus={address}"
+    );
+}
+
 /// Commands that reach the first device over this link.
 fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDevice, bitrate: u32) {
     let node = device.node_id().raw();
@@ -187,12 +202,7 @@ fn help(text: &mut String, link: &Opened, maker: &Maker<'_>, device: &VirtualDev
             "canopen",
         ),
         Opened::Listener(Protocol::WebSocket(gate), _, address) => {
-            let _ = writeln!(
-                text,
-                "\nthe page of odkit: open Connect and paste\n  {}",
-                gate.address(*address)
-            );
-            return;
+            return page(text, &gate.address(*address));
         }
         Opened::Listener(_, _, address) => (
             format!(

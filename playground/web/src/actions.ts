@@ -2,7 +2,7 @@
 
 import type { Input, Source } from './sim/api';
 import { readLine, type ReadLine, type Typed } from './codec';
-import { act, add, dropFrames, restore, select, send, takeBack, use } from './sim/link';
+import { act, add, describe, dropFrames, restore, select, send, takeBack, use } from './sim/link';
 import * as state from './state';
 import { parseAddress } from './views/object-search';
 import { T } from './texts';
@@ -118,10 +118,10 @@ export function download(content: string | Uint8Array<ArrayBuffer>, name: string
 export async function openDevice(source: Source, nodeId: number, place: number | 'new' = state.selectedNode.value, told = true): Promise<{ node: number | null; why: string }> {
   const before = place === 'new' ? undefined : state.devices.value[place];
   const input: Input = { op: 'add', source, nodeId, ...(before && { place: Number(place) }) };
-  const { node, diagnostics, entry } = await add(input);
+  const { node, diagnostics, entry } = await (state.real.value && state.describes.value ? describe(input) : add(input));
   if (node === null) return { node, why: diagnostics[0]?.message ?? '' };
   if (node !== state.selectedNode.value) select(node);
-  if (before && entry !== undefined) {
+  if (before && entry !== undefined && !state.real.value) {
     const { name } = before;
     state.replaced.value = { name, entry };
     if (told) state.toast.value = { text: T.dialog.replaced(name, state.devices.value[node]?.name ?? source.name), tone: 'info', action: { text: T.dialog.undo(name), run: () => void undoReplace() } };
@@ -149,6 +149,7 @@ export const MOST_NODES = 4;
 
 /** The address that opens these devices afresh: `#device=gxmm&node=1&device=gxam&node=2`. */
 function remember(): void {
+  if (state.real.value) return;
   const parts = new URLSearchParams();
   for (const { source, nodeId, name } of state.devices.value) {
     // The further channels of an encoder come with its first one.

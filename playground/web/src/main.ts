@@ -1,4 +1,5 @@
 import { begin, recall } from './actions';
+import type { Connect } from './real/dialog';
 import { start } from './sim/link';
 import * as state from './state';
 import { T } from './texts';
@@ -17,6 +18,13 @@ async function open(): Promise<void> {
   if (hash.startsWith('#bench=')) {
     const { openHash } = await import('./share/make');
     if (await openHash(hash)) return;
+  }
+  if (hash.startsWith('#bus=')) {
+    const bus = decodeURIComponent(hash.slice(5));
+    history.replaceState(null, '', location.pathname + location.search);
+    await begin(recall());
+    await import('./real/dialog');
+    return document.querySelector<Connect>('od-connect')!.go(bus);
   }
   const lesson = new URLSearchParams(hash.slice(1)).get('lesson') ?? (hash.length > 1 ? null : new URLSearchParams(location.search).get('lesson'));
   if (lesson) {

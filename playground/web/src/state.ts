@@ -2,6 +2,7 @@
 // read them, actions go back to the worker: one way round.
 
 import { computed, signal } from '@preact/signals-core';
+import type { RealState } from './real/api';
 import type { Builtin, Chain, DeviceInfo, Diagnostic, Entry, Lesson, LessonState, LineStatus, ObjectRecord, Source, Status, Value } from './sim/api';
 import { Ring } from './trace/ring';
 
@@ -44,6 +45,13 @@ export const shaft = computed(() => status.value?.shaft ?? null);
 /** The run so far: everything that was done, with its moment. */
 export const journal: { entries: Entry[] } = { entries: [] };
 export const journaled = signal(0);
+
+/** The link to a real bus; null on the virtual bench. */
+export const real = signal<RealState | null>(null);
+/** A device that comes to it describes a node; else it is a virtual one. */
+export const describes = signal(true);
+/** Its dialog is open. */
+export const realDialog = signal(false);
 
 export const chain = signal<Chain | null>(null);
 /** Data of the latest PDO1, with its moment. */

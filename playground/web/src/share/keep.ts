@@ -67,7 +67,7 @@ export async function start(): Promise<void> {
   let timer = 0;
   const keep = async (): Promise<void> => {
     timer = 0;
-    if (!isWorth() || state.replaying.peek()) return;
+    if (!isWorth() || state.replaying.peek() || state.real.peek()) return;
     const isLong = state.journal.entries.length > MOST_ENTRIES || state.now.peek() > LONGEST_RUN;
     const bench = await now(!isLong);
     if (bench.entries.length === 0) return;

@@ -1,6 +1,7 @@
 // The seam between the page and the simulation: what a bus can do, and the messages
 // that cross between the page and the worker. Only numbers, strings and plain records.
 
+import type { RealCommand, RealReport, RealState } from '../real/api';
 import type { Builtin, Bus, Chain, decodeEds, DeviceInfo, Entry, Input, JournalNews, judgeAnswer, Lesson, LessonState, LineStatus, readLog, Status, Value, writeLog } from '../wasm/od_playground';
 
 export type { Added, Builtin, Chain, DeviceInfo, Diagnostic, Entry, Field, FrameTemplate, Input, Judgement, Lamp, Lesson, LessonState, LineStatus, Log, Mapped, MappingStep, ObjectRecord, Outcome, Pdo, Source, Status, Transfer, Value } from '../wasm/od_playground';
@@ -47,6 +48,8 @@ export type Command =
   | { op: 'replay'; ticket: number; frames: Uint8Array; speed: number; paused: boolean }
   /** Of the log that is sent: another speed, a pause or its end, the next frame now, or no more. */
   | { op: 'player'; speed?: number; paused?: boolean; steps?: boolean; ends?: boolean }
+  /** About a real bus. */
+  | { op: 'real'; what: RealCommand }
   | { op: 'drawn' }
   /** Answered at once, whatever else there is to do. */
   | { op: 'ping' };
@@ -58,6 +61,7 @@ export type Report =
   | { op: 'answer'; ticket: number; value: unknown }
   | { op: 'devices'; devices: DeviceInfo[]; lesson: Lesson | null }
   | { op: 'rewound'; to: number }
+  | { op: 'real'; what: RealReport }
   | { op: 'pong' }
   | { op: 'snapshot'; snapshot: Snapshot }
   | { op: 'crashed'; message: string };
@@ -70,6 +74,8 @@ export interface Snapshot {
   replaying: boolean;
   /** Frames of a log that are still to be sent. */
   toSend: number;
+  /** The link to a real bus; null on the virtual bench. */
+  real: RealState | null;
   /** Virtual seconds per second, as measured. */
   rate: number;
   nodes: Status[];

@@ -4,6 +4,7 @@
 import type { Address, Command, Input, Report, Value } from './api';
 import { FRAME_BYTES } from './packed';
 import { Replay } from './replay';
+import type { RealState } from '../real/api';
 import type { World } from './world';
 
 /** Longest time a slice may compute, in milliseconds. */
@@ -24,8 +25,17 @@ const WITH_WORDS = 48;
 const WATCH_PERIOD = 200;
 /** Inputs that change what is on the bus. */
 const TELLING: ReadonlySet<Input['op']> = new Set<Input['op']>(['add', 'remove', 'lesson', 'leave']);
+/** What only a simulation can do. */
+const NOT_REAL: ReadonlySet<Command['op']> = new Set<Command['op']>(['run', 'speed', 'step', 'back', 'replay']);
 /** Farthest that one step goes in search of a frame, in microseconds. */
 const FARTHEST = 60_000_000;
+
+/** A world whose time is that of a real bus. */
+export interface Live extends World {
+  /** Goes on to the present moment. */
+  follow(): void;
+  link(): RealState;
+}
 
 export class Engine {
   private running = true;
@@ -46,15 +56,45 @@ export class Engine {
   private until: number | null = null;
   private isBusy = false;
   private replay: Replay | null = null;
+  /** The real bus that is shown, in place of the virtual bench. */
+  private live: Live | null = null;
+  private home: World;
 
   constructor(
-    private readonly world: World,
-    private readonly report: (report: Report, transfer?: Transferable[]) => void,
+    private world: World,
+    readonly report: (report: Report, transfer?: Transferable[]) => void,
   ) {
+    this.home = world;
     this.schedule();
   }
 
+  /** Shows a real bus, or the virtual bench again: it stood still meanwhile. */
+  show(live: Live | null): void {
+    this.live = live;
+    this.world = live ?? this.home;
+    this.replay = null;
+    this.selected = 0;
+    this.last = performance.now();
+    this.report({ op: 'real', what: { tells: live ? 'begun' : 'left' } });
+    this.tellDevices();
+    this.changed = true;
+  }
+
+  get isLive(): boolean {
+    return this.live !== null;
+  }
+
+  get virtual(): World {
+    return this.home;
+  }
+
   async handle(command: Command): Promise<void> {
+    if (command.op === 'real') return (await import('../real/worker')).handle(this, command.what);
+    if (this.live) {
+      if (NOT_REAL.has(command.op)) return;
+      // Another bench is a virtual one.
+      if (command.op === 'restore' || (command.op === 'do' && command.input.op === 'lesson')) (await import('../real/worker')).leave(this);
+    }
     const { world } = this;
     switch (command.op) {
       case 'do': {
@@ -144,7 +184,7 @@ export class Engine {
         }
         break;
       case 'still':
-        this.answer(command.ticket, world.bus.still());
+        this.answer(command.ticket, this.home.bus.still());
         return;
       case 'dcf':
         this.isBusy = true;
@@ -160,11 +200,11 @@ export class Engine {
     this.changed = true;
   }
 
-  private answer(ticket: number, value: unknown): void {
+  answer(ticket: number, value: unknown): void {
     this.report({ op: 'answer', ticket, value });
   }
 
-  private tellDevices(): void {
+  tellDevices(): void {
     this.report({ op: 'devices', devices: this.world.bus.devices(), lesson: this.world.lesson() });
     this.watchedAgain = true;
   }
@@ -181,6 +221,11 @@ export class Engine {
     const wall = performance.now();
     const gap = Math.min(wall - this.last, LONGEST_GAP);
     this.last = wall;
+    if (this.live) {
+      this.live.follow();
+      if (this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+      return;
+    }
     if (world.bus.deviceCount() === 0 && world.bus.toCome() === 0) {
       if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
       return;
@@ -276,9 +321,10 @@ export class Engine {
         op: 'snapshot',
         snapshot: {
           now: bus.now(),
-          running: this.running,
+          running: this.running || this.live !== null,
           replaying: this.until !== null,
           toSend: this.replay?.left ?? 0,
+          real: this.live?.link() ?? null,
           rate: this.running ? this.rate : 0,
           nodes,
           line: bus.line(),

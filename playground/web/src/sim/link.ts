@@ -5,6 +5,7 @@ import { batch } from '@preact/signals-core';
 import * as state from '../state';
 import { T } from '../texts';
 import { begin } from '../codec';
+import type { RealReport } from '../real/api';
 import type { Added, Address, Command, DeviceInfo, Entry, Input, Lesson, Questions, Report, Snapshot, Tools } from './api';
 import { showLive } from '../seeing/shelf';
 import { Ring } from '../trace/ring';
@@ -34,6 +35,17 @@ const waiting = new Map<number, { resolve(value: unknown): void; otherwise: unkn
 /** Who wants to see the frames as they come. */
 const listeners = new Set<(snapshot: Snapshot, first: number) => void>();
 
+/** What the page does about a real bus, as soon as that is loaded. */
+export const hooks = {
+  real(_: RealReport): void {},
+  crashed(): void {},
+  /** Something was to be sent while sending is off. */
+  held(): void {},
+};
+
+/** May something be sent? Not to a real bus before somebody switched sending on. */
+export const maySend = (): boolean => state.real.peek()?.sending !== false;
+
 export function start(): void {
   unanswered = 0;
   watchdog ||= window.setInterval(look, LOOK);
@@ -55,6 +67,7 @@ export function send(command: Command): void {
 
 /** Something happens on the bench. */
 export function act(input: Input): void {
+  if (!maySend() && (input.op === 'send' || (input.op === 'repeat' && input.micros > 0))) return hooks.held();
   send({ op: 'do', input });
 }
 
@@ -73,6 +86,9 @@ export const add = (input: Extract<Input, { op: 'add' | 'lesson' | 'script' }>):
 
 /** Goes back to the moment before an entry of the journal, and forgets what was done since. */
 export const takeBack = (entry: number): Promise<null> => ask((ticket) => ({ op: 'back', to: null, entry, ticket }), null);
+
+/** Puts the description of a real node among the devices. */
+export const describe = (input: Input): Promise<Added & { entry?: number }> => ask((ticket) => ({ op: 'real', what: { is: 'describe', ticket, input } }), { node: null, diagnostics: [] });
 
 /** Makes a run again, from nothing; a quiet one does not show what is sent at its first moment. */
 export function restore(entries: Entry[], until: number, quiet = false, waits = false): void {
@@ -134,6 +150,9 @@ function receive(report: Report): void {
       break;
     case 'rewound':
       rewound(report.to);
+      break;
+    case 'real':
+      hooks.real(report.what);
       break;
     case 'snapshot':
       apply(report.snapshot);
@@ -222,6 +241,7 @@ function apply(snapshot: Snapshot): void {
     state.rate.value = snapshot.rate;
     state.running.value = snapshot.running;
     state.replaying.value = snapshot.replaying;
+    state.real.value = snapshot.real;
     state.toSend.value = snapshot.toSend;
     state.statuses.value = snapshot.nodes;
     note(snapshot.now, snapshot.line.busy);
@@ -301,6 +321,7 @@ function crashed(why: string | null): void {
   worker?.terminate();
   worker = null;
   crashes += 1;
+  if (state.real.peek()) hooks.crashed();
   for (const { resolve, otherwise } of waiting.values()) resolve(otherwise);
   waiting.clear();
   if (crashes > MOST_CRASHES) {

@@ -5,7 +5,7 @@ import { address, otherSpelling, showValue } from '../format';
 import { nodeId, powered } from '../state';
 import { T } from '../texts';
 import type { Address, ObjectRecord, Outcome } from './api';
-import { ask } from './link';
+import { ask, hooks, maySend } from './link';
 
 export type Said = { tone: '' | 'error' | 'good'; text: string };
 
@@ -14,7 +14,7 @@ const SILENT: Outcome = { job: 0, kind: 'silent', bytes: null, words: '', wantsP
 
 /** Reads an object of the selected node over the bus, or with bytes writes it. */
 export const transfer = ({ index, sub }: Address, bytes: Uint8Array | null): Promise<Outcome> =>
-  ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT);
+  maySend() ? ask((ticket) => ({ op: 'transfer', ticket, node: nodeId.value, index, sub, bytes }), SILENT) : (hooks.held(), Promise.resolve({ ...SILENT, words: T.sdo.held }));
 
 /** Why there is no value. */
 export const failure = ({ words }: Outcome): string => words || (powered.value ? T.sdo.stopped : T.sdo.off);

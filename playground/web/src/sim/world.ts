@@ -2,12 +2,15 @@
 // needs that: its journal makes it again.
 
 import type { Added, Builtin, Command, Entry, Input, Lesson, LessonState, Outcome, Tools } from './api';
-import type { Bus as Simulation } from '../wasm/od_playground';
+import type { Adapter, Bus as Simulation } from '../wasm/od_playground';
 
 /** One of the two WebAssembly modules; the small one knows no EDS texts and no lessons. */
 export interface Module extends Partial<Tools> {
   Bus: new (micros?: number) => Simulation;
   builtinDevices(): Builtin[];
+  /** The conversation with an adapter; in the whole module. */
+  Adapter?: new () => Adapter;
+  identify?(vendor: number, product: number): string | null;
   /** Can it run an EDS text, and a lesson? */
   whole: boolean;
 }
@@ -37,14 +40,14 @@ export class World {
   private unseen: Uint8Array = new Uint8Array(0);
 
   constructor(
-    private readonly modules: Modules,
-    private module: Module,
+    readonly modules: Modules,
+    protected module: Module,
   ) {
     this.bus = this.fresh();
   }
 
   /** An empty bench on a real wire. */
-  private fresh(): Simulation {
+  protected fresh(): Simulation {
     const bus = new this.module.Bus();
     bus.restore([], false);
     return bus;

@@ -3,6 +3,7 @@
 export const bench = {
   topbar: {
     starting: 'Starting',
+    noNode: 'Describe a node',
     again: 'odkit, start again',
     devices: 'Devices on the bus',
     nodeBadge: (node: number) => `node ${node}`,
@@ -17,6 +18,7 @@ export const bench = {
     step: 'Step 1 millisecond',
     speed: 'Speed',
     speedTitle: 'Speed of virtual time',
+    connect: 'Connect to a real bus',
     keys: 'Keys',
     theme: 'Light or dark',
     share: 'Share and save',
@@ -29,7 +31,7 @@ export const bench = {
     tabs: { shaft: 'Shaft', hardware: 'Hardware', eeprom: 'EEPROM' },
     tabsLabel: 'Encoder views',
     nmt: 'NMT state',
-    states: { off: 'Off', initialising: 'Initialising', 'pre-operational': 'Pre-operational', operational: 'Operational', stopped: 'Stopped' },
+    states: { off: 'Off', unknown: 'State not known', initialising: 'Initialising', 'pre-operational': 'Pre-operational', operational: 'Operational', stopped: 'Stopped' },
     reset: 'Reset',
     resetLabel: 'Reset node',
     resetTitle: 'Reset node (NMT command 81h)',
@@ -172,6 +174,7 @@ export const bench = {
     written: (where: string) => `${where} written`,
     stopped: 'No response: the node is Stopped, or has another node ID.',
     off: 'No response: the power is off.',
+    held: 'Sending to the real bus is off.',
     paused: 'Time is paused. Run it to get the response.',
     what: 'Type an index, such as 6004 or 1018:01, or choose a name',
     unknown: 'Not in the dictionary of this device',

@@ -116,7 +116,7 @@ class App extends View {
       <main class="bench" data-tab=${tab} ?data-lesson=${state.lesson.value !== null} data-encoder=${state.encoderOpen.value ? 'open' : 'folded'}>
         <h1 class="sr">${T.app.title}</h1>
         <div class="side">
-          <od-encoder class="panel" data-panel="encoder"></od-encoder>
+          ${state.real.value && state.status.value?.real !== false ? html`<od-real-node class="panel" data-panel="encoder"></od-real-node>` : html`<od-encoder class="panel" data-panel="encoder"></od-encoder>`}
           ${state.lesson.value ? html`<od-lesson class="panel" data-panel="lesson"></od-lesson>` : nothing}
           <od-objects class="panel" data-panel="objects"></od-objects>
         </div>
@@ -135,6 +135,7 @@ class App extends View {
       <od-device-dialog></od-device-dialog>
       <od-help></od-help>
       <od-share></od-share>
+      <od-connect></od-connect>
       <od-mapping></od-mapping>
       <od-lessons></od-lessons>
       <od-editor></od-editor>

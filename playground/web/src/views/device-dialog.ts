@@ -106,6 +106,7 @@ class DeviceDialog extends View {
           <h2 id="device-title">${isNew ? T.dialog.another : T.dialog.title}</h2>
           <button class="icon-button" aria-label=${T.close} @click=${() => this.close()}>${icons.close}</button>
         </header>
+        ${state.real.value ? html`<od-real-kind></od-real-kind>` : nothing}
         <div class="cards">
           ${families().map(
             ([family, members]) => html`<h3 class="family">${family}</h3>${members.map(

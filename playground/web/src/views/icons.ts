@@ -29,6 +29,7 @@ export const icons = {
   help: icon(svg`<circle cx="10" cy="10" r="7"/><path d="M7.9 8a2.1 2.1 0 1 1 3 1.9c-.6.3-.9.7-.9 1.3v.3"/><path d="M10 13.9v.1" stroke-width="2"/>`),
   share: icon(svg`<circle cx="5" cy="10" r="2"/><circle cx="14.6" cy="4.8" r="2"/><circle cx="14.6" cy="15.2" r="2"/><path d="m6.8 9 6-3.2M6.8 11l6 3.2"/>`),
   open: icon(svg`<path d="M8 4.5H4.2v11.3h11.3V12M11 3.8h5.2V9M16 4 9.4 10.6"/>`),
+  plug: icon(svg`<path d="M7.5 2.8v4M12.5 2.8v4M5 6.8h10v2.4a5 5 0 0 1-10 0zM10 14.2v3.2"/>`),
   up: icon(svg`<path d="M10 16V5M5.6 9.2 10 4.8l4.4 4.4"/>`),
   close: icon(svg`<path d="m5 5 10 10M15 5 5 15"/>`),
   file: icon(svg`<path d="M5 2.8h6.4L15 6.4v10.8H5z"/><path d="M11.2 3v3.6h3.6"/>`),

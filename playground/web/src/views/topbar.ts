@@ -13,6 +13,9 @@ const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000];
 /** The dialog comes when it is asked for. */
 const openShare = (): void => void import('./share').then(() => (state.shareDialog.value = true));
 
+/** To a real bus; the mark comes with it. */
+const openConnect = (): void => void import('../real/dialog').then(() => (state.realDialog.value = true));
+
 const openLessons = (): void => void (state.lessonDialog.value = true);
 
 /** From a frame to a tab of its own, with the bench as it is now. */
@@ -43,7 +46,7 @@ class Topbar extends View {
   private nodes() {
     const { value: devices } = state.devices;
     const { value: chosen } = state.selectedNode;
-    if (devices.length === 0) return html`<button class="device-button" aria-haspopup="dialog" @click=${() => (state.deviceDialog.value = 'new')}><strong>${T.topbar.starting}</strong></button>`;
+    if (devices.length === 0) return html`<button class="device-button" aria-haspopup="dialog" @click=${() => (state.deviceDialog.value = 'new')}><strong>${state.real.value ? T.topbar.noNode : T.topbar.starting}</strong></button>`;
     return devices.map((device, number) => {
       const status = state.statuses.value[number];
       const nmt = status?.nmt ?? 'off';
@@ -71,11 +74,12 @@ class Topbar extends View {
       </a>
       <div class="nodes" role="group" aria-label=${t.devices}>
         ${this.nodes()}
-        ${state.devices.value.length > 0 && state.devices.value.length < MOST_NODES
+        ${state.devices.value.length > 0 && state.devices.value.length < (state.real.value ? 16 : MOST_NODES)
           ? html`<button class="icon-button add-node" aria-label=${t.add} title=${t.add} @click=${() => (state.deviceDialog.value = 'new')}>${icons.plus}</button>`
           : nothing}
       </div>
       <div class="spacer"></div>
+      ${state.real.value ? html`<od-real-mark></od-real-mark>` : nothing}
       <div class="timebar" role="group" aria-label=${t.time}>
         <button class="icon-button step" aria-label=${t.back} title=${t.back} @click=${stepBack}>${icons.back}</button>
         <button class="icon-button" aria-label=${isRunning ? t.stop : t.run} title=${isRunning ? t.stop : t.run} aria-pressed=${isRunning}
@@ -92,6 +96,7 @@ class Topbar extends View {
         </label>
       </div>
       <button class="learn-button" aria-haspopup="dialog" title=${T.lessons.title} @click=${openLessons}>${icons.lesson}<span>${T.lessons.learn}</span></button>
+      <button class="icon-button connect-button" aria-label=${t.connect} title=${t.connect} aria-haspopup="dialog" @click=${openConnect}>${icons.plug}</button>
       <button class="icon-button share-button" aria-label=${t.share} title=${t.share} aria-haspopup="dialog" @click=${openShare}>${icons.share}</button>
       <a class="icon-button full-button" href=${location.pathname} target="_blank" aria-label=${T.share.full} title=${T.share.full} @click=${openFull}>${icons.open}</a>
       <button class="icon-button help-button" aria-label=${t.keys} title=${`${t.keys} (?)`} @click=${() => (state.helpDialog.value = true)}>${icons.help}</button>

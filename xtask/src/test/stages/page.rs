@@ -39,11 +39,17 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
         engines(context.console)?;
     }
     bundle::page(context.repo, context.console)?;
+    // The bus that the page connects to; the interoperability tests have the same program.
+    let mut build = cargo(&context.repo.root, &["build"]);
+    build.args(ALL).args(["--bin", CLI.1]);
+    context.console.run("building odkit", &mut build)?;
+    let odkit = context.repo.target.join("debug").join(program(CLI.1));
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
     let mut command = node_test(context, &tests, &[]);
     command
         .env("ODKIT_URL", &server.url)
+        .env("ODKIT", odkit)
         .env("CHROMIUM", chromium);
     context.console.run("browser tests", &mut command)
 }
