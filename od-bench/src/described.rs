@@ -1,33 +1,18 @@
 //! A device that describes a node of a real bus: its names and types are those of its dictionary, its
 //! values and its state are what was seen on the bus. It sends nothing.
 
-use std::collections::BTreeMap;
 use std::prelude::v1::*;
 
 use od_client::watch;
 use od_model::Address;
 use od_runtime::{Frame, Store};
-use od_wire::CobId;
 use od_wire::nmt::{self, Command, State};
 use od_wire::sdo::{Request, Response};
 
 use crate::device::VirtualDevice;
+use crate::knowledge::{Described, Tpdo};
 use crate::pdos;
-use crate::words::fold::{self, Folder};
-
-/// What is known of a node.
-#[derive(Default)]
-pub(super) struct Described {
-    state: Option<State>,
-    /// Values that were seen since the node started.
-    known: BTreeMap<Address, Vec<u8>>,
-    folder: Folder,
-    count: u32,
-    /// The value of a download that is not confirmed.
-    written: Option<(Address, Vec<u8>)>,
-    /// TPDOs by the values that were seen; `None`: to be looked up.
-    tpdos: Option<Vec<pdos::Pdo>>,
-}
+use crate::words::fold;
 
 impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
@@ -94,20 +79,23 @@ impl VirtualDevice {
     }
 
     /// The TPDO of the node that this frame is, as far as they were looked up.
-    fn tpdo(&self, frame: &Frame) -> Option<&pdos::Pdo> {
+    fn tpdo(&self, frame: &Frame) -> Option<&Tpdo> {
         let all = self.described.as_ref()?.tpdos.as_ref()?;
-        let is_it = |pdo: &&pdos::Pdo| pdo.cob_id.is_some_and(|id| id.can_id() == frame.id());
-        all.iter().find(is_it)
+        all.iter().find(|pdo| pdo.id == frame.id())
     }
 
     fn look_up_tpdos(&mut self) {
         if !matches!(&self.described, Some(one) if one.tpdos.is_none()) {
             return;
         }
-        let is_valid = |id: CobId| id.is_valid() && id.can_id().raw() != 0;
-        let all = pdos::pdos(self).into_iter();
-        let all = all.filter(|pdo| pdo.transmits && pdo.cob_id.is_some_and(is_valid));
-        let all = all.collect();
+        let tpdo = |pdo: pdos::Pdo| {
+            let id = pdo.cob_id.filter(|id| pdo.transmits && id.is_valid())?;
+            (id.can_id().raw() != 0).then_some(Tpdo {
+                id: id.can_id(),
+                entries: pdo.entries,
+            })
+        };
+        let all = pdos::pdos(self).into_iter().filter_map(tpdo).collect();
         if let Some(one) = &mut self.described {
             one.tpdos = Some(all);
         }
@@ -161,7 +149,7 @@ impl VirtualDevice {
     }
 
     /// The values in a PDO of the node, which sends it in Operational only.
-    fn received(&mut self, pdo: &pdos::Pdo, frame: &Frame) {
+    fn received(&mut self, pdo: &Tpdo, frame: &Frame) {
         if let Some(described) = &mut self.described {
             described.state = Some(State::Operational);
         }

@@ -68,7 +68,7 @@ pub struct VirtualDevice {
     pub(super) twin: Option<Box<dyn Twin>>,
     /// What is known of the node of a real bus that it describes.
     #[cfg(feature = "real")]
-    pub(super) described: Option<crate::described::Described>,
+    pub(super) described: Option<crate::knowledge::Described>,
 }
 
 /// So many events are kept for whoever asks.

@@ -26,6 +26,8 @@ mod forward;
 pub mod grammar;
 mod identity;
 pub mod journal;
+#[cfg(feature = "real")]
+mod knowledge;
 mod leds;
 pub mod lesson;
 pub mod links;

@@ -149,7 +149,6 @@ export interface EdsResult {
   diagnostics: Diagnostic[];
 }
 
-/** `unknown`: a real node that has not said it. */
 export type Nmt = 'off' | 'unknown' | 'initialising' | 'pre-operational' | 'operational' | 'stopped';
 
 export type Lamp = 'off' | 'on' | 'flashing';
@@ -189,10 +188,8 @@ export interface Status {
   controller: 'error active' | 'error passive' | 'bus-off';
   /** Hangs on the line. */
   plugged: boolean;
-  /** The shaft follows a profile. */
-  moves: boolean;
-  /** Describes a node of a real bus. */
-  real: boolean;
+  /** The shaft follows a profile. */ moves: boolean;
+  /** Describes a node of a real bus. */ real: boolean;
 }
 
 /** The wire, and the controller of the outside. */

@@ -8,6 +8,8 @@ mod devices;
 mod lesson;
 #[cfg(feature = "real")]
 mod port;
+#[cfg(feature = "real")]
+mod real;
 #[cfg(feature = "lessons")]
 mod taken;
 

@@ -8,6 +8,7 @@ import { Real } from './world';
 let real: Real | null = null;
 
 export async function handle(engine: Engine, what: RealCommand): Promise<void> {
+  engine.leave = () => leave(engine);
   switch (what.is) {
     case 'connect': {
       leave(engine);
@@ -54,7 +55,7 @@ export async function handle(engine: Engine, what: RealCommand): Promise<void> {
 }
 
 /** Back to the virtual bench. */
-export function leave(engine: Engine): void {
+function leave(engine: Engine): void {
   if (!real) return;
   real.close();
   real = null;

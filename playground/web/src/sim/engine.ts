@@ -59,6 +59,8 @@ export class Engine {
   /** The real bus that is shown, in place of the virtual bench. */
   private live: Live | null = null;
   private home: World;
+  /** Ends the link to the real bus. */
+  leave: (() => void) | null = null;
 
   constructor(
     private world: World,
@@ -89,11 +91,10 @@ export class Engine {
   }
 
   async handle(command: Command): Promise<void> {
-    if (command.op === 'real') return (await import('../real/worker')).handle(this, command.what);
     if (this.live) {
       if (NOT_REAL.has(command.op)) return;
       // Another bench is a virtual one.
-      if (command.op === 'restore' || (command.op === 'do' && command.input.op === 'lesson')) (await import('../real/worker')).leave(this);
+      if (command.op === 'restore' || (command.op === 'do' && command.input.op === 'lesson')) this.leave?.();
     }
     const { world } = this;
     switch (command.op) {

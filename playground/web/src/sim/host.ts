@@ -27,7 +27,10 @@ export async function host(modules: Modules): Promise<void> {
     if (!engine || isWorking) return;
     isWorking = true;
     try {
-      for (let next = waiting.shift(); next; next = waiting.shift()) await engine.handle(next);
+      for (let next = waiting.shift(); next; next = waiting.shift()) {
+        if (next.op === 'real') await (await import('../real/worker')).handle(engine, next.what);
+        else await engine.handle(next);
+      }
     } catch (reason) {
       crash(reason);
     }

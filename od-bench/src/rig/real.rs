@@ -1,0 +1,83 @@
+//! A rig on a real bus: frames of a link come in as from outside, and what is sent here goes out.
+
+use std::prelude::v1::*;
+
+use od_wire::Frame;
+
+use super::port::Port;
+use super::{Rig, Seen};
+
+/// Most things that wait to be drained; the oldest are dropped.
+const MOST: usize = 20_000;
+
+impl Rig {
+    /// Puts the rig on a real bus. Nothing is sent until [`set_sending`](Self::set_sending).
+    pub fn open_port(&mut self) {
+        self.port = Some(Port::default());
+    }
+
+    /// Returns whether it is on a real bus.
+    pub fn has_port(&self) -> bool {
+        self.port.is_some()
+    }
+
+    /// Lets frames of this side go out, or holds them back: those of the person and of every device.
+    pub fn set_sending(&mut self, on: bool) {
+        if let Some(port) = &mut self.port {
+            port.sends = on;
+            port.out.clear();
+        }
+    }
+
+    /// A frame came over the link.
+    pub fn hear(&mut self, frame: &Frame) {
+        let now = self.bus.now();
+        self.bus.receive(frame);
+        let mut devices = self.bus.devices().iter();
+        let device = devices.position(|one| one.is_sender(frame));
+        self.asker.handle_frame(now, frame);
+        self.saw(Seen::Heard {
+            at: now,
+            device,
+            frame: *frame,
+        });
+        self.settle();
+    }
+
+    /// Returns the next frame that has to go out over the link.
+    pub fn outgoing(&mut self) -> Option<Frame> {
+        self.port.as_mut()?.out.pop_front()
+    }
+
+    /// Returns how many frames were held back because sending is off.
+    pub fn held(&self) -> u64 {
+        self.port.as_ref().map_or(0, |port| port.held)
+    }
+
+    /// Returns how many things were dropped before anybody drained them.
+    pub fn dropped(&self) -> u64 {
+        self.port.as_ref().map_or(0, |port| port.dropped)
+    }
+
+    /// May a frame of this side be sent? On a real bus it goes out then.
+    pub(super) fn passes(&mut self, frame: &Frame) -> bool {
+        let Some(port) = &mut self.port else {
+            return true;
+        };
+        match port.sends {
+            true => port.out.push_back(*frame),
+            false => port.held += 1,
+        }
+        port.sends
+    }
+
+    /// Keeps the newest of what was seen.
+    pub(super) fn bound(&mut self) {
+        if let Some(port) = &mut self.port
+            && self.seen.len() >= 2 * MOST
+        {
+            port.dropped += MOST as u64;
+            self.seen.drain(..MOST);
+        }
+    }
+}
