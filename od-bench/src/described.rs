@@ -18,6 +18,7 @@ impl VirtualDevice {
     /// Makes it the description of a node of a real bus, with the values of its file.
     #[must_use]
     pub fn describing(mut self) -> Self {
+        self.node.power_off();
         let dictionary = self.source.dictionary();
         // `build` made room for the values.
         if let Ok(mut store) = Store::new(&dictionary, &mut self.values, self.node.node_id()) {

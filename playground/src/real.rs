@@ -321,6 +321,62 @@ mod tests {
         assert_eq!(adapter.frames(), 50_000);
     }
 
+    fn begin(bus: &mut Bus, text: &str) -> Result<(), String> {
+        use od_bench::journal::Trouble;
+        let added = bus.journal.act(Input::Lesson { text: text.into() });
+        match added.trouble {
+            Trouble::Problems(all) => Err(all.iter().map(|one| one.message.clone()).collect()),
+            _ => Ok(()),
+        }
+    }
+
+    #[test]
+    fn a_lesson_of_frames_and_objects_is_taken_on_a_real_node() -> Result<(), String> {
+        let (mut bus, mut adapter) = live();
+        bus.set_sending(true);
+        begin(&mut bus, include_str!("../lessons/04-aborts.md"))?;
+        assert_eq!(bus.device_count(), 1);
+        assert!(bus.device(0).is_some_and(VirtualDevice::is_described));
+        let step = |bus: &mut Bus| {
+            bus.journal
+                .rig
+                .lesson()
+                .map(|(progress, _)| progress.step())
+        };
+        // The page's frame alone is no answer; that of the node is.
+        send(&mut bus, 0x601, &[0x2F, 0, 0x10, 0, 1, 0, 0, 0]);
+        assert_eq!(step(&mut bus), Some(0));
+        adapter.hear(&mut bus, b"t58188000100002000106\r");
+        assert_eq!(step(&mut bus), Some(1));
+        Ok(())
+    }
+
+    #[test]
+    fn a_lesson_that_needs_more_than_frames_says_what() {
+        let (mut bus, _) = live();
+        bus.journal.describe(&input(5));
+        for (text, why) in [
+            (
+                include_str!("../lessons/01-boot-up-and-heartbeat.md"),
+                "`device gxmm node 5 off`",
+            ),
+            (include_str!("../lessons/02-nmt.md"), "looks at an LED"),
+            (include_str!("../lessons/06-pdo-sync.md"), "`shaft rpm 10`"),
+            (
+                include_str!("../lessons/09-store.md"),
+                "looks into the EEPROM",
+            ),
+            (
+                include_str!("../lessons/10-lss.md"),
+                "two nodes have one node ID",
+            ),
+        ] {
+            let said = begin(&mut bus, text).err().unwrap_or_default();
+            assert!(said.contains(why), "{said}");
+        }
+        assert_eq!(bus.device_count(), 1, "what was there stays");
+    }
+
     #[test]
     fn built_in_devices_are_known_by_their_identity() {
         let found = |name: &str| {

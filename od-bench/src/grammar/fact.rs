@@ -118,6 +118,10 @@ impl Fact {
                 let look = |one: &mut VirtualDevice, now| {
                     let entry = values::find(one.dictionary(), object)?;
                     let (address, data_type) = (entry.address, entry.data_type);
+                    #[cfg(feature = "real")]
+                    if !one.is_known(address) {
+                        return found(false, "not known: read the object");
+                    }
                     let bytes = one.read(address, now);
                     found(test.holds(data_type, &bytes)?, show(data_type, &bytes))
                 };

@@ -25,6 +25,8 @@ mod parse;
 mod progress;
 mod proof;
 mod quiz;
+#[cfg(feature = "real")]
+mod real;
 #[cfg(test)]
 mod tests;
 mod watch;

@@ -26,6 +26,12 @@ impl Rig {
         let lesson = Lesson::parse(text)?;
         let mut bus = Bus::new();
         bus.advance(self.bus.now());
+        #[cfg(feature = "real")]
+        let set_up = match self.has_port() {
+            true => lesson.describe(bus, host),
+            false => lesson.set_up_on(Bench::new(bus), host),
+        };
+        #[cfg(not(feature = "real"))]
         let set_up = lesson.set_up_on(Bench::new(bus), host);
         let mut names = set_up.map_err(|problem| vec![problem])?;
         let progress = Progress::new(lesson.clone(), &mut names);

@@ -5,6 +5,7 @@ import { ask, dropFrames, hooks, select, send, use } from '../sim/link';
 import * as state from '../state';
 import { download } from '../actions';
 import { effect, signal } from '@preact/signals-core';
+import type { Ring } from '../trace/ring';
 import { R } from '../texts/real';
 import type { RealCommand, RealReport, Target, Why } from './api';
 
@@ -99,11 +100,13 @@ export const identify = (vendor: number, product: number): Promise<string | null
 
 // ---- What the virtual bench showed ----
 
+const all = (ring: Ring): Uint8Array => ring.slice(ring.first, ring.end);
+
 const keep = () => ({
   devices: state.devices.peek(),
   node: state.selectedNode.peek(),
   now: state.now.peek(),
-  frames: state.ring.slice(state.ring.first, state.ring.end),
+  frames: all(state.live.ring),
 });
 let virtual = keep();
 
@@ -130,7 +133,7 @@ hooks.crashed = left;
 hooks.held = () => (state.toast.value = { text: R.held, tone: 'error', action: { text: R.turnOn, run: () => setSending(true) } });
 
 function left(): void {
-  const frames = state.ring.slice(state.ring.first, state.ring.end);
+  const frames = all(state.live.ring);
   delete document.documentElement.dataset['real'];
   state.real.value = null;
   state.now.value = virtual.now;

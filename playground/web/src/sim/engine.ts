@@ -92,9 +92,9 @@ export class Engine {
 
   async handle(command: Command): Promise<void> {
     if (this.live) {
-      if (NOT_REAL.has(command.op)) return;
+      if (NOT_REAL.has(command.op)) return 'ticket' in command ? this.answer(command.ticket ?? 0, null) : undefined;
       // Another bench is a virtual one.
-      if (command.op === 'restore' || (command.op === 'do' && command.input.op === 'lesson')) this.leave?.();
+      if (command.op === 'restore') this.leave?.();
     }
     const { world } = this;
     switch (command.op) {
@@ -269,7 +269,7 @@ export class Engine {
 
   /** A checkpoint that is reached stops time: there is something to read. */
   private pauseAtGoal(): boolean {
-    const isReached = this.world.reachedGoal();
+    const isReached = this.world.reachedGoal() && !this.live;
     if (isReached) this.running = false;
     return isReached;
   }

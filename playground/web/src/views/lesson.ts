@@ -109,9 +109,9 @@ class LessonPanel extends View {
       )}</ul>
       ${this.hints < step.hints.length
         ? html`<button class="small" @click=${this.hint}>${this.hints ? t.nextHint : t.hint}</button>`
-        : step.solution ? html`<button class="small" title=${t.showTitle} @click=${() => void this.show(step, number, isLost)}>${t.show}</button>` : nothing}
-      ${isLost ? nothing : html`<button class="icon-button" aria-label=${t.back} title=${t.back} @click=${() => void this.back(number)}>${icons.reset}</button>`}</div>
-      ${isLost ? html`<div class="lost" role="status"><span>${t.lost}</span><button class="small" @click=${() => void this.back(number)}>${t.back}</button></div>` : nothing}`;
+        : step.solution && !state.real.value ? html`<button class="small" title=${t.showTitle} @click=${() => void this.show(step, number, isLost)}>${t.show}</button>` : nothing}
+      ${isLost || state.real.value ? nothing : html`<button class="icon-button" aria-label=${t.back} title=${t.back} @click=${() => void this.back(number)}>${icons.reset}</button>`}</div>
+      ${isLost && !state.real.value ? html`<div class="lost" role="status"><span>${t.lost}</span><button class="small" @click=${() => void this.back(number)}>${t.back}</button></div>` : nothing}`;
   }
 
   protected override render() {
