@@ -5,6 +5,9 @@ import { readFile } from 'node:fs/promises';
 import { cpus, loadavg } from 'node:os';
 import { serve } from '../../playground/web/serve.mjs';
 import { launch } from './harness.mjs';
+import { once } from 'node:events';
+import WebSocket from 'ws';
+import { simulated } from './odkit.mjs';
 import { booted, nmt, sdo, sdoNote, until } from './bench.mjs';
 
 const WEB = new URL('../../playground/web/', import.meta.url);
@@ -125,6 +128,45 @@ async function throughput(browser) {
   row('Pictures a second meanwhile', round(seen.pictures), '', 'at least 50', seen.pictures >= 50);
 }
 
+/** 5,000 frames a second of a real bus: another client of `odkit sim` sends them, the page shows them. */
+async function real(browser) {
+  const bus = await simulated(['gxmm']);
+  const own = await context(browser);
+  const page = await own.newPage();
+  await page.goto(`${url}#bus=${bus.found}`);
+  await page.locator('.topbar .real-mark').waitFor();
+  const other = new WebSocket(bus.found);
+  await once(other, 'open');
+  other.send('O\r');
+  const captured = () => page.evaluate(() => Number(document.querySelector('[aria-label="Captured frames"]').textContent.replace(/\D/g, '')));
+  const pictures = page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        const from = performance.now();
+        let count = 0;
+        const next = () => (performance.now() - from < 8000 ? ((count += 1), requestAnimationFrame(next)) : resolve((count * 1000) / (performance.now() - from)));
+        next();
+      }),
+  );
+  const from = performance.now();
+  const second = 5000;
+  let sent = 0;
+  while (performance.now() - from < 8000) {
+    const due = Math.floor(((performance.now() - from) / 1000) * second) - sent;
+    if (due > 0) other.send('t18181122334455667788\r'.repeat(due));
+    sent += due;
+    await new Promise((resolve) => setTimeout(resolve, 4));
+  }
+  const drawn = await pictures;
+  const seen = await captured();
+  await until('all frames', async () => (await captured()) === sent);
+  row('Real bus over WebSocket: frames a second', round(seen / 8), '', 'at least 5,000', seen / 8 >= 4950);
+  row('Real bus: pictures a second meanwhile', round(drawn), '', 'at least 50', drawn >= 50);
+  other.close();
+  await own.close();
+  await bus.stop();
+}
+
 const browser = await launch();
 try {
   firstLoad();
@@ -134,6 +176,7 @@ try {
   // No aim: how far the busiest set-up goes.
   await simulation(browser, 1, 0);
   await throughput(browser);
+  await real(browser);
 } finally {
   await browser.close();
   await server.stop();

@@ -33,3 +33,6 @@ export async function odkit(args, pattern) {
 /** `odkit sim` with a WebSocket; `found` is the address. Port 0: any that is free. */
 export const simulated = (devices, port = 0, more = '') =>
   odkit(['sim', ...devices, '--link', `ws:127.0.0.1:${port}${more}`], /pages on (ws:\S+)/);
+
+/** `odkit sim` as an adapter that speaks slcan; `found` is `HOST:PORT`. */
+export const adapted = (devices) => odkit(['sim', ...devices, '--link', 'slcan:127.0.0.1:0'], /slcan on (\S+:\d+)/);

@@ -2,8 +2,9 @@
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
-import { open } from './check.mjs';
-import { simulated } from './odkit.mjs';
+import { withAdapter } from './adapter.mjs';
+import { browser, open } from './check.mjs';
+import { adapted, simulated } from './odkit.mjs';
 
 const running = [];
 const sim = async (...args) => {
@@ -186,4 +187,40 @@ on('a search finds the nodes; one of ours has its dictionary, and its values are
   assert.equal(await page.getByRole('slider', { name: 'Shaft' }).isVisible(), false, 'the shaft is elsewhere');
   await page.getByRole('button', { name: 'Read all values' }).click();
   await page.getByText(/^(\d+) of \1 read$/).waitFor();
+});
+
+test('an adapter over Web Serial: its bus is shown, and a cable that was pulled out and plugged in again goes on', async () => {
+  const bus = await adapted(['gxmm', '--node-id', '7']);
+  running.push(bus);
+  const { page, plug, pull, close } = await withAdapter(browser);
+  try {
+    await booted(page);
+    await page.getByRole('button', { name: 'Connect to a real bus' }).click();
+    await dialog(page).getByRole('button', { name: 'Choose adapter' }).click();
+    await becomes('the reason', () => problem(page), /The port cannot be opened: Failed to open/);
+    await plug(null);
+    await dialog(page).getByRole('button', { name: 'Choose adapter' }).click();
+    await becomes('the reason', () => problem(page), /The adapter does not answer/);
+    await plug(bus.found);
+    await dialog(page).getByRole('combobox', { name: 'Bit rate of the bus' }).selectOption('125 kbit/s');
+    await dialog(page).getByRole('button', { name: 'Choose adapter' }).click();
+    await mark(page).waitFor();
+    await turnOn(page);
+    await sendRaw(page, '607#40 00 10 00');
+    await row(page, 'the answer', (one) => one.id === '587' && one.dir === 'Rx');
+    const before = await captured(page);
+    await pull();
+    await becomes('the mark', () => mark(page).innerText(), /Connection lost/);
+    await mark(page).click();
+    await page.getByText('The adapter was unplugged.').waitFor();
+    await page.keyboard.press('Escape');
+    await plug(bus.found);
+    await becomes('the mark', () => mark(page).getAttribute('data-status'), 'open');
+    assert.ok((await captured(page)) >= before, 'what was seen stays');
+    await turnOn(page);
+    await sendRaw(page, '607#40 18 10 01');
+    await row(page, 'the answer', (one) => one.id === '587' && one.data.startsWith('43 18 10 01'));
+  } finally {
+    await close();
+  }
 });

@@ -31,7 +31,7 @@ export function sendLine(line: string): void {
 }
 
 /** Is it a line of a script about what is outside the bus: `power off`, `set 6000h:01 = 5`? */
-export const isDeed = (line: string): boolean => /^\s*(power|shaft|switch|fault|bus|line|set|emcy)\s/.test(line);
+export const isDeed = (line: string): boolean => !state.real.value && /^\s*(power|shaft|switch|fault|bus|line|set|emcy)\s/.test(line);
 
 /** Carries out such a line on the selected device. */
 export async function doLine(line: string): Promise<void> {

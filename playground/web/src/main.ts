@@ -30,14 +30,16 @@ async function open(): Promise<void> {
   if (lesson) {
     const { openNamed } = await import('./lessons/open');
     let isThere = false;
-    const meanwhile = (): Promise<void> => {
+    const meanwhile = async (): Promise<void> => {
+      if (state.real.value) return;
       isThere = true;
       state.toast.value = { text: T.lessons.slow(lesson), tone: 'info' };
       return begin(recall());
     };
     if ((await openNamed(lesson, meanwhile)) || isThere) return;
   }
-  await begin(recall());
+  // A real bus that is shown stays.
+  if (!state.real.value) await begin(recall());
 }
 
 /** What can wait until the bench runs. A frame in another page keeps nothing. */

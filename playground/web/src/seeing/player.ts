@@ -42,6 +42,8 @@ export function start(where: Way, isHeld = false): void {
   const log = state.log.peek();
   if (!log?.count) return;
   end();
+  // Nothing of a log goes onto a real bus.
+  if (state.real.peek()) where = 'look';
   way.value = where;
   place.value = 0;
   phase.value = isHeld ? 'held' : 'runs';

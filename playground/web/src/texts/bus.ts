@@ -7,6 +7,7 @@ export const bus = {
     cycle: 'Cycle',
     gapTitle: 'Time since the previous frame, or since the previous one with the same CAN-ID',
     rows: 'Captured frames, oldest first',
+    quiet: 'No frame on the real bus so far.',
     empty: 'Nothing on the bus yet. Switch the power on, or send a frame.',
     nothing: 'No frame passes the filter.',
     toEnd: 'Latest frames',

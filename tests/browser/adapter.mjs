@@ -1,0 +1,58 @@
+// A stand-in for Web Serial: the page's port leads to a TCP connection of the test.
+import { connect } from 'node:net';
+import { once } from 'node:events';
+import { URL_OF_PAGE } from './harness.mjs';
+
+/** Opens the page with an adapter; `plug` leads its port to an address, or to nobody, `pull` pulls it out. */
+export async function withAdapter(browser) {
+  const context = await browser.newContext({ viewport: { width: 1366, height: 625 } });
+  const page = await context.newPage();
+  let socket = null;
+  let isPlugged = false;
+  await page.exposeFunction('toAdapter', (text) => void socket?.write(text, 'latin1'));
+  await page.exposeFunction('isPlugged', () => isPlugged);
+  await page.addInitScript(() => {
+    const serial = new EventTarget();
+    let source;
+    const port = Object.assign(new EventTarget(), {
+      readable: null,
+      writable: null,
+      async open() {
+        if (!(await globalThis.isPlugged())) throw new DOMException('Failed to open serial port.', 'NetworkError');
+        this.readable = new ReadableStream({ start: (controller) => (source = controller) });
+        this.writable = new WritableStream({ write: (bytes) => globalThis.toAdapter(String.fromCharCode(...bytes)) });
+      },
+      async close() {
+        this.readable = this.writable = null;
+      },
+    });
+    globalThis.fromAdapter = (text) => source.enqueue(Uint8Array.from(text, (letter) => letter.charCodeAt(0)));
+    globalThis.pulled = () => source.error(new DOMException('The device has been lost.', 'NetworkError'));
+    globalThis.plugged = () => serial.dispatchEvent(new Event('connect'));
+    Object.defineProperty(navigator, 'serial', { value: Object.assign(serial, { requestPort: async () => port }) });
+  });
+  await page.goto(URL_OF_PAGE);
+  return {
+    page,
+    async plug(address) {
+      if (address) {
+        const [host, place] = address.split(':');
+        socket = connect(Number(place), host);
+        await once(socket, 'connect');
+        socket.on('data', (bytes) => void page.evaluate((text) => globalThis.fromAdapter(text), bytes.toString('latin1')).catch(() => undefined));
+      }
+      isPlugged = true;
+      await page.evaluate(() => globalThis.plugged());
+    },
+    async pull() {
+      isPlugged = false;
+      socket?.destroy();
+      socket = null;
+      await page.evaluate(() => globalThis.pulled());
+    },
+    close: async () => {
+      socket?.destroy();
+      await context.close();
+    },
+  };
+}
