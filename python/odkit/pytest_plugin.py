@@ -10,6 +10,9 @@ Without a marker the bench has a GXMM encoder at node ID 1::
 
 A failing test shows the last frames of its bus in words. ``--odkit-record DIR`` saves the frames of
 each test as ``DIR/TEST.log``, as candump does.
+
+``--odkit-conform LINK --odkit-eds FILE --node-id N`` adds the conformance test of a node: each case is a
+test with its clause in the name. Without a file or folder on the command line these are all tests.
 """
 
 import os
@@ -29,6 +32,30 @@ def pytest_addoption(parser):
         "--odkit-record",
         metavar="DIR",
         help="save the frames of each test that uses odkit_bench as DIR/TEST.log",
+    )
+    group.addoption(
+        "--odkit-conform",
+        metavar="LINK",
+        help="run the conformance test of the node on this bus: slcan:HOST:PORT, socketcan:can0, or "
+        "bench:DEVICE for a simulated device",
+    )
+    group.addoption(
+        "--odkit-eds",
+        metavar="FILE",
+        help="EDS, DCF or XDD of the node; of a simulated device its own by default",
+    )
+    group.addoption("--node-id", metavar="N", type=int, help="node ID, 1 to 127; 1 by default")
+    group.addoption(
+        "--odkit-only",
+        metavar="GLOB",
+        action="append",
+        help="only cases or groups of this name, such as 'nmt-*'; may be repeated",
+    )
+    group.addoption("--odkit-allow-reset", action="store_true", help="allow resets of the node")
+    group.addoption(
+        "--odkit-allow-store",
+        action="store_true",
+        help="allow save and restore commands; what they change is put back",
     )
 
 
@@ -91,3 +118,15 @@ def pytest_runtest_makereport(item, call):
         hidden = len(lines) - SHOWN
         head = [f"({hidden} earlier frames)"] if hidden > 0 else []
         report.sections.append(("odkit bus log", "\n".join(head + lines[-SHOWN:])))
+
+
+def pytest_collection_modifyitems(session, config, items):
+    if not config.getoption("--odkit-conform"):
+        return
+    from odkit import pytest_conform
+
+    cases = list(pytest_conform.Node.from_parent(session, name="conform").collect())
+    named = getattr(config, "args_source", None)
+    if named is None or named.name != "ARGS":
+        items.clear()
+    items.extend(cases)

@@ -1,11 +1,13 @@
 //! The Python package `odkit`: a CAN bus with CANopen devices in it, in virtual time.
 //!
 //! `wire` is a bus with its devices and those who listen; `party` and `pass` decide who moves its
-//! time. The classes above it are one file each. `files/` is about device descriptions.
+//! time. The classes above it are one file each. `files/` is about device descriptions,
+//! `client/` is the other end of a bus.
 
 #![forbid(unsafe_op_in_unsafe_fn)]
 
 mod bench;
+mod client;
 mod cyclic;
 mod device;
 mod expect;
@@ -30,6 +32,16 @@ use pyo3::prelude::*;
 mod _odkit {
     #[pymodule_export]
     use crate::bench::Bench;
+    #[pymodule_export]
+    use crate::client::calls::Client;
+    #[pymodule_export]
+    use crate::client::conform::{Conform, Record, conform_cases};
+    #[pymodule_export]
+    use crate::client::errors::{NodeError, SdoAbort};
+    #[pymodule_export]
+    use crate::client::heard::{Emcy, Found, Pdo};
+    #[pymodule_export]
+    use crate::client::node::Node;
     #[pymodule_export]
     use crate::device::Device;
     #[pymodule_export]

@@ -222,8 +222,11 @@ def test_a_line_without_terminators(bench):
 
 
 def test_everything_has_a_docstring():
-    for one in (odkit.Bench, odkit.Device, odkit.Snapshot):
-        assert one.__doc__
+    public = [getattr(odkit, name) for name in odkit.__all__]
+    assert all(one.__doc__ for one in public)
+    for one in public:
+        if not isinstance(one, type) or issubclass(one, Exception):
+            continue
         for name, member in vars(one).items():
             if not name.startswith("_"):
                 assert (member.__doc__ or "").strip(), f"{one.__name__}.{name}"

@@ -45,3 +45,28 @@ def test_a_failing_test_shows_its_frames_and_all_are_recorded(pytester):
     logs = {path.name: path.read_text() for path in (pytester.path / "logs").iterdir()}
     assert logs["test_it.py-test_fails.log"] == "(0.000000) can0 703#00\n"
     assert set(logs) == {"test_it.py-test_fails.log", "test_it.py-test_passes.log"}
+
+
+def test_the_conformance_test_of_a_node(pytester):
+    pytester.makepyfile(test_other="def test_other(): assert False")
+    result = pytester.runpytest(
+        "--odkit-conform", "bench:gxmm", "--odkit-eds", EDS, "--node-id", "5", "--odkit-only", "nmt-s*", "-v"
+    )
+    outcomes = result.parseoutcomes()
+    assert outcomes["passed"] >= 3 and set(outcomes) <= {"passed", "skipped"}
+    result.stdout.fnmatch_lines(["*nmt-start[[]CiA 301*] PASSED*"])
+    result = pytester.runpytest("--odkit-conform", "bench:gxmm", "--odkit-only", "nmt-start", "test_other.py")
+    result.assert_outcomes(passed=1, failed=1)
+
+
+def test_a_case_that_fails_says_why(pytester):
+    with open(EDS) as file:
+        wrong = file.read().replace("DefaultValue=0x20196", "DefaultValue=0x10196", 1)
+    (pytester.path / "wrong.eds").write_text(wrong)
+    result = pytester.runpytest(
+        "--odkit-conform", "bench:gxmm", "--odkit-eds", "wrong.eds", "--odkit-only", "eds-device-type"
+    )
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*expected*", "*odkit bus log*", "*601#40001000*"])
+    result = pytester.runpytest("--odkit-conform", "slcan:127.0.0.1:1")
+    result.stderr.fnmatch_lines(["*add --odkit-eds FILE*"])

@@ -34,6 +34,14 @@ pub fn open(name: &str) -> Result<Box<dyn Link>, Fault> {
 /// # Errors
 /// As [`open`]; [`Fault::Usage`] also if this kind of link cannot set the bit rate.
 pub fn open_at(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link>, Fault> {
+    Ok(open_between_threads(name, kbit)?)
+}
+
+/// As [`open_at`], a link that any thread may use.
+///
+/// # Errors
+/// As [`open_at`].
+pub fn open_between_threads(name: &str, kbit: Option<u16>) -> Result<Box<dyn Link + Send>, Fault> {
     check(name)?;
     let (kind, place) = name.split_once(':').unwrap_or((name, ""));
     if let (Some(kbit), "socketcan" | "socketcand") = (kbit, kind) {
@@ -113,13 +121,13 @@ fn is_address(place: &str) -> bool {
 }
 
 #[cfg(target_os = "linux")]
-fn interface(name: &str) -> Result<Box<dyn Link>, Fault> {
+fn interface(name: &str) -> Result<Box<dyn Link + Send>, Fault> {
     Ok(Box::new(self::socketcan::Interface::open(name)?))
 }
 
 /// Only Linux has such interfaces.
 #[cfg(not(target_os = "linux"))]
-fn interface(_: &str) -> Result<Box<dyn Link>, Fault> {
+fn interface(_: &str) -> Result<Box<dyn Link + Send>, Fault> {
     Err(Fault::Usage(String::from(
         "SocketCAN needs Linux; use an slcan adapter: `--link slcan:COM3`",
     )))

@@ -81,36 +81,43 @@ impl Object {
         Ok(object.entries.keys().map(|sub| self.entry(*sub)).collect())
     }
 
+    /// The type of a VAR, such as `UNSIGNED32`; else `None`.
     #[getter]
     fn data_type<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "data_type")
     }
 
+    /// AccessType of a VAR; else `None`.
     #[getter]
     fn access<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "access")
     }
 
+    /// PDOMapping of a VAR; else `None`.
     #[getter]
     fn mappable<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "mappable")
     }
 
+    /// DefaultValue of a VAR, as `Entry.default`; else `None`.
     #[getter]
     fn default<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "default")
     }
 
+    /// LowLimit of a VAR; else `None`.
     #[getter]
     fn low<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "low")
     }
 
+    /// HighLimit of a VAR; else `None`.
     #[getter]
     fn high<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "high")
     }
 
+    /// ParameterValue of a VAR in a DCF; else `None`.
     #[getter]
     fn value<'p>(&self, py: Python<'p>) -> PyResult<Option<Bound<'p, PyAny>>> {
         self.own(py, "value")

@@ -1,0 +1,305 @@
+//! A client on a link: it sends what its jobs have to send, and waits for answers.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use od_bus::fault::Fault;
+use od_bus::link::{Heard, Link};
+use od_client::emcy::Emcy;
+use od_client::sdo::{Options, SdoError};
+use od_client::{Client, Event, Job, lss, nmt, watch};
+use od_model::Address;
+use od_wire::nmt::{Command, State};
+use od_wire::{Duration, Instant, NodeId};
+
+use crate::client::known::{Known, Tpdo, can_id};
+use crate::client::link::Line;
+
+/// PDOs and EMCY messages that wait for the caller; then the oldest ones go.
+const KEPT: usize = 100_000;
+
+/// A PDO that came.
+pub(crate) struct Came {
+    pub(crate) at: Instant,
+    pub(crate) tpdo: Tpdo,
+    pub(crate) data: Vec<u8>,
+}
+
+/// A client, its link, and what it knows.
+pub(crate) struct Core {
+    pub(crate) line: Line,
+    client: Client,
+    pub(crate) timeout: Duration,
+    pub(crate) known: BTreeMap<u8, Arc<Known>>,
+    pub(crate) tpdos: Vec<Tpdo>,
+    pub(crate) pdos: VecDeque<Came>,
+    pub(crate) emcys: VecDeque<(Instant, NodeId, Emcy)>,
+    /// Nodes whose heartbeat did not come in time.
+    pub(crate) lost: Vec<NodeId>,
+}
+
+fn keep<T>(queue: &mut VecDeque<T>, one: T) {
+    if queue.len() == KEPT {
+        queue.pop_front();
+    }
+    queue.push_back(one);
+}
+
+impl Core {
+    pub(crate) fn new(line: Line, timeout: Duration) -> Self {
+        let mut options = Options::DEFAULT;
+        options.timeout = timeout;
+        Self {
+            line,
+            client: Client::with(options, lss::Options::DEFAULT),
+            timeout,
+            known: BTreeMap::new(),
+            tpdos: Vec::new(),
+            pdos: VecDeque::new(),
+            emcys: VecDeque::new(),
+            lost: Vec::new(),
+        }
+    }
+
+    /// Reads an object.
+    pub(crate) fn upload(
+        &mut self,
+        node: NodeId,
+        address: Address,
+    ) -> Result<Result<Vec<u8>, SdoError>, Fault> {
+        let job = self.client.read(node, address);
+        loop {
+            if let Event::Read(_, result) = self.end(job)? {
+                return Ok(result);
+            }
+        }
+    }
+
+    /// Writes an object.
+    pub(crate) fn download(
+        &mut self,
+        node: NodeId,
+        address: Address,
+        bytes: &[u8],
+    ) -> Result<Result<(), SdoError>, Fault> {
+        let job = self.client.write(node, address, bytes);
+        loop {
+            if let Event::Written(_, result) = self.end(job)? {
+                return Ok(result);
+            }
+        }
+    }
+
+    /// Reads which TPDOs of a node are valid, and what is mapped; returns their numbers, from 1.
+    pub(crate) fn read_mapping(
+        &mut self,
+        node: NodeId,
+    ) -> Result<Result<Vec<u16>, (Address, SdoError)>, Fault> {
+        let mut found = Vec::new();
+        for number in 0..0x200_u16 {
+            let cob_id = match self.number(node, Address::new(0x1800 + number, 1))? {
+                Ok(Some(cob_id)) => cob_id,
+                // Those behind a gap are rare, and asking for all 512 takes seconds.
+                Ok(None) if number > 3 => break,
+                Ok(None) => continue,
+                Err(error) => return Ok(Err(error)),
+            };
+            let Some(id) = can_id(i128::from(cob_id)) else {
+                continue;
+            };
+            let mapped = 0x1A00 + number;
+            let count = match self.number(node, Address::new(mapped, 0))? {
+                Ok(count) => count.unwrap_or(0).min(64) as u8,
+                Err(error) => return Ok(Err(error)),
+            };
+            let mut mapping = Vec::new();
+            for sub in 1..=count {
+                match self.number(node, Address::new(mapped, sub))? {
+                    Ok(entry) => mapping.extend(entry),
+                    Err(error) => return Ok(Err(error)),
+                }
+            }
+            found.push(Tpdo {
+                node: node.raw(),
+                number: number + 1,
+                id,
+                mapping,
+            });
+        }
+        let numbers = found.iter().map(|one| one.number).collect();
+        self.tpdos.retain(|one| one.node != node.raw());
+        self.tpdos.extend(found);
+        Ok(Ok(numbers))
+    }
+
+    /// A number of at most 4 bytes; `None` if the node does not have it.
+    fn number(
+        &mut self,
+        node: NodeId,
+        address: Address,
+    ) -> Result<Result<Option<u32>, (Address, SdoError)>, Fault> {
+        Ok(match self.upload(node, address)? {
+            Ok(bytes) if bytes.len() <= 4 => {
+                let bytes = bytes.iter().rev();
+                Ok(Some(
+                    bytes.fold(0, |number, byte| number << 8 | u32::from(*byte)),
+                ))
+            }
+            Ok(_) | Err(SdoError::Abort(_)) => Ok(None),
+            Err(error) => Err((address, error)),
+        })
+    }
+
+    /// Sends an NMT command and waits for the state that it leads to; `None`: it was not heard.
+    pub(crate) fn nmt(
+        &mut self,
+        node: Option<NodeId>,
+        command: Command,
+        wait: Duration,
+    ) -> Result<Option<State>, Fault> {
+        let wanted = match command {
+            Command::Start => State::Operational,
+            Command::Stop => State::Stopped,
+            Command::EnterPreOperational => State::PreOperational,
+            Command::ResetNode | Command::ResetCommunication => State::Initialising,
+        };
+        self.line.send(&nmt::frame(node, command))?;
+        let until = self.line.now() + wait;
+        self.listen(until, |heard| {
+            let (from, state) = watch::parse(&heard.frame)?;
+            (node.is_none_or(|node| node == from) && state == wanted).then_some(state)
+        })
+    }
+
+    /// Waits for something until a moment; `None`: it did not come.
+    pub(crate) fn listen<T>(
+        &mut self,
+        until: Instant,
+        mut found: impl FnMut(&Heard) -> Option<T>,
+    ) -> Result<Option<T>, Fault> {
+        loop {
+            self.send()?;
+            let next = self
+                .client
+                .poll_timeout()
+                .map_or(until, |due| due.min(until));
+            match self.line.receive(next)? {
+                Some(heard) => {
+                    self.hear(&heard);
+                    self.take_events();
+                    let result = found(&heard);
+                    if result.is_some() {
+                        return Ok(result);
+                    }
+                }
+                None => {
+                    self.client.handle_timeout(self.line.now());
+                    self.take_events();
+                }
+            }
+            if self.line.now() >= until {
+                // What came at that moment counts.
+                while let Some(heard) = self.line.receive(Instant::ZERO)? {
+                    self.hear(&heard);
+                    let result = found(&heard);
+                    if result.is_some() {
+                        return Ok(result);
+                    }
+                }
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Takes what came so far.
+    pub(crate) fn catch_up(&mut self) -> Result<(), Fault> {
+        while let Some(heard) = self.line.receive(Instant::ZERO)? {
+            self.hear(&heard);
+        }
+        self.take_events();
+        Ok(())
+    }
+
+    /// The state in the last heartbeat of a node.
+    pub(crate) fn state(&self, node: NodeId) -> Option<State> {
+        self.client.state(node)
+    }
+
+    /// Watches the heartbeat of a node; `None` ends that.
+    pub(crate) fn watch(&mut self, node: NodeId, heartbeat: Option<Duration>) {
+        match heartbeat {
+            Some(time) => self.client.watch(node, time),
+            None => self.client.unwatch(node),
+        }
+    }
+
+    /// The end of a job. If the program is to stop, the node hears that the transfer is over.
+    fn end(&mut self, job: Job) -> Result<Event, Fault> {
+        let event = self.wait();
+        if matches!(event, Err(Fault::Interrupted)) {
+            let now = self.line.now();
+            self.client.cancel(now, job);
+            while let Some(frame) = self.client.poll_transmit(now) {
+                self.line.send(&frame)?;
+            }
+        }
+        event
+    }
+
+    fn wait(&mut self) -> Result<Event, Fault> {
+        loop {
+            self.send()?;
+            if let Some(event) = self.next_end() {
+                return Ok(event);
+            }
+            let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
+            match self.line.receive(until)? {
+                Some(heard) => self.hear(&heard),
+                None => self.client.handle_timeout(self.line.now()),
+            }
+        }
+    }
+
+    fn send(&mut self) -> Result<(), Fault> {
+        while let Some(frame) = self.client.poll_transmit(self.line.now()) {
+            self.line.send(&frame)?;
+        }
+        Ok(())
+    }
+
+    fn hear(&mut self, heard: &Heard) {
+        self.client.handle_frame(heard.at, &heard.frame);
+        if self.tpdos.is_empty() || heard.frame.is_remote() {
+            return;
+        }
+        let id = heard.frame.id();
+        if let Some(tpdo) = self.tpdos.iter().find(|one| one.id == id) {
+            let came = Came {
+                at: heard.at,
+                tpdo: tpdo.clone(),
+                data: heard.frame.data().to_vec(),
+            };
+            keep(&mut self.pdos, came);
+        }
+    }
+
+    fn take_events(&mut self) {
+        while self.next_end().is_some() {}
+    }
+
+    /// The next end of a job; what else happened is noted.
+    fn next_end(&mut self) -> Option<Event> {
+        loop {
+            match self.client.poll_event()? {
+                Event::Emcy(node, emcy) => {
+                    let now = self.line.now();
+                    keep(&mut self.emcys, (now, node, emcy));
+                }
+                Event::Lost(node) => self.lost.push(node),
+                Event::Back(node) => self.lost.retain(|one| *one != node),
+                end @ (Event::Read(..) | Event::Written(..)) => return Some(end),
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! What goes wrong on a bus, as Python exceptions.
+
+use od_bus::fault::Fault;
+use od_client::sdo::SdoError;
+use od_model::Address;
+use od_wire::{AbortCode, NodeId};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyException, PyKeyboardInterrupt, PyOSError, PyTimeoutError, PyValueError};
+use pyo3::prelude::*;
+
+create_exception!(
+    odkit,
+    NodeError,
+    PyException,
+    "A node says what no node should, or refuses a service."
+);
+create_exception!(
+    odkit,
+    SdoAbort,
+    NodeError,
+    "A node aborts an SDO transfer; `code` is the abort code of CiA 301, such as 0x06020000."
+);
+
+/// The exception of a fault.
+pub(crate) fn raised(fault: Fault) -> PyErr {
+    match fault {
+        Fault::Usage(text) => PyValueError::new_err(text),
+        Fault::Link(text) => PyOSError::new_err(text),
+        Fault::Node(text) => NodeError::new_err(text),
+        Fault::Interrupted => PyKeyboardInterrupt::new_err(()),
+        other => PyOSError::new_err(other.to_string()),
+    }
+}
+
+/// The exception of a transfer.
+pub(crate) fn of_transfer(
+    py: Python<'_>,
+    node: NodeId,
+    address: Address,
+    error: SdoError,
+    seconds: f32,
+) -> PyErr {
+    match error {
+        SdoError::Abort(code) => {
+            let text = match AbortCode::from_code(code) {
+                Some(known) => format!(": {}", known.text()),
+                None => String::new(),
+            };
+            let error =
+                SdoAbort::new_err(format!("node {node}: {address}: abort {code:08X}h{text}"));
+            // It fails in no way that could be told.
+            _ = error.value(py).setattr("code", code);
+            error
+        }
+        SdoError::Silent => PyTimeoutError::new_err(format!(
+            "node {node} does not respond to SDO requests within {seconds} s; check its power, its NMT \
+             state (not Stopped) and its node ID"
+        )),
+        other => NodeError::new_err(format!("node {node}: {address}: {other}")),
+    }
+}

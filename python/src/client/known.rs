@@ -1,0 +1,130 @@
+//! What a client knows of a node: its dictionary, and where its TPDOs are.
+
+use od_client::pdo::{Mapping, decode};
+use od_eds::{Description, Tables};
+use od_model::{Address, DataType, Dictionary, values};
+use od_wire::CanId;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Bits of a COB-ID that say: not valid, 29 bits.
+const NOT_VALID: i128 = 1 << 31;
+const EXTENDED: i128 = 1 << 29;
+
+/// A TPDO of a node.
+#[derive(Clone)]
+pub(crate) struct Tpdo {
+    pub(crate) node: u8,
+    /// From 1.
+    pub(crate) number: u16,
+    pub(crate) id: CanId,
+    pub(crate) mapping: Vec<u32>,
+}
+
+/// A value in a PDO: address, name, type, bits, bytes.
+pub(crate) struct Field {
+    pub(crate) address: Address,
+    pub(crate) name: String,
+    pub(crate) data_type: Option<DataType>,
+    pub(crate) bits: u8,
+    pub(crate) bytes: Vec<u8>,
+}
+
+/// The dictionary of a node.
+pub(crate) struct Known {
+    tables: Tables,
+}
+
+impl Known {
+    pub(crate) fn new(description: &Description) -> Self {
+        Self {
+            tables: Tables::new(description),
+        }
+    }
+
+    pub(crate) fn dictionary(&self) -> Dictionary<'_> {
+        self.tables.dictionary()
+    }
+
+    /// The type of an object; `None`: the description does not have it.
+    pub(crate) fn type_of(&self, address: Address) -> Option<DataType> {
+        let entry = self.dictionary().find(address).ok()?;
+        Some(entry.data_type)
+    }
+
+    /// The TPDOs that the description says are there: valid ones, with their default mapping.
+    pub(crate) fn tpdos(&self, node: u8) -> Vec<Tpdo> {
+        let dictionary = self.dictionary();
+        let one = |number: u16| {
+            let cob_id = dictionary
+                .entry(0x1800 + number, 1)?
+                .default
+                .integer(node)?;
+            let mapping = Mapping::of(&dictionary, 0x1A00 + number)?;
+            Some(Tpdo {
+                node,
+                number: number + 1,
+                id: can_id(cob_id)?,
+                mapping: mapping.entries().to_vec(),
+            })
+        };
+        (0..0x200).filter_map(one).collect()
+    }
+}
+
+/// The CAN-ID of a COB-ID; `None` if the PDO is not valid.
+pub(crate) fn can_id(cob_id: i128) -> Option<CanId> {
+    match cob_id & EXTENDED {
+        _ if cob_id & NOT_VALID != 0 => None,
+        0 => Some(CanId::standard((cob_id & 0x7FF) as u16)),
+        _ => Some(CanId::extended((cob_id & 0x1FFF_FFFF) as u32)),
+    }
+}
+
+/// The values in a PDO; none if it is shorter than its mapping.
+pub(crate) fn fields(known: Option<&Known>, tpdo: &Tpdo, data: &[u8]) -> Vec<Field> {
+    let dictionary = known.map_or(Dictionary::EMPTY, |known| known.dictionary());
+    let Ok(fields) = decode(&dictionary, &tpdo.mapping, data) else {
+        return Vec::new();
+    };
+    fields
+        .filter(|field| !field.is_dummy())
+        .map(|field| Field {
+            address: field.address,
+            name: match &field.entry {
+                Some(entry) => values::name(dictionary, entry),
+                None => field.address.to_string(),
+            },
+            data_type: field.data_type(),
+            bits: field.bits,
+            bytes: field.bytes()[..field.len()].to_vec(),
+        })
+        .collect()
+}
+
+/// The address of `0x6004`, `"1018h:02"`, or of a name if the node has a description.
+///
+/// # Errors
+/// `ValueError`: the name is not known, or it is another kind of key.
+pub(crate) fn address(
+    known: Option<&Known>,
+    object: &Bound<'_, PyAny>,
+    sub: u8,
+) -> PyResult<Address> {
+    if let Ok(index) = object.extract::<u16>() {
+        return Ok(Address::new(index, sub));
+    }
+    if let Ok((index, sub)) = object.extract::<(u16, u8)>() {
+        return Ok(Address::new(index, sub));
+    }
+    let text: String = object.extract()?;
+    match (known, values::address(&text)) {
+        (_, Some(address)) => Ok(address),
+        (Some(known), None) => values::find(known.dictionary(), &text)
+            .map(|entry| entry.address)
+            .map_err(PyValueError::new_err),
+        (None, None) => Err(PyValueError::new_err(format!(
+            "`{text}` is a name, and the node has no description; give it one: `client.node(5, \"drive.eds\")`"
+        ))),
+    }
+}

@@ -1,0 +1,130 @@
+//! The link of a client: a bench, a bus of python-can, or a real one by its name.
+
+use std::sync::Arc;
+
+use od_bus::conform::rig::Rig;
+use od_bus::fault::Fault;
+use od_bus::link::{Heard, Link};
+use od_bus::links;
+use od_wire::{Frame, Instant};
+use pyo3::prelude::*;
+
+use crate::bench::Bench;
+use crate::client::errors::raised;
+use crate::client::on_bus::OnBus;
+use crate::client::on_wire::OnWire;
+
+/// Longest wait before it looks for signals such as Ctrl-C, in ms.
+const SLICE: u64 = 50;
+
+/// A link, open.
+pub(crate) enum Line {
+    Wire(OnWire),
+    Bus(OnBus),
+    /// By its name; and what Python raised in a wait.
+    Real(Box<dyn Link + Send>, Option<PyErr>),
+}
+
+impl Line {
+    /// Opens what a caller names.
+    ///
+    /// # Errors
+    /// It cannot be opened.
+    pub(crate) fn open(link: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = link.py();
+        if let Ok(bench) = link.cast::<Bench>() {
+            let wire = Arc::clone(&bench.get().wire);
+            return Ok(Self::Wire(OnWire::new(py, wire)?));
+        }
+        if let Ok(name) = link.extract::<String>() {
+            if let Some(devices) = name.strip_prefix("bench:") {
+                let bench = py.get_type::<Bench>().call1((devices,))?;
+                return Self::open(&bench);
+            }
+            let link = py
+                .detach(|| links::open_between_threads(&name, None))
+                .map_err(raised)?;
+            return Ok(Self::Real(link, None));
+        }
+        if let Ok(bench) = link.getattr("bench")
+            && bench.is_instance_of::<Bench>()
+        {
+            return Self::open(&bench);
+        }
+        Ok(Self::Bus(OnBus::new(link.clone().unbind())))
+    }
+
+    /// The exception of a fault: what Python raised while it waited, if it did.
+    pub(crate) fn raised(&mut self, fault: Fault) -> PyErr {
+        let own = match self {
+            Self::Wire(one) => one.raised.take(),
+            Self::Bus(one) => one.raised.take(),
+            Self::Real(_, error) => error.take(),
+        };
+        own.unwrap_or_else(|| raised(fault))
+    }
+}
+
+impl Link for Line {
+    fn now(&self) -> Instant {
+        match self {
+            Self::Wire(one) => one.now(),
+            Self::Bus(one) => one.now(),
+            Self::Real(one, _) => one.now(),
+        }
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        match self {
+            Self::Wire(one) => one.send(frame),
+            Self::Bus(one) => one.send(frame),
+            Self::Real(one, _) => one.send(frame),
+        }
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        let (link, error) = match self {
+            Self::Wire(one) => return one.receive(until),
+            Self::Bus(one) => return one.receive(until),
+            Self::Real(link, error) => (link, error),
+        };
+        Python::attach(|py| {
+            loop {
+                let slice = link.now().plus_millis(SLICE);
+                let heard = py.detach(|| link.receive(until.min(slice)))?;
+                if heard.is_some() || link.now() >= until {
+                    return Ok(heard);
+                }
+                if let Err(why) = py.check_signals() {
+                    *error = Some(why);
+                    return Err(Fault::Interrupted);
+                }
+            }
+        })
+    }
+}
+
+impl Rig for Line {
+    fn has_power(&self) -> bool {
+        matches!(self, Self::Wire(_))
+    }
+
+    fn power(&mut self, on: bool) -> Result<(), Fault> {
+        if let Self::Wire(one) = self {
+            let mut state = one.wire.lock();
+            for device in 0..state.bus.devices().len() {
+                state.bus.set_power(device, on);
+            }
+            state.collect();
+            state.wake();
+        }
+        Ok(())
+    }
+
+    fn slack(&self) -> u64 {
+        match self {
+            Self::Wire(one) if one.wire.lock().real.is_none() => 0,
+            _ => 10_000,
+        }
+    }
+}

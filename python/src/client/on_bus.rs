@@ -1,0 +1,94 @@
+//! A link over any bus of python-can.
+
+use std::time::Instant as Clock;
+
+use od_bench::journal::frame;
+use od_bus::fault::Fault;
+use od_bus::link::{Heard, Link};
+use od_wire::{Frame, Instant};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// A bus of python-can, with the clock of the computer.
+pub(crate) struct OnBus {
+    bus: Py<PyAny>,
+    began: Clock,
+    /// What Python raised.
+    pub(crate) raised: Option<PyErr>,
+}
+
+impl OnBus {
+    pub(crate) fn new(bus: Py<PyAny>) -> Self {
+        Self {
+            bus,
+            began: Clock::now(),
+            raised: None,
+        }
+    }
+
+    fn send_now(&self, py: Python<'_>, frame: &Frame) -> PyResult<()> {
+        let message = PyDict::new(py);
+        message.set_item("arbitration_id", frame.id().raw())?;
+        message.set_item("is_extended_id", frame.id().is_extended())?;
+        message.set_item("is_remote_frame", frame.is_remote())?;
+        match frame.is_remote() {
+            true => message.set_item("dlc", frame.dlc())?,
+            false => message.set_item("data", frame.data())?,
+        }
+        let message = py
+            .import("can")?
+            .getattr("Message")?
+            .call((), Some(&message))?;
+        self.bus.call_method1(py, "send", (message,))?;
+        Ok(())
+    }
+
+    /// The next data frame or remote frame.
+    fn taken(&self, py: Python<'_>, until: Instant) -> PyResult<Option<Heard>> {
+        loop {
+            let left = until.micros_since(self.now().min(until)) as f64 / 1e6;
+            let message = self.bus.bind(py).call_method1("recv", (left,))?;
+            if message.is_none() {
+                return Ok(None);
+            }
+            let flag = |name: &str| message.getattr(name)?.is_truthy();
+            if flag("is_error_frame")? || flag("is_fd")? {
+                continue;
+            }
+            let id: u32 = message.getattr("arbitration_id")?.extract()?;
+            let is_remote = flag("is_remote_frame")?;
+            let data: Vec<u8> = match is_remote {
+                true => vec![0; message.getattr("dlc")?.extract()?],
+                false => message.getattr("data")?.extract()?,
+            };
+            if let Some(frame) = frame(id, &data, flag("is_extended_id")?, is_remote) {
+                let at = self.now();
+                return Ok(Some(Heard { at, frame }));
+            }
+        }
+    }
+
+    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Fault> {
+        done.map_err(|error| {
+            self.raised = Some(error);
+            Fault::Interrupted
+        })
+    }
+}
+
+impl Link for OnBus {
+    fn now(&self) -> Instant {
+        let micros = self.began.elapsed().as_micros();
+        Instant::from_micros(u64::try_from(micros).unwrap_or(u64::MAX))
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        let sent = Python::attach(|py| self.send_now(py, frame));
+        self.or_raised(sent)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        let taken = Python::attach(|py| self.taken(py, until));
+        self.or_raised(taken)
+    }
+}

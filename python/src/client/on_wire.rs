@@ -1,0 +1,116 @@
+//! A link onto a wire of a bench: waiting moves its time.
+
+use std::sync::Arc;
+
+use od_bench::logs::What;
+use od_bus::fault::Fault;
+use od_bus::link::{Heard, Link};
+use od_wire::{Frame, Instant};
+use pyo3::prelude::*;
+
+use crate::party::Wait;
+use crate::pass::pass;
+use crate::state::Listener;
+use crate::wire::Wire;
+
+/// A station on a wire.
+pub(crate) struct OnWire {
+    pub(crate) wire: Arc<Wire>,
+    id: u32,
+    /// What Python raised in a wait.
+    pub(crate) raised: Option<PyErr>,
+}
+
+impl OnWire {
+    /// Joins a wire.
+    pub(crate) fn new(py: Python<'_>, wire: Arc<Wire>) -> PyResult<Self> {
+        let mut state = wire.enter(py)?;
+        let id = state.number();
+        state.listeners.push(Listener {
+            id,
+            queue: Default::default(),
+            filters: None,
+            own: false,
+        });
+        drop(state);
+        Ok(Self {
+            wire,
+            id,
+            raised: None,
+        })
+    }
+
+    fn taken(&mut self) -> Option<Heard> {
+        let mut state = self.wire.lock();
+        let own = state.listener(self.id)?;
+        while let Some(heard) = own.queue.pop_front() {
+            if let What::Frame(frame) = heard.what {
+                return Some(Heard {
+                    at: heard.at,
+                    frame,
+                });
+            }
+        }
+        None
+    }
+
+    fn wait(&mut self, py: Python<'_>, until: Instant) -> PyResult<()> {
+        let wait = Wait {
+            port: Some(self.id),
+            until: Some(until),
+        };
+        let id = self.id;
+        pass(py, &self.wire, wait, None, &mut |state| {
+            Ok(state.listener(id).is_none_or(|own| !own.queue.is_empty()))
+        })?;
+        Ok(())
+    }
+
+    fn send_now(&self, py: Python<'_>, frame: &Frame) -> PyResult<()> {
+        let mut state = self.wire.enter(py)?;
+        if let Some(clock) = state.clock() {
+            while matches!(state.step(clock), crate::state::Step::Moved) {}
+        }
+        state.transmit(self.id, frame)?;
+        state.wake();
+        Ok(())
+    }
+
+    fn or_raised<T>(&mut self, done: PyResult<T>) -> Result<T, Fault> {
+        done.map_err(|error| {
+            self.raised = Some(error);
+            Fault::Interrupted
+        })
+    }
+}
+
+impl Link for OnWire {
+    fn now(&self) -> Instant {
+        self.wire.lock().now()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
+        let sent = Python::attach(|py| self.send_now(py, frame));
+        self.or_raised(sent)
+    }
+
+    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
+        loop {
+            let heard = self.taken();
+            if heard.is_some() || until <= self.now() {
+                return Ok(heard);
+            }
+            let waited = Python::attach(|py| self.wait(py, until));
+            self.or_raised(waited)?;
+        }
+    }
+}
+
+impl Drop for OnWire {
+    fn drop(&mut self) {
+        let mut state = self.wire.lock();
+        state.changes += 1;
+        state.listeners.retain(|one| one.id != self.id);
+        state.wake();
+    }
+}
