@@ -23,6 +23,8 @@ use crate::eeprom::Eeprom;
 use crate::long::{Beside, Long};
 #[cfg(feature = "eds")]
 use crate::programs::Programs;
+#[cfg(feature = "serve")]
+use crate::recorded::play::Playing;
 use crate::roomy::roomy;
 use crate::services::Services;
 use crate::shaft;
@@ -69,6 +71,9 @@ pub struct VirtualDevice {
     /// What is known of the node of a real bus that it describes.
     #[cfg(feature = "real")]
     pub(super) described: Option<crate::knowledge::Described>,
+    /// Behaviour that another device was seen to have.
+    #[cfg(feature = "serve")]
+    pub(super) recorded: Option<Box<Playing>>,
 }
 
 /// So many events are kept for whoever asks.
@@ -133,6 +138,8 @@ impl VirtualDevice {
             twin: None,
             #[cfg(feature = "real")]
             described: None,
+            #[cfg(feature = "serve")]
+            recorded: None,
         }
     }
 
@@ -202,6 +209,10 @@ impl VirtualDevice {
             encoder.power_off(now);
         }
         self.node.power_off();
+        #[cfg(feature = "serve")]
+        if let Some(playing) = &mut self.recorded {
+            playing.stop();
+        }
     }
 
     /// Has its CAN controller left the bus, with the node still off?
@@ -224,6 +235,10 @@ impl VirtualDevice {
         if self.is_described() {
             return self.observe(frame);
         }
+        #[cfg(feature = "serve")]
+        if self.refuses_recorded(now, frame) {
+            return;
+        }
         self.handle(now, Input::Frame(frame));
         self.falls_dark(now);
     }
@@ -234,6 +249,8 @@ impl VirtualDevice {
         if self.look_at.is_some_and(|at| at <= now) {
             self.noticed(now);
         }
+        #[cfg(feature = "serve")]
+        self.happens_recorded(now);
         self.falls_dark(now);
     }
 
@@ -257,6 +274,10 @@ impl VirtualDevice {
 
     /// The next frame to send.
     pub fn poll_transmit(&mut self, now: Instant) -> Option<Frame> {
+        #[cfg(feature = "serve")]
+        if self.recorded.is_some() {
+            return self.poll_recorded(now);
+        }
         let frame = self.lend(|node, device| node.poll_transmit(device, now));
         if let (Some(twin), Some(frame)) = (&mut self.twin, &frame) {
             twin.sent(frame);
@@ -268,7 +289,11 @@ impl VirtualDevice {
     pub fn poll_timeout(&self) -> Option<Instant> {
         let is_operational = self.node.state() == State::Operational;
         let look_at = self.look_at.filter(|_| is_operational);
-        [self.node.poll_timeout(), look_at]
+        #[cfg(feature = "serve")]
+        let recorded = self.recorded.as_ref().and_then(|playing| playing.due());
+        #[cfg(not(feature = "serve"))]
+        let recorded = None;
+        [self.node.poll_timeout(), look_at, recorded]
             .into_iter()
             .flatten()
             .min()

@@ -42,6 +42,8 @@ pub mod pdos;
 mod plain;
 #[cfg(feature = "eds")]
 mod programs;
+#[cfg(feature = "serve")]
+pub mod recorded;
 pub mod rig;
 mod roomy;
 mod saved;

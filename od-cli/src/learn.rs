@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use od_bus::interrupt::Interruptible;
+use od_bus::learn::record::{Watch, record};
 use od_bus::learn::{Options, learn};
+use od_bus::link::Link;
 use od_bus::links;
-use od_wire::NodeId;
+use od_wire::{Duration, NodeId};
 
 use crate::failure::Failure;
 use crate::source;
@@ -32,9 +34,34 @@ pub(crate) struct Args {
     /// Probe limits by writing values, and put the values back, also after Ctrl-C
     #[arg(long)]
     allow_writes: bool,
+    /// Also record the behaviour for `odkit sim`: responses, refused reads, values that change,
+    /// periods of heartbeat and TPDOs; it is added to the file as comments
+    #[arg(long)]
+    twin: bool,
+    /// With `--twin`: how long to listen, and then how long to read the values that change
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = clap::value_parser!(u64).range(1..=600), requires = "twin")]
+    seconds: u64,
+    /// With `--twin`: reset and start the node, for boot-up time, errors at start, and PDOs
+    #[arg(long, requires = "twin")]
+    allow_reset: bool,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let link = match &args.link {
+        Some(link) => link.clone(),
+        None => links::found::default()?,
+    };
+    let link: Box<dyn Link> = match link.strip_prefix("bench:") {
+        Some(device) => Box::new(conform::bench(device, Some(args.node))?),
+        None => {
+            let link = links::open(&link)?;
+            Box::new(Interruptible::new(link, bus::stop()?))
+        }
+    };
+    learned(args, link)
+}
+
+fn learned(args: &Args, mut link: Box<dyn Link>) -> Result<(), Failure> {
     let options = Options {
         writes: args.allow_writes,
     };
@@ -43,27 +70,25 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             output::note!("reading {index:04X}h to {:04X}h", index | 0xFFF);
         }
     };
-    let link = match &args.link {
-        Some(link) => link.clone(),
-        None => links::found::default()?,
-    };
-    let description = match link.strip_prefix("bench:") {
-        Some(device) => learn(
-            conform::bench(device, Some(args.node))?,
-            args.node,
-            options,
-            told,
-        )?,
-        None => {
-            let link = Interruptible::new(links::open(&link)?, bus::stop()?);
-            learn(link, args.node, options, told)?
-        }
-    };
+    let description = learn(&mut link, args.node, options, told)?;
     if description.objects.is_empty() {
         return Err(Failure::Failed(format!(
             "node {} has no objects from 1000h to 9FFFh",
             args.node.raw()
         )));
     }
-    output::save(args.output.as_deref(), &od_eds::write(&description))
+    let mut text = od_eds::write(&description);
+    if args.twin {
+        let watch = Watch {
+            length: Duration::from_secs(args.seconds),
+            reset: args.allow_reset,
+        };
+        let seen = record(&mut link, args.node, &description, watch)?;
+        text.push('\n');
+        text.push_str(&seen.recorded.to_string());
+        for lacking in seen.lacking {
+            output::note!("the stand-in does not have {lacking}");
+        }
+    }
+    output::save(args.output.as_deref(), &text)
 }

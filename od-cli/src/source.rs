@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::fs;
 use std::path::Path;
 
-use od_bench::{EdsOptions, VirtualDevice};
+use od_bench::{EdsOptions, VirtualDevice, recorded};
 use od_devices::DEVICES;
 use od_eds::convert::lost;
 use od_eds::{Description, Document, Finding, Origin, Overlaid, Parsed, Severity};
@@ -308,10 +308,14 @@ impl Source {
             node_id,
             lenient: true,
         };
-        let (device, mut findings) = VirtualDevice::read_eds(self.text(), options);
+        let (mut device, mut findings) = VirtualDevice::read_eds(self.text(), options);
         findings.retain(Finding::is_unsound);
         self.note(&findings[..findings.len().min(SHOWN)], &Names::new());
         let path = &self.path;
+        let recorded = recorded::read(self.text()).map_err(|why| format!("{path}, {why}"))?;
+        if let (Some(device), Some(recorded)) = (&mut device, recorded) {
+            device.play_recorded(recorded);
+        }
         match device {
             Some(device) if findings.is_empty() => Ok(device),
             Some(device) if !device.dictionary().objects().is_empty() => {

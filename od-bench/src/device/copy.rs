@@ -33,6 +33,8 @@ impl VirtualDevice {
             twin: None,
             #[cfg(feature = "real")]
             described: None,
+            #[cfg(feature = "serve")]
+            recorded: self.recorded.clone(),
         })
     }
 }

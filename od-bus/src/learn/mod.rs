@@ -8,6 +8,7 @@ mod file;
 mod known;
 mod limits;
 mod probe;
+pub mod record;
 mod types;
 
 use std::collections::BTreeMap;

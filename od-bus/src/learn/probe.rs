@@ -189,6 +189,15 @@ impl<L: Link> Probe<L> {
         Ok(is_confirmed)
     }
 
+    /// Does the node refuse a request because of its command? What it begins ends there.
+    pub(super) fn lacks_command(&mut self, command: u8, address: Address) -> Result<bool, Fault> {
+        let answer = self.ask(request(command, address, [2, 0, 0, 0]))?;
+        match answer.as_ref().map(code) {
+            Some(Some(code)) => Ok(code == InvalidCommand.code()),
+            _ => self.give_up(address).map(|()| false),
+        }
+    }
+
     fn give_up(&mut self, address: Address) -> Result<(), Fault> {
         self.tell(request(0x80, address, 0x0800_0000u32.to_le_bytes()))
     }

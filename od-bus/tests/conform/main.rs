@@ -4,3 +4,4 @@ mod devices;
 mod learn;
 mod mutant;
 mod mutants;
+mod twin;

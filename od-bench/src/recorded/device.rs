@@ -1,0 +1,88 @@
+//! A device that plays a recording.
+
+use std::prelude::v1::*;
+
+use od_runtime::{Frame, Instant};
+use od_wire::nmt::State;
+
+use super::Recorded;
+use super::play::{Due, Playing};
+use crate::behaviour::Behaviour;
+use crate::device::VirtualDevice;
+use crate::plain::Plain;
+
+impl VirtualDevice {
+    /// Plays a recording in the place of all behaviour behind the dictionary. Do it before power comes.
+    pub fn play_recorded(&mut self, recorded: Recorded) {
+        if let Some(micros) = recorded
+            .boot_up
+            .and_then(|micros| u32::try_from(micros).ok())
+        {
+            self.profile.nmt.reset_node_us = micros;
+            self.profile.nmt.reset_communication_us = micros;
+        }
+        self.profile.sdo.segmented_download &= !recorded.no_segments;
+        self.profile.sdo.block &= !recorded.no_blocks;
+        self.behaviour = Behaviour::Plain(Plain::default());
+        let node = self.node_id().raw();
+        let dictionary = self.source.dictionary();
+        let configured = |index, sub| {
+            let entry = dictionary.entry(index, sub);
+            let default = entry.and_then(|entry| entry.default.integer(node));
+            default
+                .and_then(|number| number.try_into().ok())
+                .unwrap_or(0)
+        };
+        let playing = Playing::new(recorded, configured);
+        self.recorded = Some(Box::new(playing));
+    }
+
+    /// Takes what the node has to send, and returns what goes out now.
+    pub(crate) fn poll_recorded(&mut self, now: Instant) -> Option<Frame> {
+        let mut playing = self.recorded.take()?;
+        playing.look(self.state(), |index, sub| self.stored(index, sub));
+        while let Some(frame) = self.lend(|node, device| node.poll_transmit(device, now)) {
+            let tpdo = self.tpdo_of(&playing, &frame);
+            playing.sent(now, self.node_id(), frame, tpdo);
+        }
+        let frame = playing.take(now, self.node_id(), self.state());
+        self.recorded = Some(playing);
+        frame
+    }
+
+    /// The number of the TPDO that has this identifier, if it has a period.
+    fn tpdo_of(&self, playing: &Playing, frame: &Frame) -> Option<u16> {
+        let id = u64::from(frame.id().as_standard()?);
+        playing.tpdos().find(|tpdo| {
+            let cob_id = self.stored(0x1800 + (tpdo - 1), 1);
+            cob_id.is_some_and(|cob_id| cob_id & 0x8000_07FF == id)
+        })
+    }
+
+    /// Whether the recording answers a request in the place of the node.
+    pub(crate) fn refuses_recorded(&mut self, now: Instant, frame: &Frame) -> bool {
+        let serves = matches!(self.state(), State::PreOperational | State::Operational);
+        let node = self.node_id();
+        match &mut self.recorded {
+            Some(playing) if serves && self.node.is_powered() => playing.refuses(now, node, frame),
+            _ => false,
+        }
+    }
+
+    /// Sets the values and reports the errors that are due.
+    pub(crate) fn happens_recorded(&mut self, now: Instant) {
+        while let Some(due) = self
+            .recorded
+            .as_mut()
+            .and_then(|playing| playing.happens(now))
+        {
+            // What the node is not ready for, or cannot have, does not happen.
+            let _ = match due {
+                Due::Value(address, bytes) => self.set_value(address, &bytes, now),
+                Due::Error(error) => {
+                    self.raise_error(error.code, error.register, Some(error.info), now)
+                }
+            };
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Plays a recording: frames of the node on their way out, values and errors when they are due.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::prelude::v1::*;
+
+use od_model::Address;
+use od_runtime::{Frame, Instant, NodeId};
+use od_wire::AbortCode;
+use od_wire::emcy::Emcy;
+use od_wire::nmt::State;
+use od_wire::sdo::{Request, Response};
+
+use super::Recorded;
+use super::pace::Pace;
+
+/// Most frames that wait for their time.
+const HELD: usize = 256;
+
+/// A recording that is played.
+#[derive(Clone, Debug)]
+pub(crate) struct Playing {
+    recorded: Recorded,
+    /// When the boot-up message went out.
+    started: Option<Instant>,
+    /// The next value, and when its row began.
+    value: (usize, Option<Instant>),
+    /// The next error.
+    error: usize,
+    /// Frames on their way out, by their time.
+    held: VecDeque<(Instant, Frame)>,
+    heartbeat: Option<Pace>,
+    tpdos: BTreeMap<u16, Pace>,
+    /// What goes out at its measured period now: TPDOs, and [`HEARTBEAT`].
+    paced: BTreeSet<u16>,
+}
+
+/// The heartbeat among the numbers of TPDOs.
+const HEARTBEAT: u16 = 0;
+
+/// What is due.
+pub(crate) enum Due {
+    Value(Address, Vec<u8>),
+    Error(Emcy),
+}
+
+impl Playing {
+    /// `configured` has the configured period of an object and sub-index.
+    pub(crate) fn new(recorded: Recorded, configured: impl Fn(u16, u8) -> u64) -> Self {
+        let tpdo = |(tpdo, period): (&u16, &u64)| {
+            (*tpdo, Pace::new(*period, configured(0x17FF + tpdo, 5)))
+        };
+        Self {
+            tpdos: recorded.tpdos.iter().map(tpdo).collect(),
+            heartbeat: recorded
+                .heartbeat
+                .map(|period| Pace::new(period, configured(0x1017, 0))),
+            recorded,
+            started: None,
+            value: (0, None),
+            error: 0,
+            held: VecDeque::new(),
+            paced: BTreeSet::new(),
+        }
+    }
+
+    /// Power goes.
+    pub(crate) fn stop(&mut self) {
+        self.started = None;
+        self.held.clear();
+        self.tpdos
+            .values_mut()
+            .chain(&mut self.heartbeat)
+            .for_each(Pace::forget);
+    }
+
+    /// Looks which frames go out at the measured period: those that are configured as they were then.
+    /// `stored` has the value of an object and sub-index.
+    pub(crate) fn look(&mut self, state: State, stored: impl Fn(u16, u8) -> Option<u64>) {
+        self.paced.clear();
+        if let Some(pace) = &mut self.heartbeat {
+            match stored(0x1017, 0) == Some(pace.configured) {
+                true => _ = self.paced.insert(HEARTBEAT),
+                false => pace.forget(),
+            }
+        }
+        for (tpdo, pace) in &mut self.tpdos {
+            let index = 0x17FF + tpdo;
+            let is_paced = state == State::Operational
+                && stored(index, 1).is_some_and(|cob_id| cob_id & 0x8000_0000 == 0)
+                && stored(index, 2).is_some_and(|kind| kind >= 254)
+                && stored(index, 5) == Some(pace.configured);
+            match is_paced {
+                true => _ = self.paced.insert(*tpdo),
+                false => pace.forget(),
+            }
+        }
+    }
+
+    /// Numbers of the TPDOs with a period.
+    pub(crate) fn tpdos(&self) -> impl Iterator<Item = u16> {
+        self.tpdos.keys().copied()
+    }
+
+    /// A request to the node. Where the device refused it, the response goes out instead, and the node
+    /// does not see the request.
+    pub(crate) fn refuses(&mut self, now: Instant, node: NodeId, frame: &Frame) -> bool {
+        if frame.id() != node.plus(0x600) || frame.is_remote() || frame.dlc() != 8 {
+            return false;
+        }
+        let address = match Request::parse(frame.bytes()) {
+            Request::InitiateUpload { address } => address,
+            Request::InitiateBlockUpload { address, .. } => address,
+            _ => return false,
+        };
+        let Some(code) = self.recorded.aborts.get(&address).copied() else {
+            return false;
+        };
+        let response = Response::Abort { address, code };
+        let frame = Frame::full(node.plus(0x580), response.emit());
+        self.hold(now.plus_micros(self.recorded.answer), frame);
+        true
+    }
+
+    /// A frame of the node. `tpdo` is its number, if it is one.
+    pub(crate) fn sent(&mut self, now: Instant, node: NodeId, frame: Frame, tpdo: Option<u16>) {
+        let id = frame.id();
+        let frame = match id == node.plus(0x580) {
+            true => self.filled(node, frame),
+            false => frame,
+        };
+        let at = match id == node.plus(0x580) {
+            true => now.plus_micros(self.recorded.answer),
+            false => now,
+        };
+        let pace = match tpdo {
+            Some(tpdo) if self.paced.contains(&tpdo) => self.tpdos.get_mut(&tpdo),
+            None if id == node.plus(0x700) && frame.data() == [0] => {
+                self.stop();
+                self.started = Some(now);
+                self.value = (0, Some(now));
+                self.error = 0;
+                None
+            }
+            None if id == node.plus(0x700) && self.paced.contains(&HEARTBEAT) => {
+                self.heartbeat.as_mut()
+            }
+            _ => None,
+        };
+        if pace.is_none_or(|pace| pace.passes(now, &frame)) {
+            self.hold(at, frame);
+        }
+    }
+
+    /// The response, with a value where the node has no data but the device had one.
+    fn filled(&self, node: NodeId, frame: Frame) -> Frame {
+        let Response::Abort { address, code } = Response::parse(frame.bytes()) else {
+            return frame;
+        };
+        let bytes = self.recorded.empty.get(&address);
+        let Some(bytes) = bytes.filter(|_| code == AbortCode::NoData.code()) else {
+            return frame;
+        };
+        let mut wide = [0; 4];
+        wide[..bytes.len()].copy_from_slice(bytes);
+        let response = Response::InitiateUpload {
+            address,
+            size: Some(bytes.len() as u32),
+            expedited: Some(wide),
+        };
+        Frame::full(node.plus(0x580), response.emit())
+    }
+
+    fn hold(&mut self, at: Instant, frame: Frame) {
+        if self.held.len() < HELD {
+            let place = self.held.partition_point(|(other, _)| *other <= at);
+            self.held.insert(place, (at, frame));
+        }
+    }
+
+    /// The next frame that goes out now.
+    pub(crate) fn take(&mut self, now: Instant, node: NodeId, state: State) -> Option<Frame> {
+        if self.held.front().is_some_and(|(at, _)| *at <= now) {
+            return self.held.pop_front().map(|(_, frame)| frame);
+        }
+        let beat = self.heartbeat.as_mut().and_then(|pace| pace.take(now));
+        if beat.is_some() {
+            // The state may be another one since the node had it.
+            return Frame::new(node.plus(0x700), &[state as u8]);
+        }
+        self.tpdos.values_mut().find_map(|pace| pace.take(now))
+    }
+
+    /// When something goes out or happens next.
+    pub(crate) fn due(&self) -> Option<Instant> {
+        let held = self.held.front().map(|(at, _)| *at);
+        let paces = self.tpdos.values().chain(&self.heartbeat);
+        let paced = paces.filter_map(Pace::due).min();
+        let next = [held, paced, self.next_value(), self.next_error()];
+        next.into_iter().flatten().min()
+    }
+
+    fn next_value(&self) -> Option<Instant> {
+        let (at, row) = self.value;
+        let (offset, ..) = self.recorded.values.get(at)?;
+        self.started.and(row).map(|row| row.plus_micros(*offset))
+    }
+
+    fn next_error(&self) -> Option<Instant> {
+        let (offset, _) = self.recorded.errors.get(self.error)?;
+        self.started.map(|started| started.plus_micros(*offset))
+    }
+
+    /// What happens in the device now.
+    pub(crate) fn happens(&mut self, now: Instant) -> Option<Due> {
+        if self.next_error().is_some_and(|at| at <= now) {
+            self.error += 1;
+            let (_, error) = self.recorded.errors[self.error - 1];
+            return Some(Due::Error(error));
+        }
+        if self.next_value().is_none_or(|at| at > now) {
+            return None;
+        }
+        let (at, row) = self.value;
+        let (last, address, bytes) = &self.recorded.values[at];
+        self.value.0 += 1;
+        if self.value.0 == self.recorded.values.len() {
+            // It begins again, at the earliest a millisecond later.
+            let length = self.recorded.length.max(last + 1000);
+            self.value = (0, row.map(|row| row.plus_micros(length)));
+        }
+        Some(Due::Value(*address, bytes.clone()))
+    }
+}
