@@ -10,18 +10,21 @@ use od_bus::conform::record::{Record, Verdict};
 use od_bus::conform::report::{Format, Report};
 use od_bus::conform::rig::{RealBus, Rig};
 use od_bus::conform::session::{Leave, Session};
+use od_bus::interrupt::Interruptible;
 use od_bus::links;
 use od_wire::NodeId;
 
+use crate::bus;
 use crate::failure::Failure;
 use crate::output;
+use crate::report;
 use crate::source::{self, Source};
 
 /// Test whether a CANopen slave conforms to CiA 301, its EDS and its profile
 ///
 /// With `--eds`, the node is on a real bus or on that of `odkit sim`. With a DEVICE, that is
-/// simulated in virtual time and every case may run. Exit code 1: a case failed, or the node or the
-/// link was lost.
+/// simulated in virtual time and every case may run. Ctrl-C puts back what the case has changed and
+/// ends with a report. Exit code 1: a case failed, or the node or the link was lost.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Built-in device, or EDS or DCF file, to simulate
@@ -188,7 +191,7 @@ fn tested(args: &Args, cases: &[Case]) -> Result<Report, Failure> {
     announce(eds.text(), &parsed, leave, cases);
     let link = link.as_deref().unwrap_or_default();
     let mut rig = RealBus {
-        link: links::open(link)?,
+        link: Box::new(Interruptible::new(links::open(link)?, bus::stop()?)),
         power: args.power.clone(),
     };
     let mut session = Session::new(&mut rig, &parsed, node, leave);
@@ -246,8 +249,8 @@ fn announce(text: &str, eds: &Eds, leave: Leave, cases: &[Case]) {
     };
     let seconds = micros.div_ceil(1_000_000);
     output::note!(
-        "{} cases, about {} min {:02} s",
-        cases.len(),
+        "{}, about {} min {:02} s",
+        report::plural(cases.len(), "case"),
         seconds / 60,
         seconds % 60
     );

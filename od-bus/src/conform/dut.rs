@@ -33,6 +33,8 @@ pub struct Dut<'d> {
     pub(crate) may_reset: bool,
     /// The COB-ID of SYNC, as last learned.
     pub(crate) sync_id: u32,
+    /// Whether the case switched the power off.
+    pub(crate) is_off: bool,
 }
 
 impl Dut<'_> {
@@ -150,6 +152,13 @@ impl Dut<'_> {
         self.booted(from)
     }
 
+    /// Switches the power of the node.
+    pub(crate) fn power(&mut self, on: bool) -> Checked {
+        self.rig.power(on)?;
+        self.is_off = !on;
+        Ok(())
+    }
+
     /// Waits for the boot-up message.
     pub(crate) fn booted(&mut self, from: Instant) -> Checked {
         let id = self.id(0x700);
@@ -216,27 +225,46 @@ impl Dut<'_> {
         }
     }
 
-    /// Pre-operational again, and all values as they were.
+    /// The power on, Pre-operational again, and all values as they were. Of what could not be put back
+    /// there is a note, also where the link is lost.
     pub(crate) fn put_back(&mut self) -> Checked {
         if self.undo.is_empty() && self.frames.is_empty() {
             return Ok(());
         }
-        self.nmt(Command::EnterPreOperational)?;
+        let mut lost = match self.is_off {
+            true => {
+                let from = self.now();
+                self.power(true).and_then(|()| self.booted(from)).err()
+            }
+            false => None,
+        };
+        if lost.is_some() {
+            self.notes
+                .push("could not switch the power on again".into());
+        }
+        lost = lost.or(self.nmt(Command::EnterPreOperational).err());
         while let Some((address, bytes)) = self.undo.pop() {
             let shown = od_model::values::label(self.eds.dictionary(), address);
             let hex = od_model::values::hex(&bytes);
-            match self.download(address, &bytes) {
-                Ok(Ok(())) => self.notes.push(format!("put back {shown} = {hex}")),
-                Ok(Err(code)) => self.notes.push(format!(
-                    "could not put back {shown} = {hex}: abort {code:08X}h"
-                )),
-                Err(End::Lost(fault)) => return Err(End::Lost(fault)),
-                Err(_) => self
-                    .notes
-                    .push(format!("could not put back {shown} = {hex}")),
-            }
+            let done = match &lost {
+                Some(End::Lost(fault)) => Err(End::Lost(fault.clone())),
+                _ => self.download(address, &bytes),
+            };
+            self.notes.push(match done {
+                Ok(Ok(())) => format!("put back {shown} = {hex}"),
+                Ok(Err(code)) => format!("could not put back {shown} = {hex}: abort {code:08X}h"),
+                Err(End::Lost(fault)) => {
+                    let note = format!("could not put back {shown} = {hex}: {fault}");
+                    lost = Some(End::Lost(fault));
+                    note
+                }
+                Err(_) => format!("could not put back {shown} = {hex}"),
+            });
         }
-        Ok(())
+        match lost {
+            Some(End::Lost(fault)) => Err(End::Lost(fault)),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -62,6 +62,10 @@ impl Link for RealBus {
     fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
         self.link.receive(until)
     }
+
+    fn resume(&mut self) {
+        self.link.resume();
+    }
 }
 
 impl Rig for RealBus {

@@ -13,6 +13,7 @@ use super::end::{Checked, End, skip};
 use super::play::play;
 use super::record::{Record, Times, Verdict};
 use super::rig::Rig;
+use crate::fault::Fault;
 
 /// What somebody allows the test to do.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -86,6 +87,7 @@ impl<'s> Session<'s> {
             notes: Vec::new(),
             may_reset: self.leave.reset,
             sync_id: 0x80,
+            is_off: false,
         };
         let mut result = match &self.lost {
             Some(why) => skip(why),
@@ -99,6 +101,9 @@ impl<'s> Session<'s> {
                     }
                     _ => steps(case, &mut dut),
                 };
+                if matches!(done, Err(End::Lost(Fault::Interrupted))) {
+                    dut.rig.resume();
+                }
                 let back = dut.put_back();
                 match (done, back) {
                     (done, Err(End::Lost(fault))) if !matches!(done, Err(End::Lost(_))) => {
@@ -117,7 +122,10 @@ impl<'s> Session<'s> {
             }
         }
         if let Err(End::Lost(fault)) = &result {
-            let why = format!("the link is lost: {fault}");
+            let why = match fault {
+                Fault::Link(text) => format!("the link is lost: {text}"),
+                other => other.to_string(),
+            };
             self.lost = Some(why.clone());
             result = Err(End::Skip(why));
         }

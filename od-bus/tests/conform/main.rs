@@ -4,4 +4,5 @@ mod devices;
 mod learn;
 mod mutant;
 mod mutants;
+mod stopped;
 mod twin;

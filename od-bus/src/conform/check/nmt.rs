@@ -72,10 +72,10 @@ pub(super) fn boot_up_first(dut: &mut Dut<'_>) -> Checked {
 
 pub(super) fn power_on(dut: &mut Dut<'_>) -> Checked {
     dut.drain()?;
-    dut.rig.power(false)?;
+    dut.power(false)?;
     dut.wait(500_000)?;
     let from = dut.now();
-    dut.rig.power(true)?;
+    dut.power(true)?;
     dut.booted(from)
 }
 

@@ -69,6 +69,21 @@ impl Report {
         )
     }
 
+    /// What was changed and put back, and what could not be; `None` where nothing was changed.
+    pub(super) fn put_back(&self) -> Option<String> {
+        let notes = self.records.iter().flat_map(|record| &record.notes);
+        let count = |start: &str| notes.clone().filter(|note| note.starts_with(start)).count();
+        let (back, not) = (count("put back"), count("could not"));
+        let values = if back == 1 { "value" } else { "values" };
+        match (back, not) {
+            (0, 0) => None,
+            (_, 0) => Some(format!("changed and put back: {back} {values}")),
+            _ => Some(format!(
+                "changed and put back: {back} {values}; could not be put back: {not}"
+            )),
+        }
+    }
+
     /// The times that the node took, with percentiles; a line each.
     pub(super) fn timings(&self) -> Vec<(&'static str, usize, [u64; 3])> {
         let both = [

@@ -36,6 +36,7 @@ pub(super) fn render(report: &Report) -> String {
             millis(longest)
         ));
     }
+    lines.extend(report.put_back());
     if let Some(why) = &report.lost {
         lines.push(format!("the run ended early: {why}"));
     }
@@ -63,7 +64,7 @@ fn details(record: &Record, lines: &mut Vec<String>) {
         }
     }
     // What could not be put back is worth a line in any case.
-    if record.verdict.is_pass() {
+    if !record.verdict.is_fail() {
         let lost = record
             .notes
             .iter()

@@ -1,5 +1,6 @@
 //! Commands on a bus, as processes, against `odkit sim`.
 
+mod conform;
 mod everyday;
 mod links;
 mod setup;
