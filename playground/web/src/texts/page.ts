@@ -38,7 +38,7 @@ export const page = {
     apply: 'Apply node ID',
     nodeId: 'Node ID',
     range: '1 to 127',
-    open: 'Open an EDS or DCF file',
+    open: 'Open an EDS, DCF or XDD file',
     openHint: 'or drop one anywhere on the page. It stays on this computer.',
     file: 'EDS or DCF file',
     edit: (name: string) => `Edit the EDS of ${name}`,

@@ -120,7 +120,7 @@ class DeviceDialog extends View {
           @dragover=${() => (this.isOver = true)} @dragleave=${() => (this.isOver = false)} @drop=${() => (this.isOver = false)}>
           ${icons.file}
           <span><strong>${T.dialog.open}</strong><span class="muted">${T.dialog.openHint}</span></span>
-          <input class="sr" type="file" accept=".eds,.dcf,text/plain" aria-label=${T.dialog.file} @change=${(event: Event) => {
+          <input class="sr" type="file" accept=".eds,.dcf,.xdd,.xdc,text/plain" aria-label=${T.dialog.file} @change=${(event: Event) => {
             const input = event.target as HTMLInputElement;
             void this.openFirst(input.files).then(() => (input.value = ''));
           }}>
