@@ -58,7 +58,9 @@ test('the bench in a lesson boots', () =>
   visit('lessons/boot-up-and-heartbeat.html', async (page) => {
     const frame = page.frameLocator('iframe.bench');
     await frame.getByRole('heading', { name: 'Power the encoder and find its first frame' }).first().waitFor();
-    await frame.getByRole('switch', { name: /power/i }).first().waitFor();
+    await frame.getByRole('tab', { name: 'Encoder' }).click();
+    await frame.getByRole('switch', { name: 'Power' }).click();
+    await frame.getByText('Pre-operational').first().waitFor();
     assert.ok(await page.getByText('Solution').first().isVisible());
   }));
 
@@ -69,11 +71,11 @@ test('the page runs beside the documents', () =>
 
 test('a rule has a page, and a script is a text', async () => {
   await visit('docs/RULES-EDS.html', async (page) => {
-    await page.getByRole('link', { name: 'E0412' }).click();
+    await page.locator('main').getByRole('link', { name: 'E0412', exact: true }).click();
     await page.getByText('DefaultValue=300').first().waitFor();
   });
   await visit('docs/CIA.html', async (page) => {
-    await page.getByRole('link', { name: 'sdo-01', exact: true }).first().click();
+    await page.locator('main').getByRole('link', { name: 'sdo-01', exact: true }).first().click();
     await page.getByText('601#').first().waitFor();
   });
 });

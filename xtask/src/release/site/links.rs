@@ -37,7 +37,7 @@ impl<'a> Places<'a> {
     pub(super) fn rewritten(&self, page: &Page) -> Result<String> {
         // What xtask writes itself is right for the site.
         let is_own = |address: &str| {
-            address.starts_with("../playground/index.html") || address.starts_with("../rules/")
+            address.contains("playground/index.html") || address.starts_with("../rules/")
         };
         with_links(&page.text, |address| {
             if address.contains("://") || address.starts_with("mailto:") || is_own(address) {
@@ -81,13 +81,11 @@ impl<'a> Places<'a> {
         let is_picture = [".png", ".svg"]
             .iter()
             .any(|ending| source.ends_with(ending));
-        // A server and a browser know what to do with a text.
-        let ending = if is_picture || source.ends_with(".txt") {
-            ""
-        } else {
-            ".txt"
+        // A server and a browser know what to do with a text. mdBook makes a page's name of `.md` anywhere in a name.
+        let name = match is_picture || source.ends_with(".txt") {
+            true => format!("{FILES}/{source}"),
+            false => format!("{FILES}/{}.txt", source.trim_end_matches(".md")),
         };
-        let name = format!("{FILES}/{source}{ending}");
         self.files.borrow_mut().insert((source, name.clone()));
         Ok(Some(name))
     }

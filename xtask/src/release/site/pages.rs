@@ -83,7 +83,7 @@ pub(super) fn all(root: &Path, rules: &[(String, String)]) -> Result<Vec<Page>> 
         }
     }
     pages.extend(about);
-    for source in ["ARCHITECTURE.md", "CHANGELOG.md"] {
+    for source in ["tests/bench/README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
         pages.push(document(root, None, source)?);
     }
     Ok(pages)
@@ -153,7 +153,7 @@ fn readme(text: &str) -> Vec<Page> {
         source: String::from(README),
         section: None,
         target: String::from("index.md"),
-        text: first,
+        text: first + "\n[Open the playground](playground/index.html)\n",
         depth: 0,
     }];
     pages.append(&mut tasks);
@@ -223,7 +223,10 @@ mod tests {
             ("How fast", "how-fast.md"),
         ];
         assert_eq!(list, wanted);
-        assert_eq!(pages[0].text, "# odkit\nHello.\n## Two commands\nTwo.\n");
+        assert_eq!(
+            pages[0].text,
+            "# odkit\nHello.\n## Two commands\nTwo.\n\n[Open the playground](playground/index.html)\n"
+        );
         assert_eq!(pages[2].text, "# Check an EDS\nCheck.\n");
         let target = |heading| find(&pages, "README.md", heading).map(|page| &*page.target);
         assert_eq!(target(Some("how-fast")), Some("how-fast.md"));
