@@ -160,9 +160,11 @@ fn what_cannot_be_expressed_is_said() {
         "warning[W1104]: CANopenNode needs 1601h",
         "10 mapping entries of a PDO",
         "remark[I1106]: the node does not check the limits of 1 value",
-        "remark[I1107]: CANopenNode needs 1001h, 1003h, 1014h, 1016h, 1017h unless",
+        "remark[I1107]: CANopenNode needs 1003h, 1014h, 1016h unless",
         "remark[I1108]",
-        "cannot express 8 objects",
+        "warning[W1109]: CANopenNode does not start without 1001h",
+        "warning[W1109]: CANopenNode does not start without 1017h",
+        "cannot express 10 objects",
     ] {
         assert!(made.err.contains(said), "{said}\n{}", made.err);
     }

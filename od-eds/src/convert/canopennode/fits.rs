@@ -6,7 +6,7 @@ use super::node_id;
 use super::plan::Planned;
 use crate::description::{Description, Value};
 use crate::finding::{Finding, sort};
-use crate::rules::convert::{i1106, i1107, i1108, w1101, w1102, w1103, w1104, w1105};
+use crate::rules::convert::{i1106, i1107, i1108, w1101, w1102, w1103, w1104, w1105, w1109};
 use crate::subject::{start_number, start_value};
 use od_model::Address;
 
@@ -51,7 +51,9 @@ pub(super) fn findings(
     }
     pdos(description, objects, &mut found);
     let has = |index| objects.iter().any(|object| object.index == index);
-    let needed = [0x1000, 0x1001, 0x1003, 0x1006, 0x1014, 0x1016, 0x1017].into_iter();
+    let always = [0x1001, 0x1017].into_iter().filter(|index| !has(*index));
+    found.extend(always.map(w1109::finding));
+    let needed = [0x1003, 0x1006, 0x1014, 0x1016].into_iter();
     let mut missing = needed.filter(|index| !has(*index) && (*index != 0x1006 || has(0x1005)));
     if let Some(first) = missing.next() {
         found.push(i1107::finding(core::iter::once(first).chain(missing)));

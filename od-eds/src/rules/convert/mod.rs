@@ -10,6 +10,7 @@ catalogue! {
     i1106 I1106 (example)
     i1107 I1107 (example)
     i1108 I1108 (example)
+    w1109 W1109 (example)
     w1110 W1110 (example)
     w1111 W1111 (example)
     w1112 W1112 (example)
