@@ -35,6 +35,12 @@ pub(crate) fn check(sections: &[Placed<'_>], file: Option<&str>, log: &mut Log) 
     }
     for section in sections {
         let name = &section.name;
+        if name.eq_ignore_ascii_case("FileInfo") {
+            let mut keys = section.pairs.iter();
+            let last =
+                keys.find(|(key, value)| key.eq_ignore_ascii_case("LastEDS") && !value.is_empty());
+            last.iter().for_each(|(key, _)| log.push(w0217::key(key)));
+        }
         match place(name) {
             Place::Object(_) | Place::Member(..) => {
                 let own = |key: &str| KEYS.iter().any(|known| known.eq_ignore_ascii_case(key));

@@ -126,7 +126,14 @@ fn parts(text: &str, at: char) -> Vec<Option<u32>> {
 
 fn is_date(text: &str) -> bool {
     match parts(text, '-')[..] {
-        [Some(month @ 1..=12), Some(day @ 1..), Some(1000..=9999)] => day <= days(month),
+        [
+            Some(month @ 1..=12),
+            Some(day @ 1..),
+            Some(year @ 1000..=9999),
+        ] => {
+            let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+            day <= days(month) && (is_leap || (month, day) != (2, 29))
+        }
         _ => false,
     }
 }

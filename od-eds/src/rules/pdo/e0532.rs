@@ -66,6 +66,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
             0x80 if cob_id.service != Service::Sync && !has(Service::Sync) => "SYNC",
             0x100 if cob_id.service != Service::Time && !has(Service::Time) => "TIME",
             0x81..=0xFF if cob_id.service > Service::EmcyConsumer => "EMCY",
+            0x181..=0x57F if cob_id.service < Service::Emcy => "PDO",
             _ => continue,
         };
         findings.push(about(cob_id).form(&DEFAULT).fact("other", by_default));

@@ -2,13 +2,13 @@ use alloc::vec::Vec;
 
 use crate::description::Description;
 use crate::finding::{Check, Finding, Rule, Severity::Info};
-use crate::rules::pdo::cob_ids::{CobId, cob_ids};
+use crate::rules::pdo::cob_ids::cob_ids;
 
 pub(crate) static RULE: Rule = Rule {
     code: "I0531",
     severity: Info,
     title: "COB-ID does not depend on the node ID",
-    why: "Two such devices in one network use the same CAN-ID. The COB-IDs of the first four PDOs usually contain $NODEID.",
+    why: "Two such devices in one network use the same CAN-ID. The COB-IDs of EMCY and of the first four PDOs usually contain $NODEID.",
     source: "CiA 301, predefined connection set",
     says: "COB-ID {id:03X}h does not depend on the node ID",
     help: "write `$NODEID+0x{base:X}` to give each node its own COB-ID",
@@ -17,14 +17,17 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
-    for cob_id in cob_ids(description).filter(CobId::is_pdo) {
+    for cob_id in cob_ids(description) {
         let id = cob_id.identifier;
         let index = cob_id.entry.address.index;
         let fixed =
             description.commissioned_node_id().is_none() && cob_id.entry.parameter.is_none();
-        let predefined = matches!(id, 0x181..=0x57F) && !cob_id.extended;
-        let first_four = matches!(index, 0x1400..=0x1403 | 0x1800..=0x1803);
-        if !cob_id.formula && fixed && predefined && first_four {
+        let predefined = match index {
+            0x1014 => matches!(id, 0x81..=0xFF),
+            0x1400..=0x1403 | 0x1800..=0x1803 => cob_id.is_pdo() && matches!(id, 0x181..=0x57F),
+            _ => false,
+        };
+        if !cob_id.formula && fixed && predefined && !cob_id.extended {
             findings.push(
                 cob_id
                     .finding(&RULE)

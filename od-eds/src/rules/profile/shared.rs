@@ -197,7 +197,7 @@ impl<'a> Encoder<'a> {
 
     /// Returns if its type is none of the profile.
     pub(super) const fn has_unknown_type(&self) -> bool {
-        self.device.additional > 10
+        !matches!(self.device.additional, 1..=10)
     }
 
     /// Returns if it counts revolutions; `None` for linear and unknown encoders.

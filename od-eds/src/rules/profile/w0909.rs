@@ -20,12 +20,13 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// A bit of 6502h, the mode, and the object that commands it.
-const MODES: [(u32, &str, u16, &str); 9] = [
+const MODES: [(u32, &str, u16, &str); 10] = [
     (0, "the profile position mode", 0x607A, "target position"),
     (1, "the velocity mode", 0x6042, "vl target velocity"),
     (2, "the profile velocity mode", 0x60FF, "target velocity"),
     (3, "the profile torque mode", 0x6071, "target torque"),
     (5, "the homing mode", 0x6098, "homing method"),
+    (5, "the homing mode", 0x6099, "homing speeds"),
     (
         6,
         "the interpolated position mode",

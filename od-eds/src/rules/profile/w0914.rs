@@ -2,35 +2,58 @@ use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Rule, Severity::Warning};
 use crate::rules::profile::shared::device;
-use crate::subject::{Entry, start_number};
+use crate::subject::{Entry, start_value};
+use od_model::Address;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0914",
     severity: Warning,
-    title: "profile object has reserved bits",
+    title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, object 6421h; CiA 402, object 6502h; CiA 406, object 6000h",
-    says: "{object} is 0x{given:X}, but CiA {profile} reserves {reserved}",
+    source: "CiA 401, object 6421h; CiA 402, objects 605Ah to 605Eh, 6086h, 6098h, 60C2h and 6502h; CiA 406, objects 6000h and 6503h to 6506h",
+    says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
     ..Rule::NEW
 };
 
-fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    let (profile, mask, reserved) = match (entry.address.index, entry.address.sub) {
-        (0x6421, 1..=254) => (401, 0xE0, "bits 5 to 7"),
-        (0x6502, 0) => (402, 0xF800, "bits 11 to 15"),
-        (0x6000, 0) => (406, 0x0FF0, "bits 4 to 11"),
-        _ => return,
+/// The profile of an object, if the number has reserved bits or is in a reserved range, and which.
+/// Negative numbers of a drive are the manufacturer's.
+fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
+    let Address { index, sub } = address;
+    let (profile, wrong, what) = match (index, sub) {
+        (0x6421, 1..=254) => (401, number & 0xE0 != 0, "bits 5 to 7"),
+        (0x605A, 0) => (402, number > 8, "9 to 32767"),
+        (0x605B | 0x605C, 0) => (402, number > 1, "2 to 32767"),
+        (0x605D, 0) => (402, number == 0 || number > 4, "0 and 5 to 32767"),
+        (0x605E, 0) => (402, number > 4, "5 to 32767"),
+        (0x6086, 0) => (402, number > 3, "4 to 32767"),
+        (0x6098, 0) => {
+            let wrong = matches!(number, 15 | 16 | 31 | 32 | 38..);
+            (402, wrong, "15, 16, 31, 32 and 38 to 127")
+        }
+        (0x60C2, 2) => (402, number > 63, "64 to 127"),
+        (0x6502, 0) => (402, number & 0xF800 != 0, "bits 11 to 15"),
+        (0x6000, 0) => (406, number & 0x0FF0 != 0, "bits 4 to 11"),
+        (0x6503 | 0x6504, 0) => (406, number & 0x0FFC != 0, "bits 2 to 11"),
+        (0x6505 | 0x6506, 0) => (406, number & 0x0FC0 != 0, "bits 6 to 11"),
+        _ => return None,
     };
-    let number = start_number(entry.description, entry.address);
-    if let Some(number) = number.filter(|number| number.value & mask != 0)
+    wrong.then_some((profile, what))
+}
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    if let Some(value) = start_value(entry.entry)
+        && let Some(number) = value.integer(0)
+        && let Some((profile, what)) = reserved(entry.address, number)
         && device(entry.description, profile).is_some()
     {
-        let finding = RULE.on(entry, number.span).fact("object", entry.shown());
-        let finding = finding
-            .fact("given", number.value)
-            .fact("reserved", reserved);
+        let finding = RULE.on(entry, value.span).fact("object", entry.shown());
+        let finding = match what.starts_with("bits") {
+            true => finding.fact("given", alloc::format!("0x{number:X}")),
+            false => finding.fact("given", number),
+        };
+        let finding = finding.fact("reserved", what);
         findings.push(finding.fact("profile", u32::from(profile)));
     }
 }

@@ -192,6 +192,13 @@ const OS_COMMAND: &[(u8, Value, bool)] = &[
     (3, value(OctetString, Ro), true),
 ];
 
+/// The server that the predefined connection set fixes.
+const DEFAULT_SDO: &[(u8, Value, bool)] = &[
+    (1, value(Unsigned32, Ro), true),
+    (2, value(Unsigned32, Ro), true),
+    (3, value(Unsigned8, Rw), false),
+];
+
 const SDO_SERVER: &[(u8, Value, bool)] = &[
     (1, value(Unsigned32, Rw), true),
     (2, value(Unsigned32, Rw), true),
@@ -257,6 +264,7 @@ const TABLE: &[Standard] = &[
     var(0x1019, "synchronous counter overflow value", Unsigned8, Rw),
     array(0x1020, "verify configuration", Unsigned32, Rw),
     var(0x1021, "store EDS", Domain, Ro),
+    var(0x1022, "store format", Unsigned16, Ro),
     record(0x1023, 0x1023, "OS command", OS_COMMAND),
     var(0x1024, "OS command mode", Unsigned8, Wo),
     record(0x1025, 0x1025, "OS debugger interface", OS_COMMAND),
@@ -264,7 +272,8 @@ const TABLE: &[Standard] = &[
     array(0x1028, "emergency consumer object", Unsigned32, Rw),
     array(0x1029, "error behavior object", Unsigned8, Rw),
     var(0x102A, "NMT inhibit time", Unsigned16, Rw),
-    record(0x1200, 0x127F, "SDO server parameter", SDO_SERVER),
+    record(0x1200, 0x1200, "SDO server parameter", DEFAULT_SDO),
+    record(0x1201, 0x127F, "SDO server parameter", SDO_SERVER),
     record(0x1280, 0x12FF, "SDO client parameter", SDO_CLIENT),
     record(0x1400, 0x15FF, "RPDO communication parameter", RPDO),
     record(0x1600, 0x17FF, "RPDO mapping parameter", &[]),

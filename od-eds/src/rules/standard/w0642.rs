@@ -18,7 +18,7 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// Objects, each with the one that it needs.
-const PAIRS: [(u16, u16); 9] = [
+const PAIRS: [(u16, u16); 10] = [
     (0x1006, 0x1005),
     (0x1007, 0x1005),
     (0x1019, 0x1005),
@@ -27,6 +27,7 @@ const PAIRS: [(u16, u16); 9] = [
     (0x1010, 0x1011),
     (0x1011, 0x1010),
     (0x1015, 0x1014),
+    (0x1022, 0x1021),
     (0x1024, 0x1023),
 ];
 

@@ -1,0 +1,31 @@
+use alloc::vec::Vec;
+
+use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::rules::profile::shared::device;
+use crate::subject::{Entry, start_number};
+
+pub(crate) static RULE: Rule = Rule {
+    code: "W0915",
+    severity: Warning,
+    title: "value that positions are divided by is 0",
+    why: "A device that follows the profile aborts a download of 0, and a master that scales positions divides by it.",
+    source: "CiA 402, objects 608Fh to 6092h; CiA 406, objects 6001h and 6501h",
+    says: "{object} is 0, but positions are divided by it",
+    help: "write the number of increments or revolutions, 1 or more",
+    check: Check::Entry(check),
+    ..Rule::NEW
+};
+
+fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
+    let profile = match (entry.address.index, entry.address.sub) {
+        (0x608F..=0x6092, 2) => 402,
+        (0x6001 | 0x6501, 0) => 406,
+        _ => return,
+    };
+    let number = start_number(entry.description, entry.address);
+    if let Some(number) = number.filter(|number| number.value == 0)
+        && device(entry.description, profile).is_some()
+    {
+        findings.push(RULE.on(entry, number.span).fact("object", entry.shown()));
+    }
+}
