@@ -2,6 +2,10 @@
 
 import ast
 import os
+import subprocess
+import sys
+
+import pytest
 
 import odkit
 from odkit import _odkit
@@ -26,3 +30,18 @@ def test_the_stubs_name_every_member_and_no_other():
         found[name] = {one for one in vars(value) if not one.startswith("_")} if is_class else set()
     assert declared == found
     assert os.path.exists(os.path.join(os.path.dirname(STUBS), "py.typed"))
+
+
+@pytest.mark.skipif(not os.environ.get("ODKIT_LONG"), reason="ODKIT_LONG: it needs the network")
+def test_mypy_finds_the_stubs_true(tmp_path):
+    """Names, arguments and defaults are those that the compiled part has."""
+    subprocess.run([sys.executable, "-m", "venv", tmp_path / "venv"], check=True)
+    python = next((tmp_path / "venv").glob("*/python*"))
+    packages = ["mypy", "python-can", "pytest"]
+    subprocess.run([python, "-m", "pip", "install", "--quiet", *packages], check=True)
+    site = os.path.dirname(os.path.dirname(odkit.__file__))
+    surroundings = {**os.environ, "PYTHONPATH": site}
+    for arguments in (["mypy.stubtest", "odkit._odkit"], ["mypy", "-p", "odkit"]):
+        command = [python, "-m", *arguments]
+        done = subprocess.run(command, cwd=tmp_path, env=surroundings, stdout=subprocess.PIPE, text=True)
+        assert done.returncode == 0, done.stdout
