@@ -1,7 +1,7 @@
 //! What the EDS says of the node: the objects, and which cases apply.
 
 use od_eds::{Description, Finding, Tables};
-use od_model::{Access, Address, Dictionary, Entry, Kind, Literal};
+use od_model::{Access, Address, Dictionary, Entry, Kind, Literal, values};
 use od_wire::NodeId;
 
 /// An EDS, read for a conformance test.
@@ -100,6 +100,42 @@ impl Eds {
             Literal::None => None,
             literal => Some(self.dictionary().literal_bytes(literal).to_vec()),
         }
+    }
+
+    /// Why the EDS does not allow a master to write this: access, length or limits. `None`: it does, or
+    /// it does not have the object.
+    pub(crate) fn excludes(&self, address: Address, bytes: &[u8], node: NodeId) -> Option<String> {
+        let entry = self.entry(address.index, address.sub)?;
+        let name = values::label(self.dictionary(), address);
+        let len = bytes.len();
+        if !entry.access.writable() {
+            return Some(format!("{name} is {} in the EDS", entry.access));
+        }
+        let size = entry.data_type.size();
+        if size.is_some_and(|size| size != len) {
+            let name_of = entry.data_type.name();
+            return Some(format!(
+                "{name} is {name_of} in the EDS, which does not have {len} bytes"
+            ));
+        }
+        let (least, _) = entry.data_type.integer_range()?;
+        let mut wide = [0; 16];
+        wide.get_mut(..len)?.copy_from_slice(bytes);
+        let mut value = i128::from_le_bytes(wide);
+        if least < 0 && value >> (8 * len - 1) == 1 {
+            value -= 1 << (8 * len);
+        }
+        let limit = |literal: Literal| literal.integer(node.raw());
+        let is_below = limit(entry.low).is_some_and(|low| value < low);
+        let is_above = limit(entry.high).is_some_and(|high| value > high);
+        (is_below || is_above).then(|| {
+            let side = if is_below {
+                "below the lower"
+            } else {
+                "above the upper"
+            };
+            format!("{name} = {value} is {side} limit of the EDS")
+        })
     }
 
     /// The TPDOs or RPDOs: numbers from 0 on whose communication and mapping objects exist.

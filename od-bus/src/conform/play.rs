@@ -5,7 +5,7 @@ use od_model::{DataType, values};
 use od_wire::AbortCode;
 
 use super::dut::Dut;
-use super::end::{Checked, End, ensure, fail, skip};
+use super::end::{Checked, End, ensure, fail, lacks, skip};
 use super::sdo::abort_text;
 
 /// Lines that are about a simulated device, not about the bus.
@@ -118,12 +118,21 @@ fn send(dut: &mut Dut<'_>, line: &str) -> Checked {
     }
 }
 
+/// The identifier of SYNC where the node produces it: no case expects silence of that.
+fn own_sync(dut: &Dut<'_>) -> Option<u16> {
+    let entry = dut.eds.entry(0x1005, 0)?;
+    let raw = entry.default.integer(dut.node.raw())?;
+    (raw & 0x4000_0000 != 0).then_some((raw & 0x7FF) as u16)
+}
+
 /// `PATTERN`, `PATTERN within 1s`, `PATTERN after 100ms`, `silence 1s`.
 fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern]) -> Checked {
     if let Some(rest) = text.strip_prefix("silence ") {
         let micros = duration(rest)?;
+        let own_sync = own_sync(dut);
         let came = dut.next(micros, |frame| {
-            !ignored.iter().any(|one| one.matches(frame))
+            let is_sync = frame.id().as_standard() == own_sync && own_sync.is_some();
+            !is_sync && !ignored.iter().any(|one| one.matches(frame))
         })?;
         return match came {
             Some(heard) => fail(
@@ -143,8 +152,11 @@ fn expect(dut: &mut Dut<'_>, text: &str, ignored: &[Pattern]) -> Checked {
     let wanted = pattern(shown)?;
     let from = dut.now();
     let slack = dut.rig.slack();
+    let own_sync = own_sync(dut);
     let came = dut.next(micros, |frame| {
-        !ignored.iter().any(|one| one.matches(frame))
+        let is_sync =
+            own_sync.is_some() && frame.id().as_standard() == own_sync && !wanted.matches(frame);
+        !is_sync && !ignored.iter().any(|one| one.matches(frame))
     })?;
     let Some(heard) = came else {
         return fail(text, "nothing came");
@@ -172,6 +184,9 @@ fn transfer(dut: &mut Dut<'_>, text: &str) -> Checked {
         (Err(why), None) => return unreadable(text, why),
     };
     let bytes = value.map(|value| typed(value, own)).transpose()?;
+    let bounded = bytes
+        .as_ref()
+        .and_then(|bytes| dut.eds.excludes(address, bytes, dut.node));
     let result = match (kind, bytes) {
         ("read", wanted) => match (dut.upload(address)?, wanted) {
             (Ok(is), Some(wanted)) => {
@@ -184,7 +199,15 @@ fn transfer(dut: &mut Dut<'_>, text: &str) -> Checked {
             }
             (result, _) => result.map(drop),
         },
+        ("write", Some(_))
+            if aborts.is_none() && dut.eds.entry(address.index, address.sub).is_none() =>
+        {
+            return lacks(format!("the EDS does not have {address}"));
+        }
         ("write", Some(bytes)) => {
+            if let (None, Some(why)) = (aborts, &bounded) {
+                return skip(why.as_str());
+            }
             // What the case changes is put back after it, if it can be read.
             if aborts.is_none()
                 && !matches!(address.index, 0x1003 | 0x1010 | 0x1011)
@@ -199,6 +222,15 @@ fn transfer(dut: &mut Dut<'_>, text: &str) -> Checked {
     match (result, aborts) {
         (Ok(()), None) => Ok(()),
         (Err(code), Some(wanted)) if code == wanted => Ok(()),
+        // The EDS has the limit, so the node may name it.
+        (Err(code), Some(wanted))
+            if wanted == AbortCode::ValueRange.code()
+                && (code == AbortCode::ValueTooHigh.code()
+                    || code == AbortCode::ValueTooLow.code())
+                && bounded.is_some() =>
+        {
+            Ok(())
+        }
         (result, Some(wanted)) => fail(
             abort_text(wanted),
             result.map_or_else(

@@ -4,7 +4,7 @@ use od_model::{Address, values};
 use od_wire::{AbortCode, Frame, sdo};
 
 use super::dut::{ANSWER, Dut, is_data};
-use super::end::{Checked, ensure, fail};
+use super::end::{Checked, ensure, fail, skip};
 
 /// Bytes of an upload or nothing of a download, or the abort code.
 pub(crate) type Transfer<T> = Result<T, u32>;
@@ -253,7 +253,12 @@ impl Dut<'_> {
     }
 
     /// Writes an object; an abort is a failure.
+    ///
+    /// A value that the EDS excludes is not written: then the case cannot be played on this node.
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Checked {
+        if let Some(why) = self.eds.excludes(address, bytes, self.node) {
+            return skip(why);
+        }
         let shown = values::label(self.eds.dictionary(), address);
         match self.download(address, bytes)? {
             Ok(()) => Ok(()),

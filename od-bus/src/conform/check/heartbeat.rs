@@ -89,6 +89,7 @@ pub(super) fn watch(dut: &mut Dut<'_>, millis: u16) -> Checked<u8> {
     if !dut.eds.writes(0x1016, 1) {
         return lacks("1016h:01 cannot be written");
     }
+    sends_emcy(dut)?;
     let node = watched(dut);
     let [low, high] = millis.to_le_bytes();
     dut.set(CONSUMER, &[low, high, node, 0])?;
@@ -105,6 +106,19 @@ pub(super) fn emcy(dut: &mut Dut<'_>, code: u16, micros: u64) -> Checked<Option<
     let [low, high] = code.to_le_bytes();
     let is_it = |frame: &Frame| is_data(frame, id) && frame.data().starts_with(&[low, high]);
     Ok(dut.next(micros, is_it)?.map(|heard| heard.frame))
+}
+
+/// The case does not apply to a node that sends no EMCY, by the EDS.
+pub(super) fn sends_emcy(dut: &Dut<'_>) -> Checked {
+    let Some(entry) = dut.eds.entry(0x1014, 0) else {
+        return lacks("the EDS does not have 1014h");
+    };
+    match entry.default.integer(dut.node.raw()) {
+        Some(raw) if raw & 0x8000_0000 != 0 || raw & 0x7FF == 0 => {
+            lacks(format!("no EMCY is sent: 1014h is {raw:X}h in the EDS"))
+        }
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn consumer_in_time(dut: &mut Dut<'_>) -> Checked {
@@ -247,6 +261,7 @@ pub(super) fn guarding_objects(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn life_guarding(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
     without_heartbeat(dut)?;
     dut.set(Address::new(0x100C, 0), &[100, 0])?;
     dut.set(Address::new(0x100D, 0), &[2])?;

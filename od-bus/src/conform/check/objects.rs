@@ -110,6 +110,12 @@ pub(super) fn own_value(dut: &mut Dut<'_>) -> Checked {
             && !is_empty(code)
         {
             let name = values::label(dut.eds.dictionary(), entry.address);
+            if let Some(why) = dut.eds.excludes(entry.address, &bytes, dut.node) {
+                return fail(
+                    format!("a value that the EDS allows; {why}"),
+                    "the node has it",
+                );
+            }
             return fail(
                 format!("{name} to take its own value {}", values::hex(&bytes)),
                 abort_text(code),

@@ -4,7 +4,7 @@ use od_model::{Address, values};
 use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
-use super::heartbeat::emcy;
+use super::heartbeat::{emcy, sends_emcy};
 use super::transmit::{Mapped, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, fail, lacks};
@@ -27,7 +27,8 @@ fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
         };
         let entry = dut.eds.entry(one.address.index, one.address.sub);
         let fits = entry.is_some_and(|entry| entry.access.readable());
-        if !CobId::new(cob_id).is_valid() || !fits || one.bits % 8 != 0 {
+        let is_on = CobId::new(cob_id).is_valid() && cob_id & 0x7FF != 0;
+        if !is_on || !fits || one.bits % 8 != 0 {
             continue;
         }
         dut.keep(one.address)?;
@@ -101,6 +102,7 @@ pub(super) fn not_in_pre_operational(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn short(dut: &mut Dut<'_>) -> Checked {
+    sends_emcy(dut)?;
     let pdo = first(dut, 255)?;
     dut.nmt(Command::Start)?;
     let before = dut.read(pdo.value())?;

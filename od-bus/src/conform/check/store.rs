@@ -72,18 +72,24 @@ pub(super) fn load_signature(dut: &mut Dut<'_>) -> Checked {
 /// 1010h says that it saves on command, or by itself.
 pub(super) fn save_can(dut: &mut Dut<'_>) -> Checked {
     let can = dut.number(0x1010, 1)?;
+    if can == 0 {
+        return lacks("1010h:01 is 0: the node saves neither on command nor by itself");
+    }
     ensure(
-        can & !3 == 0 && can != 0,
-        "1, 2 or 3 in 1010h:01: saves on command or by itself",
+        can & !3 == 0,
+        "0, 1, 2 or 3 in 1010h:01: bits 2 to 31 are reserved",
         format!("{can:X}h was read"),
     )
 }
 
 pub(super) fn load_can(dut: &mut Dut<'_>) -> Checked {
     let can = dut.number(0x1011, 1)?;
+    if can == 0 {
+        return lacks("1011h:01 is 0: the node does not restore");
+    }
     ensure(
         can == 1,
-        "1 in 1011h:01: restores on command",
+        "0 or 1 in 1011h:01: bits 1 to 31 are reserved",
         format!("{can:X}h was read"),
     )
 }

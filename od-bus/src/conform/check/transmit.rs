@@ -59,7 +59,9 @@ pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
     for pdo in dut.eds.pdos(0x1800) {
         let com = 0x1800 + pdo;
         let cob_id = dut.number(com, 1)? as u32;
-        if CobId::new(cob_id).is_valid() && dut.number(com + 0x200, 0)? > 0 {
+        // 0 is NMT: a PDO that the EDS never gave an identifier.
+        let is_on = CobId::new(cob_id).is_valid() && cob_id & 0x7FF != 0;
+        if is_on && dut.number(com + 0x200, 0)? > 0 {
             return Ok(Tpdo { com, cob_id });
         }
     }
@@ -125,12 +127,25 @@ pub(super) fn sync(dut: &mut Dut<'_>) -> Checked {
 }
 
 /// Keeps the identifier of SYNC for [`sync`].
+///
+/// A node that produces SYNC itself stops until the case is over, so that the test has the SYNC.
 pub(super) fn learn_sync(dut: &mut Dut<'_>) -> Checked {
-    if dut.eds.has(0x1005) {
-        dut.sync_id = dut.number(0x1005, 0)? as u32 & 0x3FFF_FFFF;
+    if !dut.eds.has(0x1005) {
+        return Ok(());
     }
-    Ok(())
+    let raw = dut.number(0x1005, 0)? as u32;
+    dut.sync_id = raw & 0x3FFF_FFFF;
+    if raw & PRODUCES == 0 {
+        return Ok(());
+    }
+    match dut.eds.writes(0x1005, 0) {
+        true => dut.set(Address::new(0x1005, 0), &(raw & !PRODUCES).to_le_bytes()),
+        false => lacks("the node produces SYNC, and 1005h is read only"),
+    }
 }
+
+/// Bit 30 of 1005h.
+const PRODUCES: u32 = 1 << 30;
 
 /// The gaps between TPDOs in Operational; the one in the middle has to be right.
 pub(super) fn gaps(
