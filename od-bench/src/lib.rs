@@ -55,7 +55,6 @@ pub mod shaft;
 pub mod signal;
 mod size;
 mod slave;
-mod sorted;
 mod source;
 pub mod stats;
 #[cfg(all(test, feature = "eds"))]

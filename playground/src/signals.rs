@@ -44,7 +44,7 @@ fn values(frames: &[u8], place: Option<Place>, type_name: &str) -> Vec<f64> {
         let frame = packed::frame(one).filter(|_| !packed::is_disturbed(one));
         let value = frame.and_then(|frame| signal.value(&frame));
         if let (Some(value), Some(micros)) = (value, packed::micros(one)) {
-            all.extend([number as f64, micros, value]);
+            all.extend_from_slice(&[number as f64, micros, value]);
         }
     }
     all

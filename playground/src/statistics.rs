@@ -37,35 +37,46 @@ impl Statistics {
     /// Eight numbers for each CAN-ID, those of 11 bits first: CAN-ID (plus 2³² if it has 29 bits), frames; the last
     /// period, the shortest, mean and longest; jitter; moment of the last change of its data. NaN: there is none.
     pub fn ids(&self) -> Vec<f64> {
-        let rows = self.ids.rows().flat_map(|row| {
+        let mut all = Vec::new();
+        for row in self.ids.rows() {
             let id = row.frame.id();
-            let key = f64::from(id.raw()) + f64::from(u8::from(id.is_extended())) * 4_294_967_296.0;
-            let number = |micros: Option<u64>| micros.map_or(f64::NAN, |micros| micros as f64);
-            let changed = number(row.changed.map(Instant::as_micros));
-            let (cycle, jitter) = (number(row.cycle()), number(row.jitter()));
-            let [least, mean, most] = times(row.period());
-            let count = f64::from(row.count);
-            [key, count, cycle, least, mean, most, jitter, changed]
-        });
-        rows.collect()
+            let extended = if id.is_extended() {
+                4_294_967_296.0
+            } else {
+                0.0
+            };
+            all.extend_from_slice(&[
+                f64::from(id.raw()) + extended,
+                f64::from(row.count),
+                number(row.cycle()),
+            ]);
+            all.extend_from_slice(&times(row.period()));
+            let changed = row.changed.map(Instant::as_micros);
+            all.extend_from_slice(&[number(row.jitter()), number(changed)]);
+        }
+        all
     }
 
     /// Seven numbers for each SDO client: node ID of its server, requests; shortest, mean and longest time to answer;
     /// aborts; requests without an answer. NaN: there is none.
     pub fn clients(&self) -> Vec<f64> {
-        let rows = self.clients.all().flat_map(|(node, client)| {
-            let [least, mean, most] = times(client.times());
-            let (aborts, unanswered) = (client.aborts.into(), client.unanswered.into());
-            let requests = client.requests.into();
-            [node.into(), requests, least, mean, most, aborts, unanswered]
-        });
-        rows.collect()
+        let mut all = Vec::new();
+        for client in self.clients.all() {
+            all.extend_from_slice(&[client.node.into(), client.requests.into()]);
+            all.extend_from_slice(&times(client.times()));
+            all.extend_from_slice(&[f64::from(client.aborts), client.unanswered.into()]);
+        }
+        all
     }
 
     /// Forgets everything.
     pub fn clear(&mut self) {
         *self = Self::default();
     }
+}
+
+fn number(micros: Option<u64>) -> f64 {
+    micros.map_or(f64::NAN, |micros| micros as f64)
 }
 
 fn times(times: Option<Times>) -> [f64; 3] {

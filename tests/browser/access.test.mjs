@@ -75,6 +75,36 @@ test('axe finds nothing in what opens over the page', async () => {
   }
 });
 
+test('axe finds nothing in figures, plots, the trigger and a log', async () => {
+  for (const [width, height, colorScheme] of [[1280, 800, 'dark'], [390, 844, 'light']]) {
+    const { page, close } = await open({ width, height, colorScheme });
+    if (width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
+    await booted(page);
+    await page.getByRole('button', { name: 'By CAN-ID' }).click();
+    await page.locator('.ids tbody').first().waitFor();
+    await flawless(page, `figures, ${width}`);
+    await page.getByRole('button', { name: 'Plot', exact: true }).click();
+    await page.getByRole('button', { name: 'Trigger', exact: true }).click();
+    await page.getByRole('textbox', { name: 'Stop the capture at' }).waitFor();
+    await page.getByRole('spinbutton', { name: 'Cursor A in seconds' }).fill('0.5');
+    await page.keyboard.press('Tab');
+    await page.getByRole('table', { name: 'Cursors' }).waitFor();
+    await flawless(page, `a plot and the trigger, ${width}`);
+    const transfer = await page.evaluateHandle(() => {
+      const data = new DataTransfer();
+      data.items.add(new File(['(1.0) can0 181#01'], 'one.log'));
+      return data;
+    });
+    await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+    await page.getByRole('button', { name: 'Open beside it' }).waitFor();
+    await flawless(page, `what becomes of a log, ${width}`);
+    await page.getByRole('button', { name: 'Open beside it' }).click();
+    await page.getByRole('group', { name: 'Log one.log' }).waitFor();
+    await flawless(page, `a log, ${width}`);
+    await close();
+  }
+});
+
 test('keys alone: from part to part, to the filter, to an object and its value', async () => {
   const { page, close } = await open();
   await booted(page);

@@ -73,7 +73,7 @@ check('a plot shows the whole capture by the mapping of the PDOs, on own and sha
   await becomes('what is plotted', () => page.locator('.plot figcaption b').allTextContents(), ['6004h Position value', 'Shaft speed in rpm', 'TPDO1: 6004h Position value']);
   assert.deepEqual((await file()).lines, lines, 'the values are kept');
   await page.getByRole('img', { name: /TPDO1: 6004h Position value: .* to / }).waitFor();
-  const picture = await saved(page, 'Save the plot as a picture (PNG)');
+  const picture = await saved(page, 'Save the plot as PNG');
   assert.deepEqual([picture.name, [...picture.bytes.subarray(0, 4)]], ['odkit-plot.png', [0x89, 0x50, 0x4e, 0x47]]);
 });
 
@@ -154,4 +154,88 @@ check('a trigger waits for the value of an object, in a PDO or in the answer to 
   await nmt(page, 'Pre-op');
   await sdo(page, '1017', '100');
   await becomes('the frame', () => page.locator('.frame-detail').textContent(), /Write 1017h/);
+});
+
+const LOG = ['(1.000000) can0 601#4004600000000000', '(1.500000) can0 705#05', '(2.000000) can0 601#4018100100000000', '(2.200000) can0 705#05'].join('\n');
+
+async function openLog(page, name, text) {
+  const transfer = await page.evaluateHandle(([file, body]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([body], file));
+    return data;
+  }, [name, text]);
+  await page.dispatchEvent('body', 'drop', { dataTransfer: transfer });
+}
+
+const ids = async (page) => (await rows(page)).map(({ id }) => id).join(' ');
+
+check('a log never throws the capture away unasked: beside it, after it is saved, or in its place', async (page) => {
+  await sdo(page, '6004');
+  await row(page, 'the answer', (one) => one.id === '581');
+  const offer = page.getByRole('region', { name: 'Offers' });
+  const shown = page.getByRole('group', { name: 'What the console shows' });
+  await openLog(page, 'other.log', LOG);
+  await offer.getByText('other.log has 4 frames. The capture has 3.').waitFor();
+  assert.equal(await ids(page), '701 601 581', 'nothing is thrown away');
+  await offer.getByRole('button', { name: 'Open beside it' }).click();
+  await becomes('the log', () => ids(page), '601 705 601 705');
+  // What comes meanwhile goes to the capture.
+  await sdo(page, '1000');
+  await becomes('the answer', () => sdoNote(page), /1000h = /);
+  assert.equal(await ids(page), '601 705 601 705');
+  await shown.getByRole('button', { name: 'Capture' }).click();
+  await becomes('the capture', () => ids(page), '701 601 581 601 581');
+  await shown.getByRole('button', { name: 'other.log', exact: true }).click();
+  await becomes('the log', () => ids(page), '601 705 601 705');
+  await shown.getByRole('button', { name: 'Close other.log' }).click();
+  await becomes('the capture', () => ids(page), '701 601 581 601 581');
+  await openLog(page, 'other.log', LOG);
+  const [download] = await Promise.all([page.waitForEvent('download'), offer.getByRole('button', { name: 'Save the capture, then replace it' }).click()]);
+  assert.equal(String(await readFile(await download.path())).trim().split('\n').length, 5);
+  await becomes('the log in its place', () => ids(page), '601 705 601 705');
+  // A log that nobody added to is replaced at once.
+  await openLog(page, 'next.log', LOG.split('\n')[0]);
+  await becomes('the next log', () => ids(page), '601');
+});
+
+check('a log in the send list runs onto the bus and only to be looked at, at any speed, held and frame by frame', async (page) => {
+  await openLog(page, 'other.log', LOG);
+  await page.getByRole('button', { name: 'Open beside it' }).click();
+  const log = page.getByRole('group', { name: 'Log other.log' });
+  assert.equal(await page.locator('.send-list').getByRole('group').count(), 1, 'it has its place in the send list');
+  const button = (name) => log.getByRole('button', { name, exact: true });
+  const place = () => log.getByRole('progressbar').evaluate((bar) => bar.value);
+  // Frame by frame onto the bus: one request, one answer.
+  await button('Next frame of the log').click();
+  await becomes('frames on the bus', () => ids(page), '701 601 581');
+  await becomes('the progress', place, 1);
+  await log.getByText('1 of 4 frames, 0.000 s').waitFor();
+  await button('Next frame of the log').click();
+  await becomes('frames on the bus', () => ids(page), '701 601 581 705');
+  // On from there, ten times as fast.
+  await log.getByRole('spinbutton', { name: 'Speed of the log' }).fill('10');
+  await page.keyboard.press('Tab');
+  await button('Continue the log').click();
+  await becomes('frames on the bus', () => ids(page), '701 601 581 705 601 581 705');
+  await button('Start the log').waitFor();
+  await becomes('the progress', place, 4);
+  const [asked, , last] = (await rows(page)).slice(-3).map(({ time }) => time);
+  assert.ok(Math.abs(last - asked - 0.02) < 0.005, `0.2 s of the log in ${last - asked} s`);
+  // Only to look at: nothing is sent, and the log is filled again.
+  const look = log.getByRole('combobox', { name: 'Where the frames go' });
+  await look.selectOption({ label: 'Only to look at' });
+  await button('Next frame of the log').click();
+  await becomes('the first frame', () => ids(page), '601');
+  await log.getByRole('spinbutton', { name: 'Speed of the log' }).fill('1');
+  await page.keyboard.press('Tab');
+  await button('Continue the log').click();
+  await becomes('more frames', place, 2);
+  await button('Hold the log').click();
+  await button('Continue the log').waitFor();
+  await button('End the log').click();
+  await becomes('the whole log', () => ids(page), '601 705 601 705');
+  await page.getByRole('group', { name: 'What the console shows' }).getByRole('button', { name: 'Capture' }).click();
+  await becomes('the capture', () => ids(page), '701 601 581 705 601 581 705');
+  await button('Remove the log from the send list').click();
+  await becomes('logs in the send list', () => log.count(), 0);
 });

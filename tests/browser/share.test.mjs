@@ -219,6 +219,12 @@ check('a bench is kept, and offered at the next visit', async (page) => {
   await page.getByRole('button', { name: 'Continue with it' }).click();
   await isUsed(page, at);
   await becomes('what is offered', () => page.getByRole('button', { name: 'Continue with it' }).count(), 0);
+  // Over the hints of a lesson there is no place for it.
+  await page.reload();
+  await page.getByRole('button', { name: 'Continue with it' }).waitFor();
+  await page.evaluate(() => (location.hash = '#lesson=sdo'));
+  await page.locator('od-lesson .checks').waitFor();
+  assert.equal(await page.getByRole('button', { name: 'Continue with it' }).isVisible(), false);
 });
 
 check('nothing is offered where nothing was done', async (page) => {

@@ -1,10 +1,11 @@
 //! Figures of the SDO client of each node (its default SDO, CiA 301, chapter 7.2.4): time to answer, aborts.
 
+use std::prelude::v1::*;
+
 use od_wire::sdo::{Request, Response};
 use od_wire::{Frame, Instant};
 
 use super::{Sum, Times};
-use crate::sorted::Sorted;
 
 /// The first byte of an abort, of a client as of a server.
 const ABORT: u8 = 0x80;
@@ -21,6 +22,8 @@ enum Block {
 /// The requests to one node, and its answers.
 #[derive(Clone, Debug, Default)]
 pub struct Client {
+    /// Node ID of the server.
+    pub node: u8,
     /// Requests that want an answer; of a block the segments do not count.
     pub requests: u32,
     /// Transfers that the client or the server aborted.
@@ -80,9 +83,9 @@ impl Client {
     }
 }
 
-/// The SDO clients of a bus, by the node ID of their server.
+/// The SDO clients of a bus, by ascending node ID of their server.
 #[derive(Clone, Debug, Default)]
-pub struct Clients(Sorted<u8, Client>);
+pub struct Clients(Vec<Client>);
 
 impl Clients {
     /// Takes the next frame; others than those of a default SDO change nothing.
@@ -91,16 +94,25 @@ impl Clients {
         let Some(id @ (0x581..=0x5FF | 0x601..=0x67F)) = id else {
             return;
         };
-        let client = self.0.get_or_default((id & 0x7F) as u8);
+        let node = (id & 0x7F) as u8;
+        let place = self.0.binary_search_by_key(&node, |client| client.node);
+        let place = place.unwrap_or_else(|place| {
+            let new = Client {
+                node,
+                ..Client::default()
+            };
+            self.0.insert(place, new);
+            place
+        });
         match id < 0x600 {
-            true => client.answer(at, frame),
-            false => client.ask(at, frame),
+            true => self.0[place].answer(at, frame),
+            false => self.0[place].ask(at, frame),
         }
     }
 
-    /// The clients, by ascending node ID.
-    pub fn all(&self) -> impl Iterator<Item = (u8, &Client)> {
-        self.0.iter()
+    /// The clients so far.
+    pub fn all(&self) -> &[Client] {
+        &self.0
     }
 }
 
@@ -117,8 +129,11 @@ mod tests {
             let frame = parse_frame(line).expect(line);
             clients.take(Instant::from_millis(at), &frame);
         }
-        let (node, client) = clients.all().next().expect("a client");
+        let [client] = clients.all() else {
+            panic!("one client");
+        };
         let Client {
+            node,
             requests,
             aborts,
             unanswered,

@@ -1,9 +1,10 @@
 //! Figures of each CAN-ID: how often, in what rhythm, and when its data changed.
 
+use std::prelude::v1::*;
+
 use od_wire::{Frame, Instant};
 
 use super::{Sum, Times};
-use crate::sorted::Sorted;
 
 /// Distances in time that a jitter is made of.
 const GAPS: usize = 32;
@@ -81,19 +82,23 @@ impl Row {
 
 /// The CAN-IDs of a bus: those of 11 bits first, each in ascending order.
 #[derive(Clone, Debug, Default)]
-pub struct Ids(Sorted<(bool, u32), Row>);
+pub struct Ids(Vec<Row>);
 
 impl Ids {
     /// Takes the next frame.
     pub fn take(&mut self, at: Instant, frame: &Frame) {
-        let key = (frame.id().is_extended(), frame.id().raw());
-        let new = || Row::new(at, *frame);
-        self.0.get_or_insert(key, new).take(at, *frame);
+        let key = frame.id();
+        let place = self.0.binary_search_by_key(&key, |row| row.frame.id());
+        let place = place.unwrap_or_else(|place| {
+            self.0.insert(place, Row::new(at, *frame));
+            place
+        });
+        self.0[place].take(at, *frame);
     }
 
     /// All CAN-IDs so far.
-    pub fn rows(&self) -> impl Iterator<Item = &Row> {
-        self.0.values()
+    pub fn rows(&self) -> &[Row] {
+        &self.0
     }
 }
 
@@ -107,7 +112,7 @@ mod tests {
             let frame = Frame::standard(0x185, &[*byte]);
             ids.take(Instant::from_micros(*micros), &frame);
         }
-        ids.rows().next().expect("a row").clone()
+        ids.rows()[0].clone()
     }
 
     #[test]
@@ -152,7 +157,7 @@ mod tests {
         ] {
             ids.take(Instant::from_micros(1), &Frame::of(id, &[0]));
         }
-        let ids = ids.rows().map(|row| row.frame.id().to_string());
+        let ids = ids.rows().iter().map(|row| row.frame.id().to_string());
         assert_eq!(ids.collect::<Vec<_>>(), ["181", "701", "00000181"]);
     }
 }

@@ -6,7 +6,7 @@ use od_model::Address;
 use od_wire::Frame;
 use od_wire::sdo::{Request, Response};
 
-use crate::sorted::Sorted;
+use super::sorted::Sorted;
 
 /// A segmented or block transfer, as far as its frames have been seen.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -11,6 +11,7 @@ mod lss;
 mod pdo;
 mod said;
 mod sdo;
+mod sorted;
 mod tag;
 #[cfg(all(test, feature = "eds"))]
 mod tests;
@@ -27,8 +28,8 @@ pub(crate) use said::plural;
 pub use said::{Service, Words};
 pub use tag::{TAGS, Tag, tag};
 
+use self::sorted::Sorted;
 use crate::device::VirtualDevice;
-use crate::sorted::Sorted;
 
 /// Returns a single frame in words.
 pub fn explain(devices: &[VirtualDevice], frame: &Frame) -> Words {

@@ -87,7 +87,7 @@ impl Stats {
             "{:>8} {:>7} {:>7} {:>7}  {:<16}  last frame",
             "COB-ID", "frames", "per s", "jitter", "data"
         )];
-        let rows = self.ids.rows().filter(|row| {
+        let rows = self.ids.rows().iter().filter(|row| {
             filter.passes(&Seen {
                 frame: &row.frame,
                 sent: false,
@@ -115,7 +115,7 @@ impl Stats {
 
     pub(super) fn json(&mut self, now: Instant, kbit: u16) -> Value {
         let load = self.load(now, kbit);
-        let rows = self.ids.rows().map(|row| {
+        let rows = self.ids.rows().iter().map(|row| {
             json!({
                 "id": row.frame.id().to_string(),
                 "frames": row.count,

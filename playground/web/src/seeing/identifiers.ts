@@ -10,6 +10,7 @@ import { knownWords, wordsOf } from '../sim/words';
 import { T } from '../texts';
 import { delta } from '../views/frame-list';
 import { View } from '../views/view';
+import './style';
 import { S } from './texts';
 
 /** Milliseconds between two drawings. */

@@ -11,6 +11,7 @@ import type { Ring } from '../trace/ring';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
 import { beside, show, showLive } from './shelf';
+import './style';
 import { S } from './texts';
 
 type Way = keyof typeof S.player.ways;

@@ -11,6 +11,7 @@ import { View } from '../views/view';
 import { Charts, type Cursors } from './charts';
 import { csv, png } from './export';
 import { keepLearning, live, mapped, type Plottable } from './signals';
+import './style';
 import { S } from './texts';
 import { follow, inFull, plotted } from './tracks';
 

@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import { icons } from '../views/icons';
 import { View } from '../views/view';
 import { beside, close, show } from './shelf';
+import './style';
 import { S } from './texts';
 
 class Shelf extends View {

@@ -67,7 +67,7 @@ export const S = {
     own: 'Own axes',
     shared: 'Shared axes',
     csv: 'Save the values as CSV',
-    png: 'Save the plot as a picture (PNG)',
+    png: 'Save the plot as PNG',
     range: (least: string, most: string) => `${least} to ${most}`,
     nothing: 'Nothing is plotted. Choose an object above: from frames, or from the simulation without a frame on the bus.',
     cursors: 'Cursors',

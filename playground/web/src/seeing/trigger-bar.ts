@@ -4,6 +4,7 @@ import { html, nothing } from 'lit';
 import { signal } from '@preact/signals-core';
 import * as state from '../state';
 import { View } from '../views/view';
+import './style';
 import { S } from './texts';
 import { arm, disarm, type Settings } from './trigger';
 

@@ -2,7 +2,7 @@
 
 import { effect } from '@preact/signals-core';
 import * as state from '../state';
-import { reveal } from '../capture';
+import { reveal, trace } from '../capture';
 import { readValues } from '../codec';
 import { askBus, listen } from '../sim/link';
 import { troubleWords } from '../sim/words';
@@ -154,6 +154,7 @@ function stop({ settings }: Wait, { number, time }: { number: number; time: numb
   state.captured.value = ring.end;
   state.cleared.value += 1;
   state.bookmarks.value = marks;
+  trace.follow();
   reveal(number);
   tell();
 }

@@ -6,7 +6,7 @@ use std::prelude::v1::*;
 
 /// Values by ascending key.
 #[derive(Clone, Debug)]
-pub(crate) struct Sorted<K, V>(VecDeque<(K, V)>);
+pub(super) struct Sorted<K, V>(VecDeque<(K, V)>);
 
 impl<K, V> Default for Sorted<K, V> {
     fn default() -> Self {
@@ -19,44 +19,29 @@ impl<K: Ord + Copy, V> Sorted<K, V> {
         self.0.binary_search_by_key(&key, |(key, _)| *key)
     }
 
-    pub(crate) fn get(&self, key: K) -> Option<&V> {
+    pub(super) fn get(&self, key: K) -> Option<&V> {
         let at = self.find(key).ok()?;
         self.0.get(at).map(|(_, value)| value)
     }
 
-    pub(crate) fn get_mut(&mut self, key: K) -> Option<&mut V> {
+    pub(super) fn get_mut(&mut self, key: K) -> Option<&mut V> {
         let at = self.find(key).ok()?;
         self.0.get_mut(at).map(|(_, value)| value)
     }
 
-    pub(crate) fn get_or_default(&mut self, key: K) -> &mut V
+    pub(super) fn get_or_default(&mut self, key: K) -> &mut V
     where
         V: Default,
     {
-        self.get_or_insert(key, V::default)
-    }
-
-    /// The value of a key; `new` makes one where there is none.
-    pub(crate) fn get_or_insert(&mut self, key: K, new: impl FnOnce() -> V) -> &mut V {
         let at = self.find(key).unwrap_or_else(|at| {
-            self.0.insert(at, (key, new()));
+            self.0.insert(at, (key, V::default()));
             at
         });
         &mut self.0[at].1
     }
 
-    /// Keys and values, by ascending key.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (K, &V)> {
-        self.0.iter().map(|(key, value)| (*key, value))
-    }
-
-    /// Values, by ascending key.
-    pub(crate) fn values(&self) -> impl Iterator<Item = &V> {
-        self.0.iter().map(|(_, value)| value)
-    }
-
     /// Puts a value in; returns the one that had its key before.
-    pub(crate) fn insert(&mut self, key: K, value: V) -> Option<V> {
+    pub(super) fn insert(&mut self, key: K, value: V) -> Option<V> {
         match self.find(key) {
             Ok(at) => Some(std::mem::replace(&mut self.0[at].1, value)),
             Err(at) => {
@@ -66,17 +51,17 @@ impl<K: Ord + Copy, V> Sorted<K, V> {
         }
     }
 
-    pub(crate) fn remove(&mut self, key: K) -> Option<V> {
+    pub(super) fn remove(&mut self, key: K) -> Option<V> {
         let at = self.find(key).ok()?;
         self.0.remove(at).map(|(_, value)| value)
     }
 
-    pub(crate) fn retain(&mut self, keep: impl Fn(&V) -> bool) {
+    pub(super) fn retain(&mut self, keep: impl Fn(&V) -> bool) {
         self.0.retain(|(_, value)| keep(value));
     }
 
     /// Removes all with lower keys.
-    pub(crate) fn forget_before(&mut self, key: K) {
+    pub(super) fn forget_before(&mut self, key: K) {
         let at = self.find(key).unwrap_or_else(|at| at);
         self.0.drain(..at);
     }

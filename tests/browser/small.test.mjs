@@ -1,0 +1,54 @@
+// Small things that were wrong once.
+import assert from 'node:assert/strict';
+import { becomes, booted, nmt, row, sdo, until } from './bench.mjs';
+import { checks } from './check.mjs';
+
+const check = checks();
+
+/** Is a control where it seems to be, with nothing over it? */
+const isFree = (control) =>
+  control.evaluate((it) => {
+    it.scrollIntoView({ block: 'center' });
+    const { left, top, width, height } = it.getBoundingClientRect();
+    const there = document.elementFromPoint(left + width / 2, top + height / 2);
+    return it.contains(there);
+  });
+
+for (const [width, height] of [[1366, 625], [390, 844]]) {
+  check(`a list of suggestions covers none of the next fields, ${width}`, { width, height }, async (page) => {
+    if (width < 1024) await page.getByRole('tab', { name: 'Bus' }).click();
+    await booted(page);
+    await page.getByRole('combobox', { name: 'Object', exact: true }).fill('60');
+    await page.locator('#sdo-options').waitFor();
+    const next = [page.getByRole('button', { name: 'Read', exact: true }), page.getByRole('textbox', { name: 'Value', exact: true }), page.getByRole('button', { name: 'Write', exact: true })];
+    for (const control of next) assert.ok(await isFree(control), String(control));
+  });
+}
+
+check('hidden texts make no page taller than its window', { width: 1280, height: 800 }, async (page) => {
+  await booted(page);
+  for (const view of ['Hardware', 'EEPROM', 'Shaft']) {
+    await page.getByRole('group', { name: 'Encoder views' }).getByRole('button', { name: view }).click();
+    await becomes(`pixels below the window: ${view}`, () => page.evaluate(() => document.documentElement.scrollHeight - innerHeight), 0);
+  }
+});
+
+check('a mapping that is full says so by its entries, not by its bits', {}, async (page) => {
+  await booted(page);
+  await page.getByRole('button', { name: 'PDO mapping' }).click();
+  const dialog = page.getByRole('dialog', { name: 'PDO mapping' });
+  await becomes('why nothing can be added', () => dialog.getByRole('combobox', { name: 'Add an object' }).locator('option').first().textContent(), /^All \d+ mapping entr(y is|ies are) in use/);
+});
+
+check('the status bar is under the table by CAN-ID, with nothing over it', { width: 1366, height: 625 }, async (page) => {
+  await booted(page);
+  await sdo(page, '6004');
+  await nmt(page, 'Start');
+  await row(page, 'a PDO', (one) => one.id === '181');
+  await page.getByRole('button', { name: 'By CAN-ID' }).click();
+  const bar = page.locator('.bus-status');
+  await until('the table', () => page.locator('.ids').count());
+  const [table, under] = await Promise.all([page.locator('.ids').boundingBox(), bar.boundingBox()]);
+  assert.ok(under.y >= table.y + table.height - 1, `${under.y} is above ${table.y + table.height}`);
+  assert.ok(await isFree(bar.locator('.num').first()));
+});
