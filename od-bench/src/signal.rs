@@ -31,7 +31,7 @@ pub enum Place {
 pub struct Signal {
     /// Its place.
     pub place: Place,
-    /// Its type; one that is not a number is taken as UNSIGNED.
+    /// Its type; one that is not a number counts as UNSIGNED.
     pub data_type: DataType,
 }
 

@@ -10,7 +10,7 @@ use super::{Sum, Times};
 /// The first byte of an abort, of a client as of a server.
 const ABORT: u8 = 0x80;
 
-/// Where a block transfer is: its segments have no command specifier.
+/// Phase of a block transfer: its segments have no command specifier.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 enum Block {
     #[default]

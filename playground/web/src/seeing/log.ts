@@ -46,11 +46,12 @@ function beside(name: string, log: Log): void {
   tell(name, log, true);
 }
 
-/** Time is paused, so that nothing mixes with it. */
+/** Time is paused, so that nothing mixes with it; that of a real bus is not to be paused. */
 function replace(name: string, log: Log): void {
   close();
-  setRunning(false);
   clearConsole();
+  if (state.real.value) return beside(name, log);
+  setRunning(false);
   state.ring.append(log.frames);
   state.captured.value = state.ring.end;
   onlyLog = { cleared: state.cleared.value, end: state.ring.end };
