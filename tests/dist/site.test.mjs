@@ -13,6 +13,8 @@ let server, browser, url;
 before(async () => {
   server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).replace(/\/$/, '/index.html');
+    // A browser asks for the icon of a text, too.
+    if (path === '/favicon.ico') return response.writeHead(204).end();
     const body = await readFile(join(dist, 'site', path)).catch(() => null);
     response.writeHead(body ? 200 : 404, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' }).end(body ?? '');
   });
