@@ -94,15 +94,22 @@ def test_the_projects_own_files_are_equal():
 
 
 def test_files_that_python_canopen_refuses():
-    """Examples of the rules: what is wrong there stops python-canopen, and not odkit."""
+    """Examples of the rules about text and structure: what is wrong there stops python-canopen, and not odkit."""
     refused = 0
-    for path in files(ROOT / "od-eds/cases"):
+    for path in sorted((ROOT / "od-eds/cases").glob("[EW]0[1-3]*/bad.eds")):
         described = odkit.read(path)
-        if len(described) == 0:
-            continue
-        assert set(odkit.to_canopen(path)) >= {one.index for one in described}, path
-        refused += compare(path)[1] is False
-    assert refused >= 25
+        if len(described) > 0:
+            assert set(odkit.to_canopen(path)) >= {one.index for one in described}, path
+            refused += not is_read(path)
+    assert refused >= 10
+
+
+def is_read(path):
+    """Whether python-canopen reads a file; there is no end to what it raises."""
+    try:
+        return canopen.import_od(str(path), differences.NODE_ID) is not None
+    except Exception:
+        return False
 
 
 @pytest.mark.skipif(CORPUS is None, reason="ODKIT_LONG, and a folder of device files")
