@@ -224,3 +224,24 @@ test('an adapter over Web Serial: its bus is shown, and a cable that was pulled 
     await close();
   }
 });
+
+on('a lesson is taken on a real node; one that needs a simulation says what it needs', async (page) => {
+  const { found } = await sim(['gxmm']);
+  await booted(page);
+  await connect(page, found);
+  await turnOn(page);
+  const lesson = (name) => page.evaluate((hash) => void (location.hash = hash), `#lesson=${name}`);
+  await lesson('nmt');
+  await page.getByText(/this lesson needs a virtual bench: a step looks at an LED/).first().waitFor();
+  await page.keyboard.press('Escape');
+  await lesson('aborts');
+  await page.locator('od-lesson').waitFor();
+  assert.equal(await mark(page).isVisible(), true, 'the bus is still there');
+  const steps = [['601#23 00 10 00 01 00 00 00'], ['601#40 55 55 00 00 00 00 00'], ['601#40 18 10 09 00 00 00 00'], ['601#40 01 60 00', '601#23 01 60 00 28 23 00 00'], ['601#2B 01 60 00 E8 03 00 00']];
+  for (const [number, frames] of steps.entries()) {
+    for (const frame of frames) await sendRaw(page, frame);
+    await page.locator('od-lesson .happened').waitFor();
+    if (number < steps.length - 1) await page.locator('.lesson-foot .primary').click();
+  }
+  await page.locator('.lesson-end').waitFor();
+});
