@@ -6,8 +6,8 @@ import { createHash } from 'node:crypto';
 /** The policies of lit and DOMPurify, and the page's own for its workers (`src/trusted.ts`). */
 const TYPES = 'lit-html dompurify odkit';
 
-/** A bus that odkit serves on this computer; a plain request says why a WebSocket was refused. A policy cannot name [::1]. */
-const BUS = ['ws', 'http'].flatMap((scheme) => [`${scheme}://127.0.0.1:*`, `${scheme}://localhost:*`]).join(' ');
+/** A bus that odkit serves on this computer. A policy cannot name [::1]; localhost leads there, too. */
+const BUS = 'ws://127.0.0.1:* ws://localhost:*';
 
 /** `scripts`: hashes of the scripts inside an HTML file, as `inline` gives them; `connect`: where lessons may come from. */
 export const policy = (scripts, connect = "'self'") =>

@@ -10,6 +10,8 @@ use tungstenite::error::ProtocolError;
 use tungstenite::handshake::machine::TryParse;
 use tungstenite::handshake::server::{Request, create_response, write_response};
 use tungstenite::http::{StatusCode, header};
+use tungstenite::protocol::frame::CloseFrame;
+use tungstenite::protocol::frame::coding::CloseCode;
 use tungstenite::protocol::{Role, WebSocketConfig, WebSocketContext};
 use tungstenite::{Error, Message};
 
@@ -134,12 +136,15 @@ impl<'g> WebSocket<'g> {
             Err(_) => Err((StatusCode::BAD_REQUEST, "not an HTTP request")),
         };
         let head = std::mem::take(&mut self.head);
-        let made = request.and_then(|(length, request)| {
-            let why = self.gate.admit(&request);
-            why.map_err(|why| (StatusCode::FORBIDDEN, why))?;
+        let refused = |(status, why)| refusal(status, why).into_bytes();
+        let made = request.map_err(refused).and_then(|(length, request)| {
+            if let Err(why) = self.gate.admit(&request) {
+                let said = closed(&request, why);
+                return Err(said.unwrap_or_else(|| refused((StatusCode::FORBIDDEN, why))));
+            }
             let needs = "this port speaks WebSocket; paste its address where the page says Connect";
             let response = create_response(&request);
-            let response = response.map_err(|_| (StatusCode::UPGRADE_REQUIRED, needs))?;
+            let response = response.map_err(|_| refused((StatusCode::UPGRADE_REQUIRED, needs)))?;
             Ok((length, response))
         });
         Some(match made {
@@ -151,9 +156,9 @@ impl<'g> WebSocket<'g> {
                 self.open = Some(WebSocketContext::new(Role::Server, Some(config)));
                 (written(&response), head[length..].to_vec())
             }
-            Err((status, why)) => {
+            Err(answer) => {
                 self.is_over = true;
-                (refusal(status, why).into_bytes(), Vec::new())
+                (answer, Vec::new())
             }
         })
     }
@@ -260,12 +265,31 @@ fn written(response: &tungstenite::handshake::server::Response) -> Vec<u8> {
     bytes
 }
 
-/// A response that says why there is no WebSocket. A page can read it, which is not told more of a
-/// WebSocket than that it failed; it contains nothing secret.
+/// A WebSocket that is closed at once, with the reason, for a page whose query has `why`: of one that
+/// is refused a browser says nothing.
+fn closed(request: &Request, why: &'static str) -> Option<Vec<u8>> {
+    let query = request.uri().query()?;
+    query.split('&').find(|it| *it == "why")?;
+    let mut pipe = Pipe {
+        input: Cursor::new(b""),
+        output: written(&create_response(request).ok()?),
+    };
+    let mut open = WebSocketContext::new(Role::Server, None);
+    let frame = CloseFrame {
+        code: CloseCode::Policy,
+        reason: why.into(),
+    };
+    // What is left of it goes out, whatever it says of the other side.
+    let _ = open.close(&mut pipe, Some(frame));
+    let _ = open.flush(&mut pipe);
+    Some(pipe.output)
+}
+
+/// A response that says why there is no WebSocket.
 pub(crate) fn refusal(status: StatusCode, why: &str) -> String {
     format!(
         "HTTP/1.1 {status}\r\nContent-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\
-         Access-Control-Allow-Origin: *\r\nConnection: close\r\n\r\n{why}\n",
+         Connection: close\r\n\r\n{why}\n",
         why.len() + 1
     )
 }

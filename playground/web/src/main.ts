@@ -22,7 +22,7 @@ async function open(): Promise<void> {
   if (hash.startsWith('#bus=')) {
     const bus = decodeURIComponent(hash.slice(5));
     history.replaceState(null, '', location.pathname + location.search);
-    await begin(recall());
+    if (state.devices.value.length === 0) await begin(recall());
     await import('./real/dialog');
     return document.querySelector<Connect>('od-connect')!.go(bus);
   }

@@ -142,3 +142,32 @@ fn garbage_ends_the_connection() {
         assert_eq!(steps.last(), Some(&Step::Leave), "{bytes:?}");
     }
 }
+
+#[test]
+fn a_page_that_asks_why_it_is_refused_is_told_in_a_close_frame() {
+    let gate = gate();
+    let foreign = "Origin: https://elsewhere.example\r\n";
+    for (path, more, why) in [
+        ("/?token=wrong&why", "", "the token is wrong"),
+        ("/?why", "", "the token is wrong"),
+        (
+            "/?token=0123456789abcdef&why",
+            foreign,
+            "name it with --origin",
+        ),
+    ] {
+        let mut codec = WebSocket::new(&gate);
+        let steps = say(&mut codec, request(path, more).as_bytes());
+        let [Step::Reply(bytes), Step::Leave] = &*steps else {
+            panic!("{path}: {steps:?}");
+        };
+        assert!(bytes.starts_with(b"HTTP/1.1 101"), "{path}");
+        let end = bytes.windows(4).position(|four| four == b"\r\n\r\n");
+        let frame = &bytes[end.expect("a head") + 4..];
+        // A close frame (RFC 6455, clause 5.5.1) with status 1008, policy violation.
+        assert_eq!(frame[0], 0x88, "{path}");
+        assert_eq!(frame[2..4], 1008u16.to_be_bytes(), "{path}");
+        assert!(String::from_utf8_lossy(&frame[4..]).contains(why), "{path}");
+        assert_eq!(say(&mut codec, &message("O\rt1230\r")), [], "{path}");
+    }
+}

@@ -10,6 +10,7 @@ import { View } from '../views/view';
 import type { RealState } from './api';
 import { again, connectAdapter, connectTo, hasSerial, isConnecting, last, leave, problem, setSending } from './connect';
 import './mark';
+import { styled } from './styled';
 import './panel';
 
 /** Bit rates of slcan in kbit/s; 0: the adapter keeps its own. */
@@ -33,7 +34,7 @@ class Connect extends View {
     super.firstUpdated(changed);
     const dialog = this.querySelector('dialog')!;
     this.unopen = effect(() => {
-      if (state.realDialog.value && !dialog.open) dialog.showModal();
+      if (state.realDialog.value && !dialog.open) void styled.then(() => state.realDialog.peek() && !dialog.open && dialog.showModal());
       else if (!state.realDialog.value && dialog.open) dialog.close();
     });
   }

@@ -50,19 +50,25 @@ export function socket(address: string, ears: Ears): Port {
   };
 }
 
-/** A page is not told why a WebSocket was refused. The same address answers a plain request with the reason. */
-async function reason(address: string): Promise<Why> {
-  const plain = address.replace(/^ws/, 'http');
-  try {
-    const answer = await fetch(plain, { signal: AbortSignal.timeout(2000) });
-    const text = (await answer.text()).trim();
-    // It would have let us in: there was no room, or it came up only now.
-    return answer.status === 426 || text.length > 300 ? { kind: 'denied' } : { kind: 'said', text };
-  } catch {
-    // An older odkit does not let the page read it; that somebody answers can be seen all the same.
-    const answers = await fetch(plain, { mode: 'no-cors', signal: AbortSignal.timeout(2000) }).then(() => true, () => false);
-    return { kind: answers ? 'denied' : 'refused' };
-  }
+/** Milliseconds for the reason. */
+const PATIENCE = 2000;
+
+/** A page is not told why a WebSocket was refused. With `why` odkit opens one and closes it with the reason. */
+function reason(address: string): Promise<Why> {
+  return new Promise((resolve) => {
+    const own = new WebSocket(`${address}&why`);
+    let isThere = false;
+    const end = (why: Why): void => {
+      resolve(why);
+      own.close();
+    };
+    const timer = setTimeout(() => end({ kind: 'denied' }), PATIENCE);
+    own.onopen = () => (isThere = true);
+    own.onclose = ({ code, reason: text }) => {
+      clearTimeout(timer);
+      end(code === 1008 && text ? { kind: 'said', text } : { kind: isThere ? 'denied' : 'refused' });
+    };
+  });
 }
 
 export function ofPage(tell: (what: RealReport) => void): Port {

@@ -73,7 +73,7 @@ export class Real extends World {
         if (port === this.port) this.ended(why);
       },
     };
-    this.ears = ears;
+    this.ears = this.to.kind === 'serial' ? ears : null;
     const port: Port = this.to.kind === 'ws' ? socket(this.to.address, ears) : ofPage(this.tell);
     this.port = port;
     this.wait(PATIENCE, { kind: 'slow' });

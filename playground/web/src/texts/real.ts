@@ -41,7 +41,7 @@ export const R = {
       case 'refused':
         return `Nothing answers at ${name}. Start odkit sim or odkit bridge there, and compare the port.`;
       case 'denied':
-        return `${name} refused the connection. Compare the token; too many clients may be connected; pages of other computers need --origin.`;
+        return `${name} refused the connection. Too many clients may be connected.`;
       case 'slow':
         return `${name} does not complete the connection. Another program may use this port.`;
       case 'silent':
