@@ -13,7 +13,8 @@ use crate::profile::Profile;
 /// Each service below is on unless its constant is `false`; then the node has no code for it, and
 /// does not compile if the dictionary has objects of it.
 pub trait Device {
-    /// Dictionary that the node serves; `None`: known at run time, when
+    /// Dictionary that the node serves, and no other
+    /// ([`Unfit::Dictionary`](crate::Unfit::Dictionary)); `None`: known at run time, when
     /// [`Node::power_on`](crate::Node::power_on) checks it.
     const DICTIONARY: Option<Dictionary<'static>> = None;
     /// Options of the device family, for which [`Lent::profile`](crate::Lent::profile) does not

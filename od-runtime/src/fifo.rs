@@ -46,6 +46,7 @@ impl<T: Copy> Fifo<[T]> {
     }
 
     /// Answers whether there was room.
+    #[inline(never)]
     pub(crate) fn push(&mut self, item: T) -> bool {
         let has_room = usize::from(self.len) < self.items.len();
         let place = self.place(self.len);

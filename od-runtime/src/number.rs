@@ -38,3 +38,9 @@ pub(crate) fn fill(room: &mut [u8], number: [u8; 8]) {
             .for_each(|(to, from)| *to = from);
     }
 }
+
+/// Copies as many bytes as both have, in code that cannot fail.
+#[inline(never)]
+pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+}

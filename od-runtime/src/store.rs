@@ -6,7 +6,7 @@ use od_model::row::Row;
 use od_model::typed::{DeviceWritable, Scalar, Text, Var};
 use od_model::{Address, DataType, Dictionary, Entry, Slot};
 
-use crate::number::{fill, little_endian, number_in};
+use crate::number::{copy, fill, little_endian, number_in};
 use crate::real;
 use od_wire::{AbortCode, NodeId};
 
@@ -244,9 +244,7 @@ impl<'a> Store<'a> {
     #[inline(never)]
     pub(crate) fn put_row(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let room = self.room(row, bytes.len())?;
-        room.iter_mut()
-            .zip(bytes)
-            .for_each(|(to, from)| *to = *from);
+        copy(room, bytes);
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use crate::console::{Console, say};
 use crate::error::{Error, Result};
 use crate::repo::Repo;
 
-use measure::{COUNTS, Cost, LINKED, boot, build, play, prepare};
+use measure::{COUNTS, Cost, SMALL, boot, build, play, prepare};
 use text::{grouped, has_grown, readme, row, split};
 
 /// The programs in `firmware/src/bin`, and what each is.
@@ -128,17 +128,15 @@ fn json(costs: &[Cost]) -> String {
 /// Builds and runs every program.
 fn measure(repo: &Repo) -> Result<Vec<Cost>> {
     let names = PROGRAMS.map(|(name, _)| name);
-    let played = |level: &str, others: &[&str], features: &[&str]| {
-        let folder = build(repo, &[&names, others].concat(), level, features)?;
+    let played = |level: &str, others: &[&str]| {
+        let folder = build(repo, &[&names, others].concat(), level, &[])?;
         others
             .iter()
             .try_for_each(|name| boot(&folder.join(name)))?;
         let costs = names.iter().map(|name| play(&folder.join(name)));
         costs.collect::<Result<Vec<Cost>>>()
     };
-    let small = played(LINKED, &["boot_loader"], &[])?;
-    // What the linker sees of panics depends on the level; the programs are made for one.
-    let smaller = played("z", &[], &["may-panic"])?;
+    let (small, smaller) = (played(SMALL, &["boot_loader"])?, played("z", &[])?);
     let both = small.into_iter().zip(smaller);
     Ok(both
         .map(|(s, z)| Cost {

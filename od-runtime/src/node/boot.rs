@@ -25,9 +25,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// [`Unfit`] where `device.values` is too short for the dictionary, or the node does not
     /// serve all that the dictionary has ([`fits`](Self::fits)). The node stays without power.
     pub fn power_on(&mut self, device: &mut Lent<'_>, now: Instant) -> Result<(), Unfit> {
-        // The compiler has checked its own.
-        if !D::DICTIONARY.is_some_and(|known| known.is_same(&device.dictionary)) {
-            Self::fits(&device.dictionary)?;
+        match &D::DICTIONARY {
+            // The compiler has checked it.
+            Some(known) if known.is_same(&device.dictionary) => {}
+            Some(_) => return Err(Unfit::Dictionary),
+            None => Self::fits(&device.dictionary)?,
         }
         Ok(self.power_on_partly(device, now)?)
     }

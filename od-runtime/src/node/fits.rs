@@ -46,6 +46,8 @@ pub enum Unfit {
     SyncProducer,
     /// The object configures a service that the device switched off ([`Device`]).
     Service(u16),
+    /// The dictionary is not that of the node's type ([`Device::DICTIONARY`]).
+    Dictionary,
 }
 
 impl Unfit {
@@ -58,6 +60,7 @@ impl Unfit {
             Self::SdoBuffer { .. } => "a value of the dictionary is longer than the SDO buffer",
             Self::SdoServer(_) => "the node has no room for this SDO server",
             Self::Service(_) => "the dictionary has an object of a service that is switched off",
+            Self::Dictionary => "the dictionary is not that of the node's type",
             Self::SyncProducer => {
                 "1005h produces SYNC by default, and the node does not; add 1006h, or clear bit 30"
             }
@@ -89,7 +92,7 @@ impl fmt::Display for Unfit {
             Self::SdoServer(index) | Self::Service(index) => {
                 write!(f, "{index:04X}h: {}", self.reason())
             }
-            Self::SyncProducer => f.write_str(self.reason()),
+            Self::SyncProducer | Self::Dictionary => f.write_str(self.reason()),
         }
     }
 }

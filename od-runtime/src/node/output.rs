@@ -155,6 +155,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     /// Boot-up message, heartbeat and answer to guarding: one byte under 700h + node ID.
+    #[inline(never)]
     pub(super) fn push_error_control(&mut self, byte: u8) {
         self.push(Frame::of(self.node_id.plus(0x700), &[byte]));
     }

@@ -90,11 +90,7 @@ impl<'c, D: Device> Objects<'c, D> {
         address: Address,
         number: &'b mut [u8; 8],
     ) -> Result<&'b [u8], Unread> {
-        let (_, row) = self
-            .store
-            .dictionary()
-            .locate(address)
-            .map_err(AbortCode::from)?;
+        let row = self.row(address)?;
         let plain = row.plain();
         if plain.len == 0 {
             self.check_special(row)?;
@@ -290,17 +286,19 @@ impl<'c, D: Device> Objects<'c, D> {
         let profile = &self.profile().store;
         self.refresh_life_record();
         self.application(|application, context| application.saving(context, true));
-        let pending = image::begin(self.storage, &self.store, profile, sub);
-        self.application(|application, context| application.saving(context, false));
-        let Ok(pending) = pending else {
-            self.outbox.effect(Effect::NotSaved);
-            return Err(profile.failed);
-        };
-        self.begin_save(Saving {
-            pending,
+        let mut saving = Saving {
+            pending: image::Pending::NONE,
             sub,
             due: self.now.plus_micros(profile.duration_us.into()),
-        });
+        };
+        let pending = &mut saving.pending;
+        let begun = image::begin(self.storage, &self.store, profile, sub, pending);
+        self.application(|application, context| application.saving(context, false));
+        if begun.is_err() {
+            self.outbox.effect(Effect::NotSaved);
+            return Err(profile.failed);
+        }
+        self.begin_save(saving);
         if profile.duration_us > 0 {
             self.outbox.answer_later = profile.answer == SaveAnswer::AfterStoring;
             self.outbox.effect(Effect::Saving);
@@ -320,7 +318,7 @@ impl<'c, D: Device> Objects<'c, D> {
         let Some(Saving { pending, sub, .. }) = self.forget_save() else {
             return Some(true);
         };
-        let is_written = !pending.is_some() || image::commit(self.storage, pending).is_ok();
+        let is_written = !pending.is_some() || image::commit(self.storage, &pending).is_ok();
         if is_written && self.storage.is_writing() {
             self.await_memory(sub);
             return None;

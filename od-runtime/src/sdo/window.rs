@@ -1,5 +1,6 @@
 //! The server's buffer: all of a value, or the part of a streamed one that is on its way.
 
+use crate::number::copy;
 use od_wire::AbortCode;
 
 /// A part of a value.
@@ -48,7 +49,7 @@ impl<const N: usize> Window<N> {
     /// Puts bytes behind those in the buffer. They count with the next change of `len`.
     pub(super) fn put(&mut self, bytes: &[u8]) -> Result<(), AbortCode> {
         let room = self.buffer.get_mut(self.len..self.len + bytes.len());
-        room.ok_or(AbortCode::OutOfMemory)?.copy_from_slice(bytes);
+        copy(room.ok_or(AbortCode::OutOfMemory)?, bytes);
         Ok(())
     }
 

@@ -199,8 +199,9 @@ pub fn save(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    let pending = begin(storage, store, profile, sub)?;
-    commit(storage, pending)
+    let mut pending = Pending::NONE;
+    begin(storage, store, profile, sub, &mut pending)?;
+    commit(storage, &pending)
 }
 
 /// The first part of [`save`], for a device that takes its time: everything is written, but
@@ -210,7 +211,8 @@ pub(crate) fn begin(
     store: &Store<'_>,
     profile: &StoreProfile,
     sub: u8,
-) -> Result<Pending, StorageError> {
+    pending: &mut Pending,
+) -> Result<(), StorageError> {
     let next = Next {
         // The device itself writes nothing over the set of another one.
         unless: Some(Loaded::Foreign).filter(|_| sub == 0),
@@ -229,9 +231,9 @@ pub(crate) fn begin(
         },
         cob_ids: profile.cob_ids,
     };
-    let pending = merge::begin(storage, store, &next)?;
+    merge::begin(storage, store, &next, pending)?;
     match pending.is_some() {
-        true => Ok(pending),
+        true => Ok(()),
         false => Err(StorageError::Foreign),
     }
 }

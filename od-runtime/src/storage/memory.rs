@@ -1,6 +1,7 @@
 //! Storage in memory, with a power supply that can be cut.
 
 use super::{Storage, StorageError};
+use crate::number::copy;
 
 /// Storage that lives as long as its bytes: an array, a slice, a `Vec`.
 ///
@@ -78,7 +79,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
         }
         let from = self.bytes.as_ref().get(offset..);
         let from = from.and_then(|from| from.get(..to.len()));
-        to.copy_from_slice(from.ok_or(StorageError::OutOfRange)?);
+        let from = from.ok_or(StorageError::OutOfRange)?;
+        // A start reads all there is, so it goes by words.
+        let ((to, to_rest), (from, rest)) = (to.as_chunks_mut::<4>(), from.as_chunks::<4>());
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+        copy(to_rest, rest);
         Ok(())
     }
 
@@ -100,8 +105,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> Storage for Memory<B> {
             }
             None => bytes.len(),
         };
-        let part = to.iter_mut().zip(bytes).take(len);
-        part.for_each(|(to, from)| *to = *from);
+        copy(to.get_mut(..len).unwrap_or_default(), bytes);
         if self.cut {
             Err(StorageError::PowerCut)
         } else {

@@ -4,7 +4,7 @@ use crate::support::{Row, rows, tables, unsigned};
 use od_model::{Access, DataType, Dictionary};
 use od_runtime::storage::NoStorage;
 use od_runtime::{
-    AbortCode, AnyDevice, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
+    AbortCode, AnyDevice, Device, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
     StoreTooSmall, Unfit,
 };
 
@@ -15,7 +15,15 @@ fn start<const PDO: usize, const SDO: usize>(
     dictionary: Dictionary<'_>,
     values: usize,
 ) -> (Result<(), Unfit>, bool) {
-    let mut node: Node<AnyDevice, PDO, SDO> = Node::new(NodeId::ONE);
+    start_as::<AnyDevice, PDO, SDO>(dictionary, values)
+}
+
+/// As [`start`], of a node of this type.
+fn start_as<D: Device, const PDO: usize, const SDO: usize>(
+    dictionary: Dictionary<'_>,
+    values: usize,
+) -> (Result<(), Unfit>, bool) {
+    let mut node: Node<D, PDO, SDO> = Node::new(NodeId::ONE);
     let mut device = Lent {
         dictionary,
         values: &mut vec![0; values],
@@ -59,6 +67,24 @@ fn sizes_are_those_of_the_dictionary_or_more() {
     assert_eq!(
         start::<2, 1024>(dictionary, values - 1),
         (Err(Unfit::Values(StoreTooSmall { needed })), false)
+    );
+}
+
+/// A device whose dictionary has no object.
+struct Empty;
+
+impl Device for Empty {
+    const DICTIONARY: Option<Dictionary<'static>> = Some(Dictionary::EMPTY);
+}
+
+#[test]
+fn a_node_of_a_dictionary_serves_no_other() {
+    let tables = tables(rows());
+    let other = tables.dictionary();
+    assert_eq!(start_as::<Empty, 2, 1024>(Dictionary::EMPTY, 0).0, Ok(()));
+    assert_eq!(
+        start_as::<Empty, 2, 1024>(other, other.store_len()),
+        (Err(Unfit::Dictionary), false)
     );
 }
 
@@ -151,6 +177,10 @@ fn a_reason_says_what_to_write() {
     assert_eq!(
         say(Unfit::SdoServer(0x1201)),
         "1201h: the node has no room for this SDO server"
+    );
+    assert_eq!(
+        say(Unfit::Dictionary),
+        "the dictionary is not that of the node's type"
     );
     assert_eq!(
         say(Unfit::SyncProducer),

@@ -7,8 +7,8 @@ use crate::error::{Error, Result};
 use crate::repo::Repo;
 use crate::setup::{apt, target};
 
-/// The optimisation at which a program with a path to a panic does not link.
-pub(super) const LINKED: &str = "s";
+/// The optimisation of a firmware.
+pub(super) const SMALL: &str = "s";
 const EMULATOR: &str = "qemu-system-arm";
 
 /// What a program reports: bytes, and instructions from an input until its last frame is out.

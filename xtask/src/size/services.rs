@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::measure::{LINKED, build, play};
+use super::measure::{SMALL, build, play};
 use super::text::{grouped, has_grown, row};
 use crate::error::Result;
 use crate::repo::Repo;
@@ -45,7 +45,7 @@ type Costs = Vec<(&'static str, [i64; 3])>;
 /// Builds and runs the node with each service.
 pub(super) fn measure(repo: &Repo) -> Result<Costs> {
     let one = |(name, feature, _): (&'static str, &str, &str)| {
-        let folder = build(repo, &[PROGRAM], LINKED, &[feature])?;
+        let folder = build(repo, &[PROGRAM], SMALL, &[feature])?;
         let cost = play(&folder.join(PROGRAM))?;
         Ok((
             name,

@@ -2,20 +2,25 @@
 
 use od_model::row::Row;
 
-use crate::number::number_in;
+use crate::number::{copy, number_in};
 use crate::profile::SavedCobIds;
 use crate::store::Store;
 use od_wire::CobId;
 
-/// Returns the bytes that are saved instead of those of the value; `None`: the value is saved.
+/// Makes the bytes that are saved instead of those of the value. Returns whether there are any.
+#[inline(never)]
 pub(super) fn difference(
     store: &Store<'_>,
     row: &Row,
     rule: SavedCobIds,
     value: &[u8],
-) -> Option<[u8; 8]> {
-    let default = default(store, row, rule)?;
-    Some(number_in(value).wrapping_sub(default).to_le_bytes())
+    to: &mut [u8; 8],
+) -> bool {
+    let default = default(store, row, rule);
+    if let Some(default) = default {
+        *to = number_in(value).wrapping_sub(default).to_le_bytes();
+    }
+    default.is_some()
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID
@@ -25,9 +30,7 @@ pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &m
         return true;
     };
     let value = number_in(bytes).wrapping_add(default);
-    for (to, from) in bytes.iter_mut().zip(value.to_le_bytes()) {
-        *to = from;
-    }
+    copy(bytes, &value.to_le_bytes());
     row.index() >= 0x2000 || CobId::new(value as u32).is_consistent()
 }
 

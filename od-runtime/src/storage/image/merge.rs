@@ -10,6 +10,7 @@ use super::layout::{
     Code, ERASED, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, is_blank, whole_words,
 };
 use super::loaded::Loaded;
+use crate::number::copy;
 use crate::profile::{CutSave, SavedCobIds};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -56,7 +57,7 @@ impl Pending {
     };
 
     /// Whether there is a set.
-    pub(crate) const fn is_some(self) -> bool {
+    pub(crate) const fn is_some(&self) -> bool {
         self.layout.size > 0
     }
 }
@@ -67,9 +68,10 @@ pub(super) fn save(
     store: &Store<'_>,
     next: &Next<'_>,
 ) -> Result<(), StorageError> {
-    let pending = begin(storage, store, next)?;
+    let mut pending = Pending::NONE;
+    begin(storage, store, next, &mut pending)?;
     match pending.is_some() {
-        true => commit(storage, pending),
+        true => commit(storage, &pending),
         false => Ok(()),
     }
 }
@@ -80,12 +82,13 @@ pub(super) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     next: &Next<'_>,
-) -> Result<Pending, StorageError> {
+    pending: &mut Pending,
+) -> Result<(), StorageError> {
     let mut banks = Banks::of(device(store.dictionary()));
     banks.survey(storage)?;
     let banks = &banks;
     if next.unless == Some(banks.state) {
-        return Ok(Pending::NONE);
+        return Ok(());
     }
     let layout = &banks.layout;
     let room = layout.size.checked_sub(layout.header());
@@ -105,7 +108,7 @@ pub(super) fn begin(
     if len > room {
         return Err(StorageError::Full);
     }
-    let pending = Pending {
+    *pending = Pending {
         layout: banks.layout,
         target: banks.target,
         code: banks.next,
@@ -121,18 +124,13 @@ pub(super) fn begin(
         result => result?,
     }
     let written = set.write(storage, len);
-    written.map_err(|error| give_up(storage, pending, error))?;
-    Ok(pending)
+    written.map_err(|error| give_up(storage, pending, error))
 }
 
 /// The commit word: from now on the next set is the newest.
-pub(crate) fn commit(storage: &mut dyn Storage, pending: Pending) -> Result<(), StorageError> {
-    let Pending {
-        layout,
-        target,
-        code,
-    } = pending;
-    let written = layout.stamp(storage, target, code);
+pub(crate) fn commit(storage: &mut dyn Storage, pending: &Pending) -> Result<(), StorageError> {
+    let layout = &pending.layout;
+    let written = layout.stamp(storage, pending.target, pending.code);
     match layout.page {
         0 => written.map_err(|error| give_up(storage, pending, error)),
         // A word of flash is written once.
@@ -141,7 +139,7 @@ pub(crate) fn commit(storage: &mut dyn Storage, pending: Pending) -> Result<(), 
 }
 
 /// Power did not go, so the set before the next one counts, if the storage still works.
-fn give_up(storage: &mut dyn Storage, pending: Pending, error: StorageError) -> StorageError {
+fn give_up(storage: &mut dyn Storage, pending: &Pending, error: StorageError) -> StorageError {
     let _ = pending
         .layout
         .stamp(storage, pending.target, Code::GIVEN_UP);
@@ -217,9 +215,7 @@ impl Set<'_> {
     ) -> Result<(), StorageError> {
         let (layout, target) = (&self.banks.layout, self.banks.target);
         let mut fields = [ERASED; MAX_WORD];
-        for (to, from) in fields.iter_mut().zip(known.as_flattened()) {
-            *to = *from;
-        }
+        copy(&mut fields, known.as_flattened());
         let len = layout.header() - 2 * layout.word;
         let fields = fields.get(..len).unwrap_or_default();
         storage.write(target + 2 * layout.word, fields)?;
@@ -290,9 +286,9 @@ impl Set<'_> {
             return Err(StorageError::Full);
         }
         writer.head(storage, row.address(), bytes.len())?;
-        let difference = cob_id::difference(self.store, row, self.next.cob_ids, bytes);
-        if let Some(difference) = &difference {
-            bytes = difference.get(..bytes.len()).unwrap_or(difference);
+        let (mut difference, len) = ([0; 8], bytes.len());
+        if cob_id::difference(self.store, row, self.next.cob_ids, bytes, &mut difference) {
+            bytes = difference.get(..len).unwrap_or(bytes);
         }
         writer.put(storage, bytes)
     }
@@ -350,9 +346,7 @@ impl Writer {
         while !bytes.is_empty() {
             let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
             let part = bytes.len().min(room.len());
-            for (to, from) in room.iter_mut().zip(bytes) {
-                *to = *from;
-            }
+            copy(room, bytes);
             self.filled += part;
             bytes = bytes.get(part..).unwrap_or_default();
             if self.filled == self.buffer.len() {

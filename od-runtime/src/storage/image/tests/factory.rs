@@ -102,7 +102,8 @@ fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
-    begin(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    let mut pending = Pending::NONE;
+    begin(&mut memory, &bench.store(), FACTORY, 1, &mut pending).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     bench.fill(6);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
@@ -119,10 +120,11 @@ fn a_save_counts_after_its_end_alone() {
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
     bench.fill(6);
-    let pending = begin(&mut memory, &bench.store(), FACTORY, 1).unwrap();
+    let mut pending = Pending::NONE;
+    begin(&mut memory, &bench.store(), FACTORY, 1, &mut pending).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     assert_eq!(bench.store().unsigned(0x6003, 0), 0);
-    commit(&mut memory, pending).unwrap();
+    commit(&mut memory, &pending).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Complete);
     assert_eq!(bench.store().unsigned(0x6003, 0), 6);
 }
@@ -178,7 +180,8 @@ fn a_save_that_fails_with_power_on_leaves_the_set_before_it() {
         let before = bench.values();
         bench.fill(200);
         let mut flaky = Flaky { memory, fails };
-        let result = begin(&mut flaky, &bench.store(), FACTORY, 1);
+        let mut pending = Pending::NONE;
+        let result = begin(&mut flaky, &bench.store(), FACTORY, 1, &mut pending);
         if result.is_ok() {
             assert!(fails > 3, "mark, magic, records and header were written");
             break;
