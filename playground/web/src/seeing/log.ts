@@ -4,7 +4,7 @@ import { clearConsole, saveLog, setRunning } from '../actions';
 import type { Log } from '../sim/api';
 import * as state from '../state';
 import { Ring } from '../trace/ring';
-import { start } from './player';
+import { forget, start } from './player';
 import { close, putBeside, showLive } from './shelf';
 import './shelf-tabs';
 import { S } from './texts';
@@ -34,6 +34,7 @@ export function opened(name: string, log: Log): void {
 const skipped = (log: Log): string => (log.skipped ? ` ${S.log.skipped(log.skipped, log.line, log.why)}` : '');
 
 function tell(name: string, log: Log, isBeside: boolean): void {
+  forget();
   state.log.value = { name, frames: log.frames, count: log.count };
   const text = S.log.opened(name, log.count, isBeside) + skipped(log);
   state.toast.value = { text, tone: log.skipped ? 'error' : 'info', action: { text: S.log.send, run: () => start('bus') } };

@@ -110,6 +110,14 @@ function end(): void {
   phase.value = 'ready';
 }
 
+/** Another log, or none, takes the place of this one. */
+export function forget(): void {
+  clearTimeout(timer);
+  if (phase.peek() !== 'ready' && way.peek() === 'bus') send({ op: 'player', ends: true });
+  phase.value = 'ready';
+  place.value = 0;
+}
+
 listen(({ toSend }) => {
   const log = state.log.peek();
   if (!log || !isUnderWay || phase.peek() === 'ready' || way.peek() !== 'bus') return;
@@ -131,7 +139,7 @@ class Player extends View {
     const isReady = phase.value === 'ready';
     const main = isReady ? t.start : phase.value === 'runs' ? t.hold : t.goOn;
     const run = (): void => (isReady ? start(way.value) : hold(phase.value === 'runs'));
-    const shown = Math.max(0, place.value - 1);
+    const shown = Math.min(Math.max(0, place.value - 1), log.count - 1);
     const time = log.count ? (timeOf(shown) - timeOf(0)) / 1e6 : 0;
     return html`<div class="player" role="group" aria-label=${t.title(log.name)}>
       <b>${log.name}</b>
@@ -144,7 +152,7 @@ class Player extends View {
       <button class="icon-button" aria-label=${t.end} title=${t.end} ?disabled=${isReady} @click=${end}>${icons.back}</button>
       <progress aria-label=${t.progress} max=${log.count} .value=${place.value}></progress>
       <span class="num muted">${t.place(grouped(place.value), grouped(log.count), time.toFixed(3))}</span>
-      <button class="icon-button" aria-label=${t.remove} title=${t.remove} @click=${() => { end(); state.log.value = null; }}>${icons.close}</button>
+      <button class="icon-button" aria-label=${t.remove} title=${t.remove} @click=${() => { end(); forget(); state.log.value = null; }}>${icons.close}</button>
     </div>`;
   }
 }
