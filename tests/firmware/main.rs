@@ -2,7 +2,7 @@
 //! Cortex-M3 (`firmware/twin`), and every answer is that of the bench, byte for byte: frames, their
 //! times, states, deadlines, events; at the end of a script all values and the EEPROM, too.
 //!
-//! So are inputs that the fuzz target `node` makes, the same in every run. How many instructions a
+//! So is the whole of `odkit conform`, with `--long`, and so are inputs that the fuzz target `node` makes, the same in every run. How many instructions a
 //! frame takes at most is in README.md.
 //!
 //! The bench plays the scripts first, and logs calls and answers of each device. The firmware then
@@ -55,11 +55,12 @@ fn play(name: &str, programs: &Path, words: &[String]) -> Result<(Vec<Played>, W
             logs.extend(recorded.into_iter().map(|log| (file.name.clone(), log)));
         }
     }
-    let made = if std::env::var_os("ODKIT_LONG").is_some() {
-        LONG
-    } else {
-        MADE
-    };
+    let is_long_run = std::env::var_os("ODKIT_LONG").is_some();
+    if is_long_run && (words.is_empty() || words.iter().any(|word| CONFORM.contains(word.as_str())))
+    {
+        logs.push((CONFORM.into(), record::conform(name)?));
+    }
+    let made = if is_long_run { LONG } else { MADE };
     for number in 0..made {
         let script = format!("{MADE_INPUT}{number}");
         if words.is_empty() || words.iter().any(|word| script.contains(word)) {
@@ -99,12 +100,14 @@ fn play(name: &str, programs: &Path, words: &[String]) -> Result<(Vec<Played>, W
     Ok((played, worst))
 }
 
+/// The conformance test; only `--long` plays it.
+const CONFORM: &str = "odkit conform";
 const MADE_INPUT: &str = "made input ";
 
-/// An input that only `--long` plays does not count for the table in README.md.
+/// What only `--long` plays does not count for the table in README.md.
 fn is_long(script: &str) -> bool {
     let number = script.strip_prefix(MADE_INPUT).map(str::parse);
-    matches!(number, Some(Ok(MADE..)))
+    script == CONFORM || matches!(number, Some(Ok(MADE..)))
 }
 
 /// An answer for people.

@@ -4,9 +4,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
+use od_bench::bus::Bus;
 use od_bench::script::{Bare, Bench, Host, Script, run_on};
 use od_bench::twin::Call;
 use od_bench::{EdsOptions, VirtualDevice};
+use od_bus::bench::OnBench;
+use od_bus::conform::case::built_in;
+use od_bus::conform::eds::Eds;
+use od_bus::conform::session::{Leave, Session};
 use od_fuzz::random::Random;
 use od_fuzz::targets;
 use od_runtime::{Instant, NodeId};
@@ -88,6 +93,28 @@ pub(crate) fn record(path: &Path, text: &str, name: &str) -> Result<Vec<Log>, St
 fn end(log: &Mutex<Log>, device: &mut VirtualDevice, now: Instant) {
     device.forward(now, Call::End);
     log.lock().expect("nobody panicked").end(device, now);
+}
+
+/// The log of the whole conformance test, which the bench passes.
+pub(crate) fn conform(name: &str) -> Result<Log, String> {
+    let kind = od_devices::find(name).expect("it is built in");
+    let log: Arc<Mutex<Log>> = Arc::default();
+    let device =
+        VirtualDevice::new(kind, NodeId::ONE).with_twin(Box::new(Writer(Arc::clone(&log))));
+    let mut bus = Bus::new();
+    let number = bus.add(device);
+    bus.start(number);
+    let eds = Eds::read(&od_devices::text::eds(kind));
+    let mut rig = OnBench(&mut bus);
+    let mut session = Session::new(&mut rig, &eds, NodeId::ONE, Leave::ALL);
+    for case in built_in() {
+        let record = session.run(case);
+        if record.verdict.is_fail() {
+            return Err(format!("{}: {:?}", record.id, record.verdict));
+        }
+    }
+    bus.with(number, |device, now| end(&log, device, now));
+    Ok(std::mem::take(&mut *log.lock().expect("nobody panicked")))
 }
 
 /// The log of a made input: frames that mean something more often than not, time, power, switches
