@@ -212,7 +212,11 @@ def test_a_case_that_fails(bench):
 
 
 sys.path.insert(0, str(EDS.parents[2] / "tests/interop"))
+canopen = pytest.importorskip("canopen")
+# It sets a time-out for all of python-canopen, and other tests here are about the usual one.
+usual = canopen.sdo.SdoClient.RESPONSE_TIMEOUT
 interop = pytest.importorskip("bench")
+canopen.sdo.SdoClient.RESPONSE_TIMEOUT = usual
 
 
 @pytest.mark.skipif(not os.path.exists(interop.odkit()), reason="`odkit` is not built")
