@@ -61,7 +61,7 @@ async function simulation(browser, period, aim) {
   const page = await own.newPage();
   await page.goto(`${url}icon.svg`);
   const rate = await page.evaluate(async (cycle) => {
-    const { default: init, Bus } = await import('/src/wasm/core/od_playground.js');
+    const { default: init, Bus } = await import('/src/wasm/od_playground.js');
     await init();
     const bus = new Bus();
     bus.setRpm(bus.addDevice('gxmm', 1), 60);
