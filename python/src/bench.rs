@@ -183,7 +183,7 @@ impl Bench {
         let time = micros(seconds, "the time to run")?;
         let until = {
             let state = self.wire.enter(py)?;
-            state.now().plus_micros(time)
+            state.present().plus_micros(time)
         };
         self.wait(py, until, &mut |_| Ok(false))?;
         Ok(())

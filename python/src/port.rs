@@ -106,7 +106,7 @@ impl Port {
         let heard = state
             .listener(self.id)
             .and_then(|own| own.queue.pop_front());
-        let now = state.now();
+        let now = state.present();
         drop(state);
         let mut heard = heard;
         if heard.is_none() {

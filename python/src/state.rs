@@ -298,6 +298,12 @@ impl State {
         known
     }
 
+    /// The moment from which a time-out counts: in real time the clock's, which the bus may be behind.
+    pub(crate) fn present(&self) -> Instant {
+        let now = self.now();
+        self.clock().map_or(now, |clock| clock.max(now))
+    }
+
     /// The moment that the clock shows, on a wire in real time.
     pub(crate) fn clock(&self) -> Option<Instant> {
         let micros = self.real?.elapsed().as_micros();

@@ -94,6 +94,8 @@ async function drop(page, name, bytes) {
 check('a transfer of many frames is one row, and opens', {}, async (page) => {
   await drop(page, 'long.eds', LONG);
   await becomes('the device', () => page.locator('.device-button').textContent(), /Long/);
+  // The list has rows in sight alone, and the report of the file is above it.
+  await page.getByRole('button', { name: 'Close the report' }).click();
   await sdo(page, 'Label');
   await row(page, 'the folded transfer', (one) => /Read 2001h Label = “Pump room, second floor”/.test(one.words) && /10 frames, 23 bytes/.test(one.data));
   await becomes('rows of SDO', async () => (await rows(page)).filter((one) => one.tag === 'SDO').length, 1);

@@ -12,7 +12,7 @@ pub(crate) static RULE: Rule = Rule {
     why: "CiA 301 does not allow both at once: the device sends a heartbeat, and a master that guards it gets no answer.",
     source: "CiA 301, chapter 7.2.8.2 and object 1017h",
     says: "100Ch and 100Dh enable life guarding, but 1017h is {time} ms",
-    help: "write `DefaultValue=0` to 100Ch, or to 1017h",
+    help: "write `{DefaultValue=0}` to 100Ch, or to 1017h",
     check: Check::Device(check),
     ..Rule::NEW
 };
