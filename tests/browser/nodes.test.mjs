@@ -201,8 +201,7 @@ check('one frame moves exactly one frame, request and answer apart; stepping bac
   const request = await row(page, 'the request', (one) => one.number === count);
   await page.getByRole('button', { name: 'Step to the next frame' }).click();
   await becomes('the next frame', () => captured(page), count + 2);
-  const list = await rows(page);
-  const next = list.find((one) => one.number === count + 1);
+  const next = await row(page, 'the response', (one) => one.number === count + 1);
   // 116 bits at 50 kbit/s, behind the time to make it.
   assert.ok(next.time - request.time >= 0.0015, `${request.time} to ${next.time}`);
   await page.getByRole('button', { name: 'Step back one frame' }).click();
