@@ -33,9 +33,9 @@ pub(super) enum Lane {
     Bus,
     /// Microcontrollers, built and emulated: one processor's work at a time.
     Board,
-    /// What is compiled and not run: lints, documentation, other computers. In a target directory of its
-    /// own, since one compiler waits for another that writes into the same.
-    Check,
+    /// Compiled for other computers, in a target directory of its own: one compiler waits for
+    /// another that writes into the same.
+    Cross,
 }
 
 /// One check with a name.
@@ -91,19 +91,17 @@ impl Stage {
 /// Every stage there is.
 #[rustfmt::skip]
 pub(super) const STAGES: &[Stage] = &[
-    stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).beside(Lane::Check).quick(),
+    stage("fmt", Check, "rustfmt has nothing to change", rust::fmt).quick(),
     stage("page", Check, "types, tests and size of the TypeScript page", page::page).beside(Lane::Page),
     stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm).beside(Lane::Page),
     stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
     stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Page),
     stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
     stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
-    stage("clippy", Check, "no warning, with every feature on", rust::clippy).beside(Lane::Check).quick(),
-    stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc).beside(Lane::Check),
-    stage("package", Check, "every crate can be published, with its licences", release::package).beside(Lane::Check),
-    stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Check),
-    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Check),
+    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
+    stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
+    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
@@ -113,7 +111,9 @@ pub(super) const STAGES: &[Stage] = &[
     stage("tests", Tests, "all other tests from outside", rust::other_outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
     stage("doc", Tests, "the examples in the documentation", rust::doc),
+    stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
+    stage("package", Check, "every crate can be published, with its licences", release::package),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

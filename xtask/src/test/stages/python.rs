@@ -17,16 +17,15 @@ const METADATA: &str = "Metadata-Version: 2.1\nName: odkit\nVersion: 0.1.0\n";
 
 /// The tests of the Python package, in the environment of the stage `interop`; a long run installs the
 /// package with pip, too. The module has its own features: defmt, which is one of all, gives symbols
-/// names that no shared library can export. It is built in a folder of its own, beside the tests of `unit`.
+/// names that no shared library can export.
 pub(super) fn python(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
     let requirements = repo.root.join("tests/interop/requirements.txt");
     let python = python::environment(repo, console, &requirements)?;
-    let built = repo.target.join("python");
-    let mut build = cargo(&repo.root, &["build", "--package", PYTHON, "--target-dir"]);
-    console.run("building the module", build.arg(&built))?;
+    let mut build = cargo(&repo.root, &["build", "--package", PYTHON]);
+    console.run("building the module", &mut build)?;
     let site = repo.cache().join("python");
-    lay(&repo.root.join("python"), &site, &built.join("debug"))?;
+    lay(&repo.root.join("python"), &site, &repo.target.join("debug"))?;
     tests(context, &python, Some(&site))?;
     if !context.long {
         return Ok(());

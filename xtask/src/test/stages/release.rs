@@ -8,7 +8,6 @@ use crate::error::{Error, Result};
 use crate::files::entries;
 use crate::release::crates;
 use crate::test::context::Context;
-use crate::test::stages::rust::check;
 
 /// Files that every package contains.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
@@ -41,6 +40,8 @@ pub(super) fn package(context: &Context<'_>) -> Result<()> {
     fs::write(&write, manifest).map_err(|e| Error::io("write", &write, &e))?;
     let lock = dir.join("Cargo.lock");
     fs::copy(root.join("Cargo.lock"), &lock).map_err(|e| Error::io("write", &lock, &e))?;
-    let args = ["check", "--workspace", "--all-features", "--offline"];
-    check(context, "what was packed", cargo(&dir, &args))
+    let mut check = cargo(&dir, &["check", "--workspace", "--all-features"]);
+    check.args(["--offline", "--target-dir"]);
+    check.arg(&context.repo.target);
+    context.console.run("what was packed", &mut check)
 }

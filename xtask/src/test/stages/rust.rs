@@ -46,7 +46,7 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     };
     let rest = ["--all-features", "--", "-D", "warnings"];
     let args = [&["clippy"], packages, targets, &rest].concat();
-    check(context, "clippy", cargo(&context.repo.root, &args))
+    run(context, "clippy", &args)
 }
 
 /// The tests of all packages but those with the tests from outside.
@@ -109,7 +109,7 @@ pub(super) fn doc(context: &Context<'_>) -> Result<()> {
 pub(super) fn rustdoc(context: &Context<'_>) -> Result<()> {
     let mut command = cargo(&context.repo.root, &["doc", "--no-deps", "--lib"]);
     command.args(ALL).env("RUSTDOCFLAGS", "-D warnings");
-    check(context, "documentation", command)
+    context.console.run("documentation", &mut command)
 }
 
 pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
@@ -165,16 +165,11 @@ pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
     Ok(())
 }
 
-/// cargo for another computer.
+/// cargo for another computer, in the target directory of [`Lane::Cross`](super::Lane::Cross).
 fn cross(context: &Context<'_>, what: &str, target: &str, args: &[&str]) -> Result<()> {
     let mut command = cargo(&context.repo.root, args);
-    command.args(["--target", target]);
-    check(context, what, command)
-}
-
-/// cargo in the target directory of [`Lane::Check`](super::Lane::Check).
-pub(super) fn check(context: &Context<'_>, what: &str, mut command: Command) -> Result<()> {
-    command.env("CARGO_TARGET_DIR", context.repo.target.join("check"));
+    command.args(["--target", target, "--target-dir"]);
+    command.arg(context.repo.target.join("cross"));
     context.console.run(what, &mut command)
 }
 
