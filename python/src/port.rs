@@ -16,7 +16,7 @@ use crate::filter::Filter;
 use crate::party::Wait;
 use crate::pass::pass;
 use crate::registry::{self, is_real};
-use crate::state::{Heard, Listener};
+use crate::state::Heard;
 use crate::value::Parts;
 use crate::wire::{Wire, micros};
 
@@ -59,13 +59,7 @@ impl Port {
             None => registry::open(py, channel, time)?,
         };
         let mut state = wire.enter(py)?;
-        let id = state.number();
-        state.listeners.push(Listener {
-            id,
-            queue: Default::default(),
-            filters: None,
-            own,
-        });
+        let id = state.listen(own);
         if let Some(rate) = bitrate.and_then(|rate| u16::try_from(rate / 1000).ok()) {
             state.bus.set_bit_rate(Some(rate));
             state.bus.line.bit_rate = Some(rate);

@@ -31,7 +31,7 @@ pub(crate) struct Heard {
     pub(crate) own: bool,
 }
 
-/// A bus of python-can.
+/// A bus of python-can, or a client.
 #[derive(Debug)]
 pub(crate) struct Listener {
     pub(crate) id: u32,
@@ -84,6 +84,18 @@ impl State {
     pub(crate) fn number(&mut self) -> u32 {
         self.ids += 1;
         self.ids
+    }
+
+    /// From now on a bus of python-can or a client hears the wire; returns its number.
+    pub(crate) fn listen(&mut self, own: bool) -> u32 {
+        let id = self.number();
+        self.listeners.push(Listener {
+            id,
+            queue: VecDeque::new(),
+            filters: None,
+            own,
+        });
+        id
     }
 
     /// Its devices get power.

@@ -10,7 +10,6 @@ use pyo3::prelude::*;
 
 use crate::party::Wait;
 use crate::pass::pass;
-use crate::state::Listener;
 use crate::wire::Wire;
 
 /// A station on a wire.
@@ -25,13 +24,7 @@ impl OnWire {
     /// Joins a wire.
     pub(crate) fn new(py: Python<'_>, wire: Arc<Wire>) -> PyResult<Self> {
         let mut state = wire.enter(py)?;
-        let id = state.number();
-        state.listeners.push(Listener {
-            id,
-            queue: Default::default(),
-            filters: None,
-            own: false,
-        });
+        let id = state.listen(false);
         drop(state);
         Ok(Self {
             wire,
