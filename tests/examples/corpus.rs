@@ -7,6 +7,8 @@
 //! corpus DIR --time        parse and check all files, ten times at least; the best counts
 //! ```
 
+mod folder;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -31,12 +33,13 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let mut files = Vec::new();
-    if let Err(error) = collect(Path::new(folder), &mut files) {
-        eprintln!("{folder}: {error}");
-        return ExitCode::FAILURE;
-    }
-    files.sort();
+    let files = match folder::files(Path::new(folder), &["eds", "dcf", "xdd", "xdc", "xpd"]) {
+        Ok(files) => files,
+        Err(error) => {
+            eprintln!("{folder}: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
     let files: Vec<File> = files
         .into_iter()
         .filter_map(|path| File::read(Path::new(folder), path))
@@ -131,22 +134,6 @@ impl File {
         }
         line
     }
-}
-
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let extension = path.extension().unwrap_or_default();
-        if path.is_dir() {
-            collect(&path, files)?;
-        } else if ["eds", "dcf", "xdd", "xdc", "xpd"]
-            .iter()
-            .any(|known| extension.eq_ignore_ascii_case(known))
-        {
-            files.push(path);
-        }
-    }
-    Ok(())
 }
 
 /// Files and findings by code.

@@ -8,7 +8,9 @@
 //! slaves DIR --learn    without the conformance test
 //! ```
 
-use std::path::{Path, PathBuf};
+mod folder;
+
+use std::path::Path;
 use std::process::ExitCode;
 use std::{env, fs};
 
@@ -36,12 +38,13 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let mut files = Vec::new();
-    if let Err(error) = collect(Path::new(folder), &mut files) {
-        eprintln!("{folder}: {error}");
-        return ExitCode::FAILURE;
-    }
-    files.sort();
+    let files = match folder::files(Path::new(folder), &["eds", "dcf", "xdd", "xdc", "xpd"]) {
+        Ok(files) => files,
+        Err(error) => {
+            eprintln!("{folder}: {error}");
+            return ExitCode::FAILURE;
+        }
+    };
     let mut sums = Learned::default();
     let (mut simulated, mut right, mut passed) = (0, 0, 0);
     for path in files {
@@ -213,18 +216,4 @@ fn failed(text: &str) -> Vec<String> {
         _ => None,
     });
     failed.collect()
-}
-
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let extension = path.extension().unwrap_or_default();
-        let extension = extension.to_string_lossy().to_ascii_lowercase();
-        if path.is_dir() {
-            collect(&path, files)?;
-        } else if ["eds", "dcf", "xdd", "xdc", "xpd"].contains(&&*extension) {
-            files.push(path);
-        }
-    }
-    Ok(())
 }

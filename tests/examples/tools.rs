@@ -6,9 +6,11 @@
 //! tools readings TOOL DIR             the same, and every value that the tool reads as a line of fields
 //! ```
 
+mod folder;
+
 use std::fmt::Write as _;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::{env, fs, io};
 
@@ -44,31 +46,12 @@ fn main() -> ExitCode {
     }
 }
 
-/// The files below a folder with one of these endings, by name.
-fn files(folder: &Path, endings: &[&str]) -> io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let ending = path.extension().unwrap_or_default();
-        if path.is_dir() {
-            found.extend(files(&path, endings)?);
-        } else if endings
-            .iter()
-            .any(|known| ending.eq_ignore_ascii_case(known))
-        {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
-}
-
 /// Most mutants have a few changes of one file, some a piece of another.
 fn mutants(from: &Path, to: &Path, count: &str, seed: &str) -> io::Result<()> {
     let wrong = |_| io::Error::other("COUNT and SEED are numbers");
     let count: u64 = count.parse().map_err(wrong)?;
     let seed: u64 = seed.parse().map_err(wrong)?;
-    let paths = files(from, &["eds", "dcf"])?;
+    let paths = folder::files(from, &["eds", "dcf"])?;
     let seeds: Vec<Vec<u8>> = paths.iter().map(fs::read).collect::<io::Result<_>>()?;
     let eds = ALL.iter().find(|target| target.name == "eds");
     let target = Target {
@@ -86,7 +69,7 @@ fn mutants(from: &Path, to: &Path, count: &str, seed: &str) -> io::Result<()> {
 
 fn report(tool: &'static Tool, folder: &Path, with_values: bool) -> io::Result<()> {
     let mut out = String::new();
-    for path in files(folder, &["eds", "dcf", "xdd", "xdc", "xpd"])? {
+    for path in folder::files(folder, &["eds", "dcf", "xdd", "xdc", "xpd"])? {
         let document = Document::new(fs::read(&path)?);
         let description = document.parse().description;
         let findings = tools::check(&document, &description, &[tool]);

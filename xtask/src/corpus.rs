@@ -1,7 +1,7 @@
 //! `cargo xtask corpus DIR`: reads a folder of device files and reports the findings.
 //!
-//! An example of the tests does the work, because xtask has no dependencies; with `--nodes` one of od-bus,
-//! which simulates each file, learns it and tests it.
+//! An example of the tests does the work, because xtask has no dependencies; with `--nodes` another one, which
+//! simulates each file, learns it and tests it.
 
 use std::path::{Path, absolute};
 
@@ -24,18 +24,10 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     // The example runs in the root of the repository; the arguments are the caller's.
     let place =
         |path: &str| absolute(Path::new(path)).map_err(|e| Error::io("find", Path::new(path), &e));
-    let mut command = cargo(&repo.root, &["run", "--quiet", "--release"]);
-    match nodes {
-        true => command.args([
-            "--package",
-            "od-bus",
-            "--features",
-            "corpus",
-            "--example",
-            "slaves",
-        ]),
-        false => command.args(["--package", TESTS, "--example", "corpus"]),
-    };
+    let example = if nodes { "slaves" } else { "corpus" };
+    let args = ["run", "--quiet", "--release", "--package", TESTS];
+    let mut command = cargo(&repo.root, &args);
+    command.args(["--example", example]);
     command.arg("--");
     command.arg(place(folder)?);
     if let Some(file) = docs {

@@ -1,7 +1,6 @@
 //! The twelve devices pass, in virtual time.
 
 use od_bench::VirtualDevice;
-use od_bench::bus::Bus;
 use od_bus::bench::OnBench;
 use od_bus::conform::case::built_in;
 use od_bus::conform::eds::Eds;
@@ -10,12 +9,12 @@ use od_bus::conform::report::{Format, Report};
 use od_bus::conform::session::{Leave, Session};
 use od_wire::NodeId;
 
+use crate::simulated::alone;
+
 /// Every case on a device that was just switched on.
 fn run(device: VirtualDevice, text: &str) -> Report {
     let node = device.node_id();
-    let mut bus = Bus::new();
-    let number = bus.add(device);
-    bus.start(number);
+    let bus = alone(device);
     let eds = Eds::read(text);
     let mut rig = OnBench(bus);
     let mut session = Session::new(&mut rig, &eds, node, Leave::ALL);

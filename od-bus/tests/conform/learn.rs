@@ -1,6 +1,5 @@
 //! An EDS from a device says what the EDS says that the device was made from.
 
-use od_bench::bus::Bus;
 use od_bench::{EdsOptions, VirtualDevice};
 use od_bus::bench::OnBench;
 use od_bus::compare::compare;
@@ -10,13 +9,7 @@ use od_eds::Tables;
 use od_model::{Access, Dictionary};
 use od_wire::NodeId;
 
-fn bus(name: &str) -> Bus {
-    let kind = od_devices::find(name).expect("a device");
-    let mut bus = Bus::new();
-    let number = bus.add(VirtualDevice::new(kind, NodeId::ONE));
-    bus.start(number);
-    bus
-}
+use crate::simulated::{alone, bus};
 
 /// Values whose presence, type or access is another one in a learned dictionary.
 fn wrong(right: Dictionary<'_>, made: Dictionary<'_>) -> Vec<String> {
@@ -66,10 +59,7 @@ fn the_twelve_devices_are_learned_and_stand_in() {
         assert!(differences.is_empty(), "{name}: {differences:?}");
         // What was learned stands in for the device.
         let device = VirtualDevice::from_eds(&text, EdsOptions::default()).expect("a device");
-        let mut bus = Bus::new();
-        let number = bus.add(device);
-        bus.start(number);
-        let mut twin = Master::new(OnBench(bus), NodeId::ONE);
+        let mut twin = Master::new(OnBench(alone(device)), NodeId::ONE);
         for entry in made.entries().filter(|one| one.access == Access::Const) {
             let bytes = original.upload(entry.address).expect("an answer");
             let same = twin.upload(entry.address).expect("an answer");

@@ -4,5 +4,6 @@ mod devices;
 mod learn;
 mod mutant;
 mod mutants;
+mod simulated;
 mod stopped;
 mod twin;

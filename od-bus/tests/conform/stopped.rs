@@ -3,7 +3,6 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use od_bench::VirtualDevice;
 use od_bench::bus::Bus;
 use od_bus::bench::OnBench;
 use od_bus::conform::case::built_in;
@@ -20,13 +19,7 @@ use od_bus::master::Master;
 use od_model::{Access, Address};
 use od_wire::{Frame, Instant, NodeId};
 
-fn bus(name: &str) -> Bus {
-    let kind = od_devices::find(name).expect("a device");
-    let mut bus = Bus::new();
-    let number = bus.add(VirtualDevice::new(kind, NodeId::ONE));
-    bus.start(number);
-    bus
-}
+use crate::simulated::bus;
 
 /// A link on which something happens when a frame is sent.
 struct Trip<L, F> {

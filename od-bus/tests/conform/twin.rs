@@ -15,17 +15,16 @@ use od_bus::master::Master;
 use od_model::Address;
 use od_wire::{Duration, Frame, Instant, NodeId};
 
+use crate::simulated::{alone, bus};
+
 const START: Frame = Frame::standard(0, &[1, 1]);
 const RESET: Frame = Frame::standard(0, &[0x81, 1]);
 const POSITION: Address = Address::new(0x6004, 0);
 
 /// A GXMM that turns, in Operational, with a heartbeat every 200 ms and TPDO1 every 40 ms.
 fn original() -> Bus {
-    let kind = od_devices::find("gxmm").expect("a device");
-    let mut bus = Bus::new();
-    let number = bus.add(VirtualDevice::new(kind, NodeId::ONE));
-    bus.start(number);
-    bus.with(number, |device, now| device.set_rpm(30.0, now));
+    let mut bus = bus("gxmm");
+    bus.with(0, |device, now| device.set_rpm(30.0, now));
     let mut master = Master::new(OnBench(&mut bus), NodeId::ONE);
     for (index, sub, value) in [(0x1017, 0, 200u16), (0x1800, 5, 40)] {
         let written = master.download(Address::new(index, sub), &value.to_le_bytes());
@@ -57,10 +56,7 @@ fn twin(text: &str) -> (Bus, Recorded) {
     let mut device = device.unwrap_or_else(|| panic!("{findings:?}"));
     let recorded = read(text).expect("valid lines").expect("a recording");
     device.play_recorded(recorded.clone());
-    let mut bus = Bus::new();
-    let number = bus.add(device);
-    bus.start(number);
-    (bus, recorded)
+    (alone(device), recorded)
 }
 
 /// The moments of the frames with an identifier, within a second.
