@@ -172,7 +172,7 @@ impl VirtualDevice {
         }
     }
 
-    /// A frame of an SDO transfer with the node, whoever its client is.
+    /// A frame of an SDO transfer with the node, from any client.
     fn sdo(&mut self, frame: &Frame, is_answer: bool) {
         let Some(described) = &mut self.described else {
             return;

@@ -69,7 +69,7 @@ pub struct VirtualDevice {
     pub(super) has_leds: bool,
     /// Receives the calls of this device, too.
     pub(super) twin: Option<Box<dyn Twin>>,
-    /// What is known of the node of a real bus that it describes.
+    /// Knowledge of the node of a real bus that it describes.
     #[cfg(feature = "real")]
     pub(super) described: Option<crate::knowledge::Described>,
     /// Behaviour that another device was seen to have.

@@ -1,4 +1,4 @@
-//! What is known of a node of a real bus that a device describes.
+//! Knowledge of a node of a real bus that a device describes.
 
 use std::collections::BTreeMap;
 use std::prelude::v1::*;
@@ -10,7 +10,7 @@ use od_wire::nmt::State;
 
 use crate::words::fold::Folder;
 
-/// What is known of a node.
+/// Knowledge of a node.
 #[derive(Default)]
 pub(super) struct Described {
     pub(super) state: Option<State>,

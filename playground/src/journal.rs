@@ -137,7 +137,7 @@ pub fn check_run(
     })
 }
 
-/// What came of an input, and of the text of its device.
+/// The result of an input, and of the text of its device.
 pub(crate) fn outcome(Added { node, trouble }: Added, text: &str) -> JsValue {
     let diagnostics = match trouble {
         Trouble::None => list(std::iter::empty()),

@@ -46,12 +46,12 @@ impl Bus {
         self.journal.rig.with(device, learn);
     }
 
-    /// How many frames were held back because sending is off.
+    /// Number of frames that were held back because sending is off.
     pub fn held(&self) -> f64 {
         self.journal.rig.held() as f64
     }
 
-    /// How many frames were dropped because nobody drained them.
+    /// Number of frames that were dropped because nobody drained them.
     pub fn dropped(&self) -> f64 {
         self.journal.rig.dropped() as f64
     }
@@ -151,17 +151,17 @@ impl Adapter {
         self.is_closed
     }
 
-    /// How many frames came.
+    /// Number of frames that came.
     pub fn frames(&self) -> u32 {
         self.frames
     }
 
-    /// How many frames the adapter refused to send.
+    /// Number of frames that the adapter refused to send.
     pub fn refused(&self) -> u32 {
         self.refused
     }
 
-    /// How many lines were none of slcan.
+    /// Number of lines that are not slcan.
     pub fn noise(&self) -> u32 {
         self.noise
     }

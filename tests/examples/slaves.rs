@@ -1,4 +1,4 @@
-//! What the commands on a bus make of a folder of device files: `cargo xtask corpus DIR --nodes`.
+//! Runs the commands on a bus on a folder of device files: `cargo xtask corpus DIR --nodes`.
 //!
 //! Each file is simulated, learned and tested in virtual time. A line a file says how many values were learned
 //! as the file has them, and the cases that fail follow it.
@@ -82,7 +82,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// How a learned file differs from the file that was simulated.
+/// Differences between a learned file and the file that was simulated.
 #[derive(Default)]
 struct Learned {
     values: usize,

@@ -104,7 +104,7 @@ fn play(name: &str, programs: &Path, words: &[String]) -> Result<(Vec<Played>, W
 const CONFORM: &str = "odkit conform";
 const MADE_INPUT: &str = "made input ";
 
-/// What only `--long` plays does not count for the table in README.md.
+/// Inputs that only `--long` plays do not count for the table in README.md.
 fn is_long(script: &str) -> bool {
     let number = script.strip_prefix(MADE_INPUT).map(str::parse);
     script == CONFORM || matches!(number, Some(Ok(MADE..)))

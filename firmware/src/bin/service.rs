@@ -10,7 +10,7 @@ use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
 odkit::object_dictionary! {
-    /// What all have, and in variants the objects of a service.
+    /// Objects of every variant, and in some those of a service.
     mod slave {
         add 0x1000 { name = "Device type"; type = u32; access = const; default = 0 }
         add 0x1001 { name = "Error register"; type = u8; mappable = true }

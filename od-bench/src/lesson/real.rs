@@ -18,7 +18,7 @@ impl Lesson {
     /// Makes the bench of a lesson on a real bus: its devices describe the nodes that a learner has.
     ///
     /// # Errors
-    /// What only a virtual bench has, with its line; or the problem of the set-up.
+    /// The first line that needs a virtual bench, with its reason; or the problem of the set-up.
     pub(crate) fn describe(&self, mut bus: Bus, host: &mut dyn Host) -> Result<Bench, Problem> {
         let mut bench = self.set_up_on(Bench::default(), host)?;
         if let Some(problem) = self.virtual_line(&bench.bus) {
@@ -63,7 +63,7 @@ impl Lesson {
     }
 }
 
-/// What a condition looks at that no frame shows.
+/// The thing that a condition looks at and no frame shows.
 fn virtual_thing(one: &Alternative) -> Option<&'static str> {
     let What::Fact(fact) = &one.what else {
         return matches!(one.what, What::Undisturbed).then_some("a step looks at the bus line");

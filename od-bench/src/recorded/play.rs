@@ -30,14 +30,14 @@ pub(crate) struct Playing {
     held: VecDeque<(Instant, Frame)>,
     heartbeat: Option<Pace>,
     tpdos: BTreeMap<u16, Pace>,
-    /// What goes out at its measured period now: TPDOs, and [`HEARTBEAT`].
+    /// Frames that go out at their measured periods now: TPDOs, and [`HEARTBEAT`].
     paced: BTreeSet<u16>,
 }
 
 /// The heartbeat among the numbers of TPDOs.
 const HEARTBEAT: u16 = 0;
 
-/// What is due.
+/// An event that is due.
 pub(crate) enum Due {
     Value(Address, Vec<u8>),
     Error(Emcy),
@@ -210,7 +210,7 @@ impl Playing {
         self.started.map(|started| started.plus_micros(*offset))
     }
 
-    /// What happens in the device now.
+    /// The event in the device that is due now.
     pub(crate) fn happens(&mut self, now: Instant) -> Option<Due> {
         if self.next_error().is_some_and(|at| at <= now) {
             self.error += 1;

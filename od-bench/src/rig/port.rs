@@ -5,7 +5,7 @@ use std::prelude::v1::*;
 
 use od_wire::Frame;
 
-/// What goes out, and what did not.
+/// Frames that go out, and counts of those that did not.
 #[derive(Default)]
 pub(super) struct Port {
     pub(super) sends: bool,

@@ -171,7 +171,7 @@ fn place(link: &Opened) -> String {
     }
 }
 
-/// How the page of odkit reaches a WebSocket.
+/// Writes how the page of odkit reaches a WebSocket.
 fn page(text: &mut String, address: &str) {
     let _ = writeln!(
         text,

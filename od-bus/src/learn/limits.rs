@@ -7,7 +7,7 @@ use super::types::with_sign;
 use crate::fault::Fault;
 use crate::link::Link;
 
-/// What writing shows of a number.
+/// Properties of a number that writing shows.
 pub(super) struct Learned {
     /// The type; with a sign where the limits have one.
     pub(super) data_type: DataType,

@@ -23,7 +23,7 @@ use crate::conform::eds::is_touchy;
 use crate::fault::Fault;
 use crate::link::Link;
 
-/// How to learn.
+/// Options of [`learn`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Options {
     /// Probe limits by writing, and put the values back.
@@ -156,7 +156,7 @@ fn probe_limits<L: Link>(
     Ok(())
 }
 
-/// What is mapped into a PDO can be.
+/// Marks objects as mappable that a PDO maps.
 fn map(objects: &mut BTreeMap<u16, ObjectDescription>) {
     let mappings = objects.range(0x1600..=0x1BFF);
     let entries = mappings.flat_map(|(_, object)| object.entries.iter());

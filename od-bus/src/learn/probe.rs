@@ -1,4 +1,4 @@
-//! What a node answers about one value.
+//! Responses of a node about one value.
 
 use od_eds::outline::specified;
 use od_model::Address;
@@ -20,11 +20,11 @@ pub(super) struct Found {
     pub(super) is_write_only: bool,
     /// `None`: it cannot be told without a write.
     pub(super) writable: Option<bool>,
-    /// How many bytes a download may have; `None` where nobody asked, or the node does not say.
+    /// Bytes that a download may have; `None` if nobody asked, or the node does not say.
     pub(super) room: Option<Room>,
 }
 
-/// How many bytes a download may have.
+/// Bytes that a download may have.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Room {
     /// So many: a number.
@@ -134,7 +134,7 @@ impl<L: Link> Probe<L> {
         }
     }
 
-    /// How many bytes a download may have, where that is not clear from the value.
+    /// Bytes that a download may have, if that is not clear from the value.
     fn room(&mut self, address: Address, bytes: Option<&[u8]>) -> Result<Option<Room>, Fault> {
         let is_clear = |bytes: &[u8]| {
             let is_text = bytes.iter().any(|byte| byte.is_ascii_graphic());

@@ -23,22 +23,22 @@ const ROUND: u64 = 50;
 /// Most changes of values that are recorded.
 const CHANGES: usize = 10_000;
 
-/// How to record.
+/// Options of [`record`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Watch {
-    /// How long to listen, and then how long to read the values that change.
+    /// Time to listen, and then to read the values that change.
     pub length: Duration,
     /// Reset the node for its boot-up time and its errors at start, and start it for its PDOs. Afterwards it
     /// is in Operational if it was, else in Pre-operational.
     pub reset: bool,
 }
 
-/// What was recorded, and what was not.
+/// A recording, and what it lacks.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Seen {
     /// For [`od_bench::VirtualDevice::play_recorded`]; its text goes to the end of the EDS.
     pub recorded: Recorded,
-    /// What a stand-in does not do, a sentence each.
+    /// Behaviour that a stand-in lacks, a sentence each.
     pub lacking: Vec<String>,
 }
 

@@ -13,7 +13,7 @@ pub(super) struct Guess {
     pub(super) from: From,
 }
 
-/// What a type follows from, the surest last.
+/// Sources of a type, the surest last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum From {
     /// The length alone.

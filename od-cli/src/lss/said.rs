@@ -1,4 +1,4 @@
-//! What the commands and the wizard say of a slave.
+//! Words of the commands and the wizard about a slave.
 
 use od_client::lss::Identity;
 

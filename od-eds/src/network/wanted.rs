@@ -1,10 +1,10 @@
-//! What a project says of one PDO.
+//! Settings of one PDO in a project.
 
 use alloc::vec::Vec;
 
 use od_model::Address;
 
-/// What a project says of one PDO; `None` leaves the value of the device.
+/// Settings of one PDO in a project; `None` leaves the value of the device.
 #[derive(Clone, PartialEq, Debug, Default)]
 #[allow(missing_docs)] // the names of CiA 301
 pub struct PdoConfiguration {

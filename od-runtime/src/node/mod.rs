@@ -88,7 +88,7 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     /// The frame before those of `out`, if it is an SDO response: its data as words. Most
     /// frames are, and this way they do not go through memory in pieces.
     answer: [u32; 2],
-    /// What may be waiting to be sent, in the bits of [`pending`].
+    /// Kinds of frames that may wait to be sent, in the bits of [`pending`].
     pending: u8,
     events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
     sdo: sdo::Server<D, SDO, X::Rooms>,

@@ -1,4 +1,4 @@
-//! What may be waiting to be sent, so that most calls for a frame have one test.
+//! Kinds of frames that may wait to be sent, so that most calls for a frame have one test.
 
 /// The response in `answer`.
 pub(super) const ANSWER: u8 = 1;

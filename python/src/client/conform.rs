@@ -41,7 +41,7 @@ pub(crate) fn conform_cases(
     }
 }
 
-/// What came of a case of the conformance test.
+/// The result of a case of the conformance test.
 #[pyclass(frozen, get_all, module = "odkit")]
 pub(crate) struct Record {
     /// The case, such as `sdo-upload-expedited`.
@@ -50,17 +50,17 @@ pub(crate) struct Record {
     group: String,
     /// Standard and clause.
     clause: String,
-    /// What is right.
+    /// The right behaviour, in words.
     title: String,
     /// `pass`, `fail`, `skipped`, or `n/a`: the node does not have what the case is about.
     verdict: &'static str,
-    /// What was expected and what came, or why it was skipped; empty if it passed.
+    /// The expected and the actual behaviour, or the reason for skipping it; empty if it passed.
     reason: String,
-    /// What was changed and put back, and what could not be.
+    /// Values that were changed and put back, and those that could not be.
     notes: Vec<String>,
     /// The frames, one text a line: time, direction, frame, and its meaning in words.
     frames: Vec<String>,
-    /// How long it took, in seconds of the link's clock.
+    /// Its duration, in seconds of the link's clock.
     seconds: f64,
 }
 

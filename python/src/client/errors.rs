@@ -1,4 +1,4 @@
-//! What goes wrong on a bus, as Python exceptions.
+//! Errors on a bus, as Python exceptions.
 
 use od_bus::fault::Fault;
 use od_client::sdo::SdoError;

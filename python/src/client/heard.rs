@@ -1,4 +1,4 @@
-//! What came from the nodes of a bus: PDOs, EMCY messages, and the nodes that a scan found.
+//! Messages of the nodes of a bus: PDOs, EMCY messages, and the nodes that a scan found.
 
 use od_bus::scan;
 use od_client::emcy;

@@ -1,4 +1,4 @@
-//! What a client knows of a node: its dictionary, and where its TPDOs are.
+//! Knowledge of a client about a node: its dictionary, and where its TPDOs are.
 
 use od_client::pdo::{Mapping, decode};
 use od_eds::{Description, Tables};

@@ -13,7 +13,7 @@ use pyo3::types::PyDict;
 pub(crate) struct OnBus {
     bus: Py<PyAny>,
     began: Clock,
-    /// What Python raised.
+    /// The exception that Python raised.
     pub(crate) raised: Option<PyErr>,
 }
 

@@ -16,7 +16,7 @@ use crate::wire::Wire;
 pub(crate) struct OnWire {
     pub(crate) wire: Arc<Wire>,
     id: u32,
-    /// What Python raised in a wait.
+    /// The exception that Python raised in a wait.
     pub(crate) raised: Option<PyErr>,
 }
 

@@ -41,7 +41,7 @@ impl Read {
     }
 }
 
-/// What a caller names, or has read before.
+/// A description that a caller names, or has read before.
 ///
 /// # Errors
 /// It cannot be read.

@@ -17,7 +17,7 @@ pub(crate) struct Difference {
     place: String,
     /// Name of the object or value; the second's, if it has one.
     name: String,
-    /// What differs: `added`, `removed`, `object type`, `name`, `data type`, `access`, `PDO mapping`,
+    /// The kind of difference: `added`, `removed`, `object type`, `name`, `data type`, `access`, `PDO mapping`,
     /// `default`, `low limit`, `high limit`, `storage`.
     field: &'static str,
     /// In the first dictionary; empty if missing.

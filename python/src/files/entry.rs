@@ -117,7 +117,7 @@ impl Entry {
         Ok(default.is_some_and(|one| matches!(one.value, od_eds::Value::NodeId(_))))
     }
 
-    /// Where the device saves it: `communication`, `application`, `manufacturer`, or `None`.
+    /// The group in which the device saves it: `communication`, `application`, `manufacturer`, or `None`.
     #[getter]
     fn storage(&self) -> PyResult<Option<&'static str>> {
         let group = self.read.entry(self.address)?.group_at(self.address);

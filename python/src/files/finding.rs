@@ -15,9 +15,9 @@ pub(crate) struct Finding {
     code: &'static str,
     /// `error`, `warning` or `info`.
     severity: &'static str,
-    /// What is wrong, one clause.
+    /// The problem, one clause.
     message: String,
-    /// What to write instead; empty if the message says it.
+    /// The remedy: what to write instead; empty if the message says it.
     help: String,
     /// The consequence for a master or a tool.
     why: &'static str,

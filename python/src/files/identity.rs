@@ -1,10 +1,10 @@
-//! Who a device is, as its description says.
+//! The identity of a device, as its description has it.
 
 use pyo3::prelude::*;
 
 use crate::files::read::Read;
 
-/// Who a device is: 1000h and 1018h of its description, and `[DeviceInfo]` where these say nothing.
+/// The identity of a device: 1000h and 1018h of its description, else `[DeviceInfo]`.
 #[pyclass(frozen, get_all, eq, module = "odkit")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct Identity {

@@ -1,4 +1,4 @@
-//! Where a description comes from: a file, a built-in device, a base with overlays, or a text.
+//! Sources of a description: a file, a built-in device, a base with overlays, or a text.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -34,7 +34,7 @@ struct Laid {
 }
 
 impl Source {
-    /// What a caller names: a path or a built-in device, a text with line ends, or the bytes of a file.
+    /// The source that a caller names: a path or a built-in device, a text with line ends, or the bytes of a file.
     ///
     /// # Errors
     /// It cannot be read.

@@ -1,4 +1,4 @@
-//! What is in the folder: a README, licences and checksums.
+//! Files about the folder: a README, licences and checksums.
 
 use std::fmt::Write as _;
 use std::path::Path;

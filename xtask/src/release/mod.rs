@@ -25,7 +25,7 @@ use dist::Dist;
 /// A part of a release: `--only` has its name, and so has its folder.
 struct Part {
     name: &'static str,
-    /// What is in it, as a line of the folder's README.
+    /// Its content, as a line of the folder's README.
     about: &'static str,
     make: fn(&Dist<'_>, &Path) -> Result<()>,
 }

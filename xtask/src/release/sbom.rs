@@ -1,4 +1,4 @@
-//! What the parts are made of, as CycloneDX 1.5: a file for each, from the lock files.
+//! Bills of material of the parts, as CycloneDX 1.5: a file for each, from the lock files.
 //!
 //! `cargo tree` and the lock files say all that is needed; the tools that make such a file write into
 //! the folders of the crates, or give it a time and a random number.

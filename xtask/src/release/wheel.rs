@@ -9,7 +9,7 @@ use crate::console::clean;
 use crate::error::Result;
 use crate::setup::python;
 
-/// What builds wheels, in the version that this was tried with.
+/// The builder of wheels, in the version that this was tried with.
 const REQUIREMENTS: &str = "xtask/tools/wheel.txt";
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {

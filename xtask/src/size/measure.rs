@@ -11,7 +11,7 @@ use crate::setup::{apt, target};
 pub(super) const SMALL: &str = "s";
 const EMULATOR: &str = "qemu-system-arm";
 
-/// What a program reports: bytes, and instructions from an input until its last frame is out.
+/// Report of a program: bytes, and instructions from an input until its last frame is out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Cost {
     pub(super) flash: u64,
@@ -22,7 +22,7 @@ pub(super) struct Cost {
     pub(super) instructions: [u64; 5],
 }
 
-/// What is measured in instructions.
+/// Inputs that are measured in instructions.
 pub(super) const COUNTS: [&str; 5] = ["power_on", "upload", "sync", "foreign", "idle"];
 
 /// Installs the target and the emulator, if they are missing.

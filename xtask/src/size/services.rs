@@ -1,4 +1,4 @@
-//! What each service costs: a small node with it, and without all of them.
+//! Cost of each service: a small node with it, and without all of them.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use crate::repo::Repo;
 pub(super) const MARKS: (&str, &str) = ("<!-- services -->\n", "<!-- /services -->");
 /// The program in `firmware/src/bin`.
 const PROGRAM: &str = "service";
-/// What is measured: its name in the table, the feature of the program, and what it is.
+/// A variant that is measured: its name in the table, the feature of the program, and what it is.
 const SERVICES: [(&str, &str, &str); 14] = [
     (BASE, "service", "a node of 19 values without all of these"),
     ("segmented", "segmented", "segmented SDO transfers"),

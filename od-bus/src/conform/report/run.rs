@@ -21,7 +21,7 @@ pub struct Report {
     pub lost: Option<String>,
 }
 
-/// How many cases have each verdict.
+/// Number of cases with each verdict.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Counts {
     /// The node is right.
@@ -40,7 +40,7 @@ impl Report {
         self.lost.is_none() && self.counts().fail == 0
     }
 
-    /// How many cases have each verdict.
+    /// Number of cases with each verdict.
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
         for record in &self.records {
@@ -69,7 +69,7 @@ impl Report {
         )
     }
 
-    /// What was changed and put back, and what could not be; `None` where nothing was changed.
+    /// Values that were changed and put back, and those that could not be; `None` if nothing was changed.
     pub(super) fn put_back(&self) -> Option<String> {
         let notes = self.records.iter().flat_map(|record| &record.notes);
         let count = |start: &str| notes.clone().filter(|note| note.starts_with(start)).count();

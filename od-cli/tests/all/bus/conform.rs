@@ -43,7 +43,7 @@ impl Run {
         Self { child, report }
     }
 
-    /// How it ends: exit code 1, and this text in output and report.
+    /// It ends with exit code 1, and this text in output and report.
     #[track_caller]
     fn ends(mut self, why: &str) {
         // It would not wait for whoever reads.

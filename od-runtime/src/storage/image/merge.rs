@@ -261,7 +261,7 @@ impl Set<'_> {
         }
     }
 
-    /// What becomes of an address.
+    /// Decides about the value of an address.
     #[inline(never)]
     fn fate(&self, address: Address, new: Option<&Row>) -> Fate {
         match (self.next.plan)(address, new) {

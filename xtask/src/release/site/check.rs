@@ -7,7 +7,7 @@ use super::links::join;
 use crate::error::{Error, Result};
 use crate::files;
 
-/// What a page leads to, and the places in it that can be led to.
+/// Links of a page, and the places in it that can be led to.
 #[derive(Debug, Default)]
 struct Found {
     links: Vec<String>,

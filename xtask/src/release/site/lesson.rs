@@ -76,7 +76,7 @@ fn folded(text: &str) -> String {
     out
 }
 
-/// What a block that is not part of the text is called.
+/// The heading of a block that is not part of the text.
 fn summary(info: &str) -> Option<&'static str> {
     match info {
         "set-up" => Some("Bench"),

@@ -1,4 +1,4 @@
-//! Where a link of the repository leads on the site.
+//! Links of the repository, as they are on the site.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! What the site has to know of Markdown: code, links, headings.
+//! Markdown as far as the site reads it: code, links, headings.
 
 /// A stretch of text, and whether it is code: a block between fences, or words between backticks.
 fn stretches(text: &str) -> Vec<(&str, bool)> {
@@ -128,7 +128,7 @@ pub(super) fn sections(text: &str, level: usize) -> Vec<Section<'_>> {
     found
 }
 
-/// What an address calls a heading: `#how-fast`.
+/// The name of a heading in an address: `#how-fast`.
 pub(super) fn anchor(title: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
     let lower = title.to_lowercase();

@@ -21,7 +21,7 @@ pub(super) struct Page {
     /// The file on the site, with `.md` at its end.
     pub(super) target: String,
     pub(super) text: String,
-    /// How deep it is in the list of pages.
+    /// Its depth in the list of pages.
     pub(super) depth: usize,
 }
 

@@ -10,7 +10,7 @@ use crate::setup::browser::chromium;
 use crate::setup::{apt, node};
 use crate::test::context::Context;
 
-/// What runs the programs of other systems, and Debian's packages of it. Without them, and where they cannot be
+/// Emulators for the programs of other systems, and Debian's packages of it. Without them, and where they cannot be
 /// installed, the tests of these programs are skipped.
 const EMULATORS: [(&str, &[&str]); 2] = [
     ("qemu-aarch64-static", &["qemu-user-static"]),
