@@ -12,6 +12,9 @@ use crate::link::Link;
 const PATIENCE: Duration = Duration::from_secs(5);
 /// Longest time until a slave with a new node ID boots.
 const BOOT: Duration = Duration::from_secs(3);
+/// Time that a step of fastscan waits for an answer, in ms. Silence is an answer, too, so a late one
+/// spoils the search: it is begun again, and waits longer.
+const PACES: [u64; 3] = [50, 200, 800];
 
 /// Bit rates in kbit/s by their index in table 0 of CiA 301; index 5 is reserved.
 pub const BIT_RATES: [Option<u16>; 9] = [
@@ -45,34 +48,52 @@ pub enum Slaves {
 impl<L: Link> Lss<L> {
     /// A master on `link`.
     pub fn new(link: L) -> Self {
-        let mut options = Options::DEFAULT;
-        options.timeout = PATIENCE;
         Self {
             link,
-            client: Client::with(sdo::Options::DEFAULT, options),
+            client: master(PACES[0]),
         }
     }
 
     /// Finds the slaves that have no node ID, by fastscan; `found` gets each at once.
     ///
+    /// Where a slave answers late, the search begins again and waits longer for each answer; where
+    /// none answers any more, it is asked once more with that patience.
+    ///
     /// # Errors
-    /// The link is lost, or a slave answers and then does not confirm its LSS address.
+    /// The link is lost, or a slave answers and in no search confirms its LSS address.
     pub fn scan(&mut self, mut found: impl FnMut(&Identity)) -> Result<Vec<Identity>, Fault> {
-        self.run(Task::SwitchGlobal {
-            configuration: false,
-        })?;
+        let mut told = Vec::new();
         let mut all = Vec::new();
-        while let Answer::Found(Some(identity)) = self.run(Task::Fastscan)? {
-            if all.contains(&identity) {
-                return Err(Fault::Node(format!(
-                    "two LSS slaves have the same LSS address (serial number {}), so no master can \
-                     address one of them; connect them one after the other",
-                    identity.serial
-                )));
+        let mut paces = PACES.into_iter().peekable();
+        while let Some(pace) = paces.next() {
+            self.client = master(pace);
+            if all.is_empty() {
+                self.wait_all()?;
             }
-            found(&identity);
-            all.push(identity);
+            let spoilt = loop {
+                match self.ask(Task::Fastscan)? {
+                    Ok(Answer::Found(Some(identity))) => {
+                        if all.contains(&identity) {
+                            return Err(Fault::Node(twice(identity)));
+                        }
+                        if !told.contains(&identity) {
+                            found(&identity);
+                            told.push(identity);
+                        }
+                        all.push(identity);
+                    }
+                    Err(LssError::ScanFailed) if paces.peek().is_some() => break true,
+                    Err(error) => return Err(Fault::Node(words(Task::Fastscan, error))),
+                    Ok(_) => break false,
+                }
+            };
+            if spoilt {
+                all.clear();
+            } else if pace > PACES[0] {
+                break;
+            }
         }
+        self.client = master(PACES[0]);
         self.wait_all()?;
         Ok(all)
     }
@@ -169,6 +190,12 @@ impl<L: Link> Lss<L> {
 
     /// Runs a service. Of several slaves that answer one that refuses counts.
     fn run(&mut self, task: Task) -> Result<Answer, Fault> {
+        self.ask(task)?
+            .map_err(|error| Fault::Node(words(task, error)))
+    }
+
+    /// Runs a service; the error outside is the link's.
+    fn ask(&mut self, task: Task) -> Result<Result<Answer, LssError>, Fault> {
         self.client.lss(task);
         let mut refused = None;
         loop {
@@ -176,14 +203,10 @@ impl<L: Link> Lss<L> {
                 self.link.send(&frame)?;
             }
             if let Some(Event::Lss(_, answer)) = self.client.poll_event() {
-                let answer = answer.map_err(|error| Fault::Node(words(task, error)))?;
-                if matches!(task, Task::ConfigureBitTiming { .. } | Task::Store) {
+                if answer.is_ok() && matches!(task, Task::ConfigureBitTiming { .. } | Task::Store) {
                     self.others(&mut refused)?;
                 }
-                return match refused {
-                    None => Ok(answer),
-                    Some(error) => Err(Fault::Node(words(task, error))),
-                };
+                return Ok(refused.map_or(answer, Err));
             }
             let until = self.client.poll_timeout().unwrap_or(Instant::ZERO);
             match self.link.receive(until)? {
@@ -222,6 +245,24 @@ impl<L: Link> Drop for Lss<L> {
         let id = od_wire::CanId::standard(lss::MASTER);
         let _ = self.link.send(&Frame::full(id, request.emit()));
     }
+}
+
+/// A master whose fastscan waits so many ms for an answer, and a fifth of it for others.
+fn master(pace: u64) -> Client {
+    let mut options = Options::DEFAULT;
+    options.timeout = PATIENCE;
+    options.scan = Duration::from_millis(pace);
+    options.settle = Duration::from_millis(pace / 5);
+    Client::with(sdo::Options::DEFAULT, options)
+}
+
+/// Why a search ends that finds a slave a second time.
+fn twice(identity: Identity) -> String {
+    format!(
+        "two LSS slaves have the same LSS address (serial number {}), so no master can address one of \
+         them; connect them one after the other",
+        identity.serial
+    )
 }
 
 /// An error of a service, with what to do about it.

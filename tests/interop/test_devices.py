@@ -253,6 +253,8 @@ class EveryDevice:
         if self.device.fastscan:
             # Silence is an answer, too: on a busy machine it takes longer to be sure of it.
             for patience in (0.1, 0.5, 2):
+                # A slave that confirmed late is found already.
+                network.lss.send_switch_state_global(network.lss.WAITING_STATE)
                 network.lss.RESPONSE_TIMEOUT = patience
                 found, address = network.lss.fast_scan()
                 if found:
