@@ -33,7 +33,7 @@ pub fn untyped(description: &Description, findings: &[Finding]) -> Vec<Finding> 
     let others = description
         .entries()
         .filter(|(address, _)| is_lost(*address) == Some(true) && !known.contains(&Some(*address)));
-    lost.extend(others.map(|(address, entry)| e0401::finding(address, entry.span)));
+    lost.extend(others.map(|(address, entry)| e0401::finding(description, address, entry.span)));
     crate::finding::sort(&mut lost);
     lost
 }

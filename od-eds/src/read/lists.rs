@@ -76,7 +76,7 @@ fn entries(
         if !is_plain(value, index) {
             log.push(w0218::index(value, index));
         }
-        if key.bytes().any(|b| !b.is_ascii_digit()) {
+        if key.starts_with('0') && given != 0 || key.bytes().any(|b| !b.is_ascii_digit()) {
             log.push(w0218::number(key, given));
         }
         if let Some(first) = numbers.get(&given) {

@@ -14,12 +14,11 @@ use crate::description::{Description, EntryDescription, ObjectDescription, Secti
 use crate::log::Log;
 use crate::read::sorted;
 use crate::rules::lists::{w0215, w0249};
+use crate::rules::standard::w0609;
 use crate::rules::structure::w0323;
-use crate::scan::known;
-use crate::scan::known::ModulePart;
+use crate::scan::known::{self, Form, ModulePart};
 use crate::scan::names::Place;
-use crate::scan::number;
-use crate::scan::number::integer;
+use crate::scan::number::{self, integer};
 use crate::scan::placed::{Placed, Text};
 use crate::span::{Span, Spanned};
 
@@ -222,9 +221,8 @@ fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
         if extends {
             for (place, section) in found {
                 if let Place::Object(index) = place {
-                    module
-                        .extensions
-                        .extend(extension(section, place, log).map(|e| (index, e)));
+                    let own = extension(section, place, log).map(|own| (index, own));
+                    module.extensions.extend(own);
                 }
             }
         } else {
@@ -237,18 +235,18 @@ fn read(sections: &[Section], log: &mut Log) -> Vec<Module> {
     modules.into_values().collect()
 }
 
+fn borrow(text: &Spanned<String>) -> Text<'_> {
+    Spanned::new(Cow::Borrowed(text.value.as_str()), text.span)
+}
+
 /// The section of an object of a module as that of an object.
 fn placed<'a>(section: &'a Section, place: Place, without: &[&str]) -> Placed<'a> {
-    let borrow = |text: &'a Spanned<String>| -> Text<'a> {
-        Spanned::new(Cow::Borrowed(text.value.as_str()), text.span)
-    };
     let name = place.name().unwrap_or_default();
+    let is_own = |key: &str| !without.iter().any(|word| key.eq_ignore_ascii_case(word));
+    let pairs = section.pairs.iter().filter(|(key, _)| is_own(key));
     Placed {
         name: Spanned::new(Cow::Owned(name), section.name.span),
-        pairs: section
-            .pairs
-            .iter()
-            .filter(|(key, _)| !without.iter().any(|word| key.eq_ignore_ascii_case(word)))
+        pairs: pairs
             .map(|(key, value)| (borrow(key), borrow(value)))
             .collect(),
         header: section.name.span,
@@ -266,9 +264,12 @@ fn extension(section: &Section, place: Place, log: &mut Log) -> Option<Extension
     if count.is_none() {
         log.push(w0323::finding(section.name.span, given));
     }
-    let extend = section
-        .get("ObjExtend")
-        .and_then(|given| crate::scan::number::number(given));
+    let given = section.get("ObjExtend");
+    let extend = given.and_then(|given| crate::scan::number::number(given));
+    if let Some(given) = given.filter(|_| extend.is_none_or(|extend| !matches!(extend, 0 | 1))) {
+        let (name, given) = (&section.name, borrow(given));
+        log.push(w0609::finding(name, "ObjExtend", &given, Form::Flag));
+    }
     Some(Extension {
         entry,
         count: count.unwrap_or(Count::Each(1)),
@@ -282,13 +283,13 @@ fn count(text: &str) -> Option<Count> {
         let read = integer(text.trim(), &mut Vec::new())?;
         u8::try_from(read.value).ok()
     };
-    match text.split_once(';') {
-        None => number(text).map(Count::Each),
-        Some((subs, bits)) => match (number(subs)?, number(bits)?) {
-            (0, bits @ 1..) => Some(Count::Bits(bits)),
-            (subs @ 1.., _) => Some(Count::Each(subs)),
-            _ => None,
-        },
+    let Some((subs, bits)) = text.split_once(';') else {
+        return number(text).map(Count::Each);
+    };
+    match (number(subs)?, number(bits)?) {
+        (0, bits @ 1..) => Some(Count::Bits(bits)),
+        (subs @ 1.., _) => Some(Count::Each(subs)),
+        _ => None,
     }
 }
 

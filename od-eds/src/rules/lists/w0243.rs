@@ -2,8 +2,9 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use crate::description::Description;
-use crate::finding::{Check, Finding, Rule, Severity::Warning};
+use crate::finding::{Check, Finding, Form, Rule, Severity::Warning};
 use crate::scan::number::number;
+use crate::span::Span;
 
 pub(crate) static RULE: Rule = Rule {
     code: "W0243",
@@ -13,8 +14,15 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, SupportedModules",
     says: "section [{section}] of module {module} is missing",
     help: "add a section [{section}], or lower NrOfEntries",
+    also: &[CONNECTED],
     check: Check::Device(check),
     ..Rule::NEW
+};
+
+/// The help for a module that is connected and not supported.
+const CONNECTED: Form = Form {
+    help: "write the number of a module of [SupportedModules]",
+    ..Form::OWN
 };
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
@@ -22,11 +30,20 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     };
     let count = modules.get("NrOfEntries").and_then(|count| number(count));
-    for module in 1..=count.unwrap_or(0).clamp(0, 255) {
+    let count = count.unwrap_or(0).clamp(0, 255);
+    let mut needs = |module: i128, span: Span, form: &'static Form| {
         let section = format!("M{module}ModuleInfo");
         if description.section(&section).is_none() {
-            let finding = RULE.at(modules.name.span).fact("section", section);
+            let finding = RULE.at(span).form(form).fact("section", section);
             findings.push(finding.fact("module", module));
+        }
+    };
+    (1..=count).for_each(|module| needs(module, modules.name.span, &Form::OWN));
+    let connected = description.section("ConnectedModules");
+    let slots = connected.iter().flat_map(|section| &section.pairs);
+    for (_, given) in slots.filter(|(key, _)| number(key).is_some()) {
+        if let Some(module) = number(given).filter(|module| *module > count) {
+            needs(module, given.span, &CONNECTED);
         }
     }
 }

@@ -9,7 +9,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0245",
     severity: Warning,
     title: "segment of [DynamicChannels] is incomplete",
-    why: "A programmable device cannot place its variables: each segment needs a type, a direction and a range.",
+    why: "A programmable device cannot place its variables: each segment needs a type, a direction, a range and an offset in the process image.",
     source: "CiA 306-1, DynamicChannels",
     says: "{field} of segment {segment} is missing",
     help: "add `{field}=`, or lower NrOfSeg",
@@ -25,7 +25,7 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         return;
     };
     for segment in 1..=number(given).unwrap_or(0).clamp(0, 255) {
-        let fields = ["Type", "Dir", "Range"].map(|field| format!("{field}{segment}"));
+        let fields = ["Type", "Dir", "Range", "PPOffset"].map(|field| format!("{field}{segment}"));
         for field in fields {
             if channels.get(&field).is_none() {
                 let finding = RULE.at(given.span).fact("field", field);

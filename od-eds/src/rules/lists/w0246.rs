@@ -14,7 +14,7 @@ pub(crate) static RULE: Rule = Rule {
     source: "CiA 306-1, DynamicChannels; CiA 302, network variables",
     says: "{field} `{given}` is not a range of A000h to AFFFh",
     help: "write the first and the last index, such as `0xA080-0xA0BF`",
-    also: &[TYPE, DIRECTION, MEETS, COUNT],
+    also: &[TYPE, DIRECTION, MEETS, COUNT, BEYOND],
     check: Check::Device(check),
     ..Rule::NEW
 };
@@ -43,6 +43,12 @@ const COUNT: Form = Form {
     help: "add `NrOfSeg=` and the number of segments",
 };
 
+/// Sentence for a segment that the number of segments does not count.
+const BEYOND: Form = Form {
+    says: "{field} belongs to a segment beyond NrOfSeg, which is {count}",
+    help: "write the number of segments to NrOfSeg, or remove the line",
+};
+
 /// `0xA080-0xA0BF`
 fn range(text: &str) -> Option<(i128, i128)> {
     let (first, last) = text.split_once('-')?;
@@ -58,8 +64,20 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         findings.push(RULE.at(channels.name.span).form(&COUNT));
         return;
     };
+    let count = number(count).unwrap_or(0).clamp(0, 255);
+    let beyond = channels.pairs.iter().find(|(key, _)| {
+        let word = key.trim_end_matches(|c: char| c.is_ascii_digit());
+        let known = ["Type", "Dir", "Range", "PPOffset"];
+        let is_known = known.iter().any(|known| word.eq_ignore_ascii_case(known));
+        let segment = key.get(word.len()..).filter(|_| is_known).and_then(number);
+        segment.is_some_and(|segment| segment > count)
+    });
+    if let Some((key, _)) = beyond {
+        let finding = RULE.at(key.span).form(&BEYOND).fact("field", key.as_str());
+        findings.push(finding.fact("count", count));
+    }
     let mut ranges: Vec<(i128, (i128, i128))> = Vec::new();
-    for segment in 1..=number(count).unwrap_or(0).clamp(0, 255) {
+    for segment in 1..=count {
         let field = |word| {
             let name = format!("{word}{segment}");
             let given = channels.get(&name).filter(|given| !given.is_empty())?;

@@ -91,6 +91,7 @@ const fn is_default(cob_id: &CobId<'_>) -> bool {
 fn collide(a: &CobId<'_>, b: &CobId<'_>) -> bool {
     let consumes = |cob_id: &CobId<'_>| cob_id.service == Service::EmcyConsumer;
     let pdos = a.service == Service::Pdo && b.service == Service::Pdo;
-    // An entry of 1028h is the CAN-ID of another device's EMCY.
-    !pdos && !consumes(a) && !consumes(b)
+    // An entry of 1028h is the CAN-ID of another device's EMCY, and no device's SYNC or TIME.
+    let shared = |cob_id: &CobId<'_>| matches!(cob_id.service, Service::Sync | Service::Time);
+    !pdos && (!consumes(a) || shared(b)) && (!consumes(b) || shared(a))
 }

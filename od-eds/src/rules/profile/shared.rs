@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::vec::Vec;
 
-use od_model::{Access, Address, ObjectCode};
+use od_model::{Access, Address, DataType, ObjectCode};
 
 use crate::description::Description;
 use crate::fact::{Fact, Key};
@@ -78,6 +78,15 @@ pub(super) fn need(
 /// Does the profile of the device specify an ARRAY here?
 pub(crate) fn is_profile_array(object: &Object<'_>) -> bool {
     in_profile(object).is_some_and(|(_, standard)| standard.code == ObjectCode::Array)
+}
+
+/// The type that the profile of the device gives a value.
+pub(crate) fn profile_type(description: &Description, address: Address) -> Option<DataType> {
+    let standard = of(device_type(description)?.profile, address.index)?;
+    match standard.code.has_members() && address.sub == 0 {
+        true => Some(DataType::Unsigned8),
+        false => standard.data_types.first().copied(),
+    }
 }
 
 /// The profile of the device, and what it says of this object.
@@ -195,9 +204,9 @@ impl<'a> Encoder<'a> {
         start_number(self.description, Address::new(index, 0))
     }
 
-    /// Returns if its type is none of the profile.
+    /// Returns if its type is not one of the profile. FFFFh: several logical devices.
     pub(super) const fn has_unknown_type(&self) -> bool {
-        !matches!(self.device.additional, 1..=10)
+        !matches!(self.device.additional, 1..=10 | 0xFFFF)
     }
 
     /// Returns if it counts revolutions; `None` for linear and unknown encoders.

@@ -11,7 +11,7 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0909",
     severity: Warning,
     title: "drive lacks the object of a supported mode",
-    why: "A master that chooses the mode finds no object to command the drive with.",
+    why: "A master that chooses the mode finds no object to command the drive with, or to see what it does.",
     source: "CiA 402, object 6502h and modes of operation",
     says: "6502h declares {mode}, but object {object} ({name}) is missing",
     help: "add {missing}, or clear bit {bit} of 6502h",
@@ -19,34 +19,38 @@ pub(crate) static RULE: Rule = Rule {
     ..Rule::NEW
 };
 
-/// A bit of 6502h, the mode, and the object that commands it.
-const MODES: [(u32, &str, u16, &str); 10] = [
-    (0, "the profile position mode", 0x607A, "target position"),
-    (1, "the velocity mode", 0x6042, "vl target velocity"),
-    (2, "the profile velocity mode", 0x60FF, "target velocity"),
+/// A bit of 6502h, the mode, and an object that the mode must have.
+const MODES: [(u32, &str, u16, &str); 21] = [
+    (0, POSITION, 0x607A, "target position"),
+    (0, POSITION, 0x6081, "profile velocity"),
+    (0, POSITION, 0x6083, "profile acceleration"),
+    (1, VL, 0x6042, "vl target velocity"),
+    (1, VL, 0x6043, "vl velocity demand"),
+    (1, VL, 0x6044, "vl velocity actual value"),
+    (1, VL, 0x6046, "vl velocity min max amount"),
+    (1, VL, 0x6048, "vl velocity acceleration"),
+    (1, VL, 0x6049, "vl velocity deceleration"),
+    (2, VELOCITY, 0x60FF, "target velocity"),
+    (2, VELOCITY, 0x606C, "velocity actual value"),
     (3, "the profile torque mode", 0x6071, "target torque"),
     (5, "the homing mode", 0x6098, "homing method"),
     (5, "the homing mode", 0x6099, "homing speeds"),
-    (
-        6,
-        "the interpolated position mode",
-        0x60C1,
-        "interpolation data record",
-    ),
-    (
-        7,
-        "the cyclic sync position mode",
-        0x607A,
-        "target position",
-    ),
-    (
-        8,
-        "the cyclic sync velocity mode",
-        0x60FF,
-        "target velocity",
-    ),
-    (9, "the cyclic sync torque mode", 0x6071, "target torque"),
+    (6, INTERPOLATED, 0x60C1, "interpolation data record"),
+    (7, CYCLIC_POSITION, 0x607A, "target position"),
+    (7, CYCLIC_POSITION, 0x6064, "position actual value"),
+    (8, CYCLIC_VELOCITY, 0x60FF, "target velocity"),
+    (8, CYCLIC_VELOCITY, 0x606C, "velocity actual value"),
+    (9, CYCLIC_TORQUE, 0x6071, "target torque"),
+    (9, CYCLIC_TORQUE, 0x6077, "torque actual value"),
 ];
+
+const POSITION: &str = "the profile position mode";
+const VL: &str = "the velocity mode";
+const VELOCITY: &str = "the profile velocity mode";
+const INTERPOLATED: &str = "the interpolated position mode";
+const CYCLIC_POSITION: &str = "the cyclic sync position mode";
+const CYCLIC_VELOCITY: &str = "the cyclic sync velocity mode";
+const CYCLIC_TORQUE: &str = "the cyclic sync torque mode";
 
 fn check(description: &Description, findings: &mut Vec<Finding>) {
     let address = Address::new(0x6502, 0);

@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, object 6421h; CiA 402, 605Ah to 605Eh, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
+    source: "CiA 401, objects 1000h and 6421h; CiA 402, 1000h, 605Ah to 605Eh, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
@@ -22,6 +22,10 @@ pub(crate) static RULE: Rule = Rule {
 fn reserved(address: Address, number: i128) -> Option<(u16, &'static str)> {
     let Address { index, sub } = address;
     let (profile, wrong, what) = match (index, sub) {
+        // FFFFh above the number of the profile: several logical devices.
+        (0x1000, 0) if number >> 16 == 0xFFFF => return None,
+        (0x1000, 0) if number & 0xFFFF == 401 => (401, number & 0x70_0000 != 0, "bits 20 to 22"),
+        (0x1000, 0) if number & 0xFFFF == 402 => (402, number & 0x38_0000 != 0, "bits 19 to 21"),
         (0x6421, 1..=254) => (401, number & 0xE0 != 0, "bits 5 to 7"),
         (0x605A, 0) => (402, number > 8, "9 to 32767"),
         (0x605B | 0x605C, 0) => (402, number > 1, "2 to 32767"),

@@ -22,7 +22,9 @@ pub(crate) static RULE: Rule = Rule {
 };
 
 /// Objects that have an effect only if a master writes them.
-const WRITTEN: [u16; 7] = [0x1006, 0x1010, 0x1011, 0x1015, 0x1016, 0x1F50, 0x1F51];
+const WRITTEN: [u16; 8] = [
+    0x1006, 0x1010, 0x1011, 0x1015, 0x1016, 0x1020, 0x1F50, 0x1F51,
+];
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     let Address { index, sub } = entry.address;

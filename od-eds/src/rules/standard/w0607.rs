@@ -35,9 +35,10 @@ fn check(description: &Description, findings: &mut Vec<Finding>) {
         let (Some(given), Some(object)) = (info.get(field), object) else {
             continue;
         };
-        // 0 means that the value is not known.
-        let differs = |given: &i128| *given != 0 && *given != i128::from(object.value);
-        let Some(number) = number(given).filter(|given| object.value != 0 && differs(given)) else {
+        // 0 means that the value is not known; W0609 reports what is not a number of 32 bits.
+        let known = number(given).and_then(|number| u32::try_from(number).ok());
+        let differs = |given: &u32| *given != 0 && u64::from(*given) != object.value;
+        let Some(number) = known.filter(|given| object.value != 0 && differs(given)) else {
             continue;
         };
         let fix = Fix::unsafe_fix().replace(given.span, format!("0x{:X}", object.value));

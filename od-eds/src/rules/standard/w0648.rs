@@ -9,9 +9,9 @@ pub(crate) static RULE: Rule = Rule {
     code: "W0648",
     severity: Warning,
     title: "value of a standard object is reserved",
-    why: "A device that follows CiA 301 aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 301, chapter 7.5",
-    says: "{object} ({name}) is 0x{given:X}, but CiA 301 reserves {reserved}",
+    why: "A device that follows the standard aborts a download of the value, and a master may give the bits another meaning.",
+    source: "CiA 301, chapter 7.5; CiA 302-2, object 1F80h",
+    says: "{object} ({name}) is 0x{given:X}, but {standard} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
     ..Rule::NEW
@@ -21,6 +21,11 @@ pub(crate) static RULE: Rule = Rule {
 fn reserved(address: Address, number: u64) -> Option<&'static str> {
     let Address { index, sub } = address;
     let (wrong, what) = match (index, sub) {
+        // Without a profile there is nothing that the upper half could add to; FFFFh: several logical devices.
+        (0x1000, 0) => {
+            let wrong = number & 0xFFFF == 0 && !matches!(number >> 16, 0 | 0xFFFF);
+            (wrong, "bits 16 to 31 without a device profile")
+        }
         (0x1001, 0) => (number & 0x40 != 0, "bit 6"),
         (0x1010, 1..=254) => (number >> 2 != 0, "bits 2 to 31"),
         (0x1011, 1..=254) => (number >> 1 != 0, "bits 1 to 31"),
@@ -31,6 +36,7 @@ fn reserved(address: Address, number: u64) -> Option<&'static str> {
         (0x1028, 1..=254) => (number & 1 << 30 != 0, "bit 30"),
         (0x1029, 1..=254) => (matches!(number, 3..=0x7F), "3 to 127"),
         (0x1280..=0x12FF, 3) => (number > 127, "128 to 255"),
+        (0x1F80, 0) => (number >> 7 != 0, "bits 7 to 31"),
         (0x1800..=0x19FF, 6) => (matches!(number, 241..), "241 to 255"),
         _ => return None,
     };
@@ -38,15 +44,17 @@ fn reserved(address: Address, number: u64) -> Option<&'static str> {
 }
 
 fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
-    let name = of(entry.address.index).map(|standard| standard.name);
-    if let Some(name) = name
+    if let Some(standard) = of(entry.address.index)
         && let Some(value) = start_value(entry.entry)
         && let Some(number) = value.integer(0)
         && let Ok(unsigned) = u64::try_from(number)
         && let Some(what) = reserved(entry.address, unsigned)
     {
         let finding = RULE.on(entry, value.span).fact("object", entry.shown());
-        let finding = finding.fact("name", name).fact("given", number);
+        let finding = finding
+            .fact("name", standard.name)
+            .fact("given", number)
+            .fact("standard", standard.source());
         findings.push(finding.fact("reserved", what));
     }
 }

@@ -5,7 +5,7 @@ use alloc::string::ToString;
 
 use od_model::{DataType, ObjectCode};
 
-use crate::description::ObjectDescription;
+use crate::description::{Description, ObjectDescription};
 use crate::finding::{Finding, Rule};
 use crate::fix::Fix;
 use crate::rules::pdo::shared::maps_rpdo;
@@ -30,6 +30,16 @@ pub(super) fn decimal(object: &ObjectDescription) -> Option<(u8, u8)> {
     let (before, sub) = subs.find(|(before, sub)| u16::from(**before) + 1 < u16::from(**sub))?;
     let meant = format!("{sub:X}").parse::<u8>().ok()?;
     (meant == before + 1 && *sub != meant).then_some((*sub, meant))
+}
+
+/// Returns if a section is about the object and is not a sub-object: probably one with a wrong name, which a count
+/// of the sub-objects lacks.
+pub(super) fn has_lost(description: &Description, index: u16) -> bool {
+    let start = format!("{index:04X}");
+    description.sections.iter().any(|section| {
+        let own = section.name.get(..4);
+        own.is_some_and(|own| own.eq_ignore_ascii_case(&start))
+    })
 }
 
 /// Sub-index 0, if there is one.
@@ -85,7 +95,7 @@ impl<'a> Count<'a> {
     }
 
     /// The finding that it is wrong. A fix would be wrong where the sub-objects are: of a CompactSubObj beside
-    /// sections, or where a sub-index is written in decimal.
+    /// sections, where a sub-index is written in decimal, or where the name of its section is.
     pub(super) fn finding(&self, rule: &'static Rule) -> Finding {
         let object = self.entry.object;
         let compact = object
@@ -96,7 +106,9 @@ impl<'a> Count<'a> {
             .on(&self.entry, self.given.span)
             .fact("given", self.given.value)
             .fact("highest", self.highest);
-        match compact || decimal(object).is_some() {
+        let index = self.entry.address.index;
+        let wrong = compact || decimal(object).is_some();
+        match wrong || has_lost(self.entry.description, index) {
             true => finding,
             false => {
                 let fix = Fix::unsafe_fix().replace(self.given.span, self.highest.to_string());

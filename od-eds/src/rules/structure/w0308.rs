@@ -1,10 +1,9 @@
-use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
 use crate::fix::Fix;
-use crate::rules::structure::shared::counts;
+use crate::rules::structure::shared::{counts, has_lost};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
@@ -28,13 +27,7 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     if let Some(given) = given.filter(|_| counts(object)) {
         let finding = RULE.on(object, given.span).fact("given", given.value);
         let finding = finding.fact("count", count);
-        // A section that is about the object, but no sub-object: probably one with a wrong name.
-        let start = format!("{:04X}", object.index);
-        let lost = object.description.sections.iter().any(|section| {
-            let own = section.name.get(..4);
-            own.is_some_and(|own| own.eq_ignore_ascii_case(&start))
-        });
-        findings.push(match lost {
+        findings.push(match has_lost(object.description, object.index) {
             true => finding,
             false => finding.fix(Fix::safe().replace(given.span, count.to_string())),
         });

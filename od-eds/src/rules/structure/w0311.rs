@@ -1,7 +1,8 @@
+use alloc::format;
 use alloc::vec::Vec;
 
-use crate::finding::{Check, Finding, Fixability, Rule, Severity::Warning};
-use crate::rules::structure::shared::{Count, counts_in_use};
+use crate::finding::{Check, Finding, Fixability, Form, Rule, Severity::Warning};
+use crate::rules::structure::shared::{Count, counts_in_use, decimal};
 use crate::subject::Object;
 
 pub(crate) static RULE: Rule = Rule {
@@ -13,8 +14,15 @@ pub(crate) static RULE: Rule = Rule {
     fixability: Fixability::Unsafe,
     says: "sub-index 0 is {given}, but sub-index {highest} exists",
     help: "write `{DefaultValue={highest}}`{fix}",
+    also: &[DECIMAL],
     check: Check::Object(check),
     ..Rule::NEW
+};
+
+/// The help if a section is probably named in decimal: sub-index 0 is right then.
+const DECIMAL: Form = Form {
+    help: "write `{right}` if the sub-index is decimal; CiA 306 numbers sub-objects in hexadecimal",
+    ..Form::OWN
 };
 
 fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
@@ -23,6 +31,13 @@ fn check(object: &Object<'_>, findings: &mut Vec<Finding>) {
     };
     let in_use = count.entry.access.writable() || counts_in_use(object.index);
     if count.given.value < u64::from(count.highest) && !in_use {
-        findings.push(count.finding(&RULE));
+        let finding = count.finding(&RULE);
+        findings.push(match decimal(object.object) {
+            Some((_, meant)) => {
+                let right = format!("[{:04X}sub{meant:X}]", object.index);
+                finding.form(&DECIMAL).fact("right", right)
+            }
+            None => finding,
+        });
     }
 }

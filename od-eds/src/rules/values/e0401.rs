@@ -1,7 +1,9 @@
 use alloc::vec::Vec;
 
+use crate::description::Description;
 use crate::fact::Key;
 use crate::finding::{Check, Finding, Rule, Severity::Error};
+use crate::rules::profile::shared::profile_type;
 use crate::span::Span;
 use crate::subject::{Entry, is_definition};
 use od_model::{Address, DataType};
@@ -22,12 +24,12 @@ fn check(entry: &Entry<'_>, findings: &mut Vec<Finding>) {
     // An unknown DataType was found by the reader.
     let missing = entry.data_type.is_none() && !entry.is_unread(Key::DataType);
     if missing && !is_definition(entry.object) {
-        findings.push(finding(entry.address, entry.span));
+        findings.push(finding(entry.description, entry.address, entry.span));
     }
 }
 
 /// The finding about a value without a type.
-pub(crate) fn finding(address: Address, section: Span) -> Finding {
-    let finding = RULE.at(section).about(address);
-    finding.fact("right", DataType::Unsigned32)
+pub(crate) fn finding(description: &Description, address: Address, section: Span) -> Finding {
+    let right = profile_type(description, address).unwrap_or(DataType::Unsigned32);
+    RULE.at(section).about(address).fact("right", right)
 }
