@@ -112,3 +112,29 @@ test('each bill of materials lists what its parts need', () => {
     for (const one of components) assert.ok(one.licenses?.length, `${name}: ${one.purl} has a licence`);
   }
 });
+
+test('the licences of what each part has of others are in it', () => {
+  const { dir, run } = room('licences');
+  const name = 'LICENSE.THIRD-PARTY.txt';
+  const unzip = (archive, inner) => {
+    run('python3', ['-m', 'zipfile', '-e', archive, 'unzipped']);
+    return readFileSync(join(dir, 'unzipped', inner, name), 'utf8');
+  };
+  const wheel = file('python', /\.whl$/);
+  const texts = {
+    bin: readFileSync(join(dist, 'bin', name), 'utf8'),
+    npm: run('tar', ['-xzOf', file('npm', /\.tgz$/), `package/${name}`]),
+    python: unzip(wheel, `${wheel.match(/odkit-[\d.]+/)[0].replace(/-$/, '')}.dist-info/licenses`),
+    site: readFileSync(join(dist, 'site', name), 'utf8'),
+    vscode: unzip(file('vscode', /\.vsix$/), 'extension'),
+  };
+  for (const [part, text] of Object.entries(texts)) {
+    const { components } = JSON.parse(readFileSync(join(dist, 'sbom', `${part}.cdx.json`), 'utf8'));
+    // odkit's own crates have no checksum.
+    const foreign = components.filter((one) => one.hashes || one.purl.startsWith('pkg:generic/'));
+    assert.ok(foreign.length > 2, part);
+    const missing = foreign.filter((one) => !text.includes(`\n${one.name} ${one.version} (`));
+    assert.deepEqual(missing.map((one) => one.purl), [], part);
+    for (const block of text.split(/\n={80}\n/).slice(1)) assert.match(block, /^(\S.*\n)+\n[^]*\S{3}/, part);
+  }
+});

@@ -4,30 +4,13 @@ use std::env;
 use std::path::Path;
 
 use super::dist::Dist;
+use super::notices;
+use super::systems::{SYSTEMS, System};
 use crate::console::{ask_in, cargo, which};
 use crate::error::Result;
 use crate::files;
 use crate::packages::CLI;
 use crate::setup::{apt, target};
-
-/// A system, what it is called in file names, and what links its programs if rustc alone cannot:
-/// the linker and Debian's package of it. `rust-lld` comes with rustc.
-pub(super) struct System {
-    pub(super) triple: &'static str,
-    ending: &'static str,
-    linker: Option<(&'static str, Option<&'static str>)>,
-}
-
-#[rustfmt::skip]
-pub(super) const SYSTEMS: [System; 3] = [
-    System { triple: "x86_64-unknown-linux-musl", ending: "", linker: None },
-    System { triple: "aarch64-unknown-linux-musl", ending: "", linker: Some(("rust-lld", None)) },
-    System {
-        triple: "x86_64-pc-windows-gnu",
-        ending: ".exe",
-        linker: Some(("x86_64-w64-mingw32-gcc", Some("gcc-mingw-w64-x86-64"))),
-    },
-];
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let (repo, console) = (dist.repo, dist.console);
@@ -61,6 +44,7 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
             &folder.join(name),
         )?;
     }
+    notices::write(dist, "bin", folder)?;
     Ok(())
 }
 

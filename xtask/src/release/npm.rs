@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::dist::Dist;
+use super::notices;
 use crate::error::Result;
 use crate::setup::node;
 use crate::wasm_pack;
@@ -14,5 +15,7 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
         &package,
         &["pack", "--ignore-scripts", "--pack-destination"],
     );
-    dist.console.run("the npm package", pack.arg(folder))
+    notices::within(dist, "npm", &package, || {
+        dist.console.run("the npm package", pack.arg(folder))
+    })
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::dist::Dist;
+use super::notices;
 use crate::error::Result;
 use crate::setup::node;
 
@@ -13,5 +14,7 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let file = folder.join(format!("odkit-{}.vsix", dist.version));
     let mut package = node::npm(&extension, &["run", "--silent", "package", "--", "--out"]);
     package.arg(file).env("SOURCE_DATE_EPOCH", &dist.epoch);
-    dist.console.run("the extension", &mut package)
+    notices::within(dist, "vscode", &extension, || {
+        dist.console.run("the extension", &mut package)
+    })
 }

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use super::binaries::without_paths;
 use super::dist::Dist;
+use super::notices;
 use crate::console::clean;
 use crate::error::Result;
 use crate::setup::python;
@@ -26,6 +27,8 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let mut wheel = maturin(&["build", "--release", "--locked"]);
     wheel.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     wheel.arg("--target-dir").arg(repo.target.join("wheel"));
-    console.run("the wheel", &mut wheel)?;
+    notices::within(dist, "python", &repo.root.join("python"), || {
+        console.run("the wheel", &mut wheel)
+    })?;
     console.run("its sources", &mut maturin(&["sdist"]))
 }

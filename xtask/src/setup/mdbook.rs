@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::repo::{Repo, program};
 
 /// Last looked at in November 2026: released every few weeks by the Rust project.
-const VERSION: &str = "0.5.4";
+pub(crate) const VERSION: &str = "0.5.4";
 
 /// The program, installed if it is missing.
 pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {

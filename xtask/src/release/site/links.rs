@@ -7,6 +7,7 @@ use std::path::Path;
 use super::markdown::with_links;
 use super::pages::{Page, find};
 use crate::error::{Error, Result};
+use crate::release::notices::NAME;
 
 /// Folders of the repository, and the page about what is in them.
 const FOLDERS: [(&str, &str); 2] = [
@@ -37,7 +38,9 @@ impl<'a> Places<'a> {
     pub(super) fn rewritten(&self, page: &Page) -> Result<String> {
         // What xtask writes itself is right for the site.
         let is_own = |address: &str| {
-            address.contains("playground/index.html") || address.starts_with("../rules/")
+            let starts = ["../rules/", NAME];
+            address.contains("playground/index.html")
+                || starts.iter().any(|start| address.starts_with(start))
         };
         with_links(&page.text, |address| {
             if address.contains("://") || address.starts_with("mailto:") || is_own(address) {

@@ -11,6 +11,7 @@ use std::path::Path;
 use std::process::Command;
 
 use super::dist::Dist;
+use super::notices;
 use crate::bundle;
 use crate::error::Result;
 use crate::files;
@@ -45,5 +46,6 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     build.arg("build").arg(&book).arg("--dest-dir").arg(folder);
     console.run("the site", &mut build)?;
     files::copy_tree(&repo.dist(), &folder.join("playground"))?;
+    notices::write(dist, "site", folder)?;
     check::check(folder)
 }

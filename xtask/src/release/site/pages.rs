@@ -40,6 +40,10 @@ const LESSONS: &str = "playground/lessons";
 const FIRST: [&str; 2] = ["", "Two commands"];
 const HOW_TO: &str = "How to …";
 
+/// What the first page leads to beside the documents.
+const LINKS: &str = "\n[Open the playground](playground/index.html)\n\n\
+                     [Licences of what this site contains](LICENSE.THIRD-PARTY.txt)\n";
+
 /// All pages; `rules` has the code and the text of each rule.
 pub(super) fn all(root: &Path, rules: &[(String, String)]) -> Result<Vec<Page>> {
     let mut pages = readme(&files::read(&root.join(README))?);
@@ -153,7 +157,7 @@ fn readme(text: &str) -> Vec<Page> {
         source: String::from(README),
         section: None,
         target: String::from("index.md"),
-        text: first + "\n[Open the playground](playground/index.html)\n",
+        text: format!("{first}{LINKS}"),
         depth: 0,
     }];
     pages.append(&mut tasks);
@@ -203,7 +207,7 @@ pub(super) fn find<'a>(pages: &'a [Page], source: &str, heading: Option<&str>) -
 mod tests {
     use std::path::Path;
 
-    use super::{Page, all, find, readme, summary};
+    use super::{LINKS, Page, all, find, readme, summary};
     use crate::files;
 
     const TEXT: &str = "# odkit\nHello.\n## Two commands\nTwo.\n## How to …\n### … run it\nRun.\n\
@@ -225,7 +229,7 @@ mod tests {
         assert_eq!(list, wanted);
         assert_eq!(
             pages[0].text,
-            "# odkit\nHello.\n## Two commands\nTwo.\n\n[Open the playground](playground/index.html)\n"
+            format!("# odkit\nHello.\n## Two commands\nTwo.\n{LINKS}")
         );
         assert_eq!(pages[2].text, "# Check an EDS\nCheck.\n");
         let target = |heading| find(&pages, "README.md", heading).map(|page| &*page.target);

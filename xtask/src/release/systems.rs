@@ -1,0 +1,20 @@
+//! The systems that the command line is built for.
+
+/// A system, what it is called in file names, and what links its programs if rustc alone cannot:
+/// the linker and Debian's package of it. `rust-lld` comes with rustc.
+pub(super) struct System {
+    pub(super) triple: &'static str,
+    pub(super) ending: &'static str,
+    pub(super) linker: Option<(&'static str, Option<&'static str>)>,
+}
+
+#[rustfmt::skip]
+pub(super) const SYSTEMS: [System; 3] = [
+    System { triple: "x86_64-unknown-linux-musl", ending: "", linker: None },
+    System { triple: "aarch64-unknown-linux-musl", ending: "", linker: Some(("rust-lld", None)) },
+    System {
+        triple: "x86_64-pc-windows-gnu",
+        ending: ".exe",
+        linker: Some(("x86_64-w64-mingw32-gcc", Some("gcc-mingw-w64-x86-64"))),
+    },
+];
