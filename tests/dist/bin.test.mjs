@@ -20,6 +20,15 @@ function install(name, pattern, as = 'odkit') {
   return { ...own, odkit };
 }
 
+/** The processor of a program for Linux, which must not need a library of the system: no segment names a loader. */
+function processor(path) {
+  const elf = readFileSync(path);
+  const [start, size, number] = [Number(elf.readBigUInt64LE(32)), elf.readUInt16LE(54), elf.readUInt16LE(56)];
+  const kinds = Array.from({ length: number }, (_, index) => elf.readUInt32LE(start + index * size));
+  assert.ok(kinds.includes(1) && !kinds.includes(3), `${path} is static`);
+  return { 62: 'x86-64', 183: 'ARM64' }[elf.readUInt16LE(18)];
+}
+
 /** What every system's program does; `run` starts it. */
 function works(dir, run) {
   assert.match(run(['--version']), /^odkit \d+\.\d+\.\d+/);
@@ -56,10 +65,12 @@ async function serves({ dir, env, run }, program, before = []) {
 
 test('Linux on x86-64', async () => {
   const own = install('linux', /x86_64-unknown-linux-musl$/);
-  assert.ok(!readFileSync(own.odkit, 'latin1').includes('/ld-linux'), 'it needs no library of the system');
+  assert.equal(processor(own.odkit), 'x86-64');
   works(own.dir, (args, options) => own.run(own.odkit, args, options));
   await serves(own, own.odkit);
 });
+
+test('Linux on ARM64 is static', () => assert.equal(processor(install('static', /aarch64-unknown-linux-musl$/).odkit), 'ARM64'));
 
 test('Linux on ARM64', { skip: has('qemu-aarch64-static') ? false : 'no qemu-user-static' }, async () => {
   const own = install('arm', /aarch64-unknown-linux-musl$/);
@@ -70,6 +81,7 @@ test('Linux on ARM64', { skip: has('qemu-aarch64-static') ? false : 'no qemu-use
 
 test('Windows on x86-64', { skip: has('wine') ? false : 'no Wine' }, async () => {
   const own = install('windows', /x86_64-pc-windows-gnu\.exe$/, 'odkit.exe');
+  assert.doesNotMatch(readFileSync(own.odkit, 'latin1'), /libgcc_s|libwinpthread-1\.dll/, 'it needs no library of its compiler');
   own.env.WINEDEBUG = '-all';
   own.env.WINEPREFIX = join(own.dir, '.wine');
   const stub = new URL('bcryptprimitives.c', import.meta.url).pathname;

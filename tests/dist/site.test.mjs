@@ -1,4 +1,4 @@
-// Page and documents as any web server sends them.
+// Page and documents as any web server sends them: from any folder of it, and without any other server.
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
@@ -9,17 +9,23 @@ import { dist } from './room.mjs';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json', '.svg': 'image/svg+xml', '.wasm': 'application/wasm', '.txt': 'text/plain', '.md': 'text/plain', '.png': 'image/png', '.woff2': 'font/woff2' };
 
+// A folder that is somewhere on a server.
+const FOLDER = '/team/odkit/';
+// A request to another server fails.
+const NOWHERE = { server: 'http://127.0.0.1:9', bypass: '127.0.0.1' };
+
 let server, browser, url;
 before(async () => {
   server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname).replace(/\/$/, '/index.html');
     // A browser asks for the icon of a text, too.
     if (path === '/favicon.ico') return response.writeHead(204).end();
-    const body = await readFile(join(dist, 'site', path)).catch(() => null);
+    const file = path.startsWith(FOLDER) && join(dist, 'site', path.slice(FOLDER.length));
+    const body = file && (await readFile(file).catch(() => null));
     response.writeHead(body ? 200 : 404, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' }).end(body ?? '');
   });
   await new Promise((listening) => server.listen(0, '127.0.0.1', listening));
-  url = `http://127.0.0.1:${server.address().port}/`;
+  url = `http://127.0.0.1:${server.address().port}${FOLDER}`;
   browser = await launch();
 });
 after(async () => {
@@ -30,7 +36,7 @@ after(async () => {
 
 /** Opens a page of the site; at the end nothing may have gone wrong in it. */
 async function visit(path, look) {
-  const { page, faults, close } = await open(browser, { hash: new URL(path, url).href });
+  const { page, faults, close } = await open(browser, { hash: new URL(path, url).href, proxy: NOWHERE });
   await look(page);
   assert.deepEqual(faults, [], path);
   await close();

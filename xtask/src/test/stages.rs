@@ -101,7 +101,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
-    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
+    stage("hosts", Check, "the command line compiles for Windows, with --long for macOS", rust::hosts).beside(Lane::Cross),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
@@ -113,7 +113,7 @@ pub(super) const STAGES: &[Stage] = &[
     stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
-    stage("package", Check, "every crate can be published, with its licences", release::package),
+    stage("package", Check, "every crate is packed with its licences, and compiles from that with --long", release::package),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

@@ -12,7 +12,7 @@ use crate::test::context::Context;
 /// Files that every package contains.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// Every crate is packed, has the texts of its licences, and compiles from what was packed.
+/// Every crate is packed, has the texts of its licences and no tests, and with `--long` compiles from what was packed.
 ///
 /// `cargo package` would build each crate and all that it depends on; here all of them are
 /// checked together, with the dependencies that clippy has checked already.
@@ -33,8 +33,16 @@ pub(super) fn package(context: &Context<'_>) -> Result<()> {
         if let Some(missing) = LICENCES.iter().find(|text| !folder.join(text).is_file()) {
             return Err(Error::Failed(format!("{name} has no {missing}")));
         }
+        if folder.join("tests").exists() {
+            return Err(Error::Failed(format!(
+                "{name} has tests, which need the checkout"
+            )));
+        }
         let (krate, _) = name.rsplit_once('-').unwrap_or((&name, ""));
         manifest.push_str(&format!("{krate} = {{ path = \"{name}\" }}\n"));
+    }
+    if !context.long {
+        return Ok(());
     }
     let write = dir.join("Cargo.toml");
     fs::write(&write, manifest).map_err(|e| Error::io("write", &write, &e))?;
