@@ -205,6 +205,25 @@ mod tests {
     }
 
     #[test]
+    fn all_parts_have_one_version() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let read = |name: &str| files::read(&root.join(name)).expect("it can be read");
+        let manifest = read("Cargo.toml");
+        let own = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
+        let parts = |line: &&str| line.contains("{ path = ") && line.contains("version = ");
+        assert!(manifest.lines().filter(parts).count() > 10);
+        for line in manifest.lines().filter(parts) {
+            assert!(line.contains(&own), "Cargo.toml: {line}");
+        }
+        let own = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+        for name in ["package.json", "package-lock.json"] {
+            let extension = read(&format!("editors/vscode/{name}"));
+            let line = extension.lines().find(|line| line.contains("\"version\""));
+            assert!(line.is_some_and(|it| it.contains(&own)), "{name}: {line:?}");
+        }
+    }
+
+    #[test]
     fn workflows_call_xtask_and_nothing_else() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../.github/workflows");
         let mut steps = 0;
