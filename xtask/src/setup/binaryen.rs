@@ -11,8 +11,7 @@ use crate::repo::Repo;
 
 /// Options for the features that rustc emits for wasm32 since 1.87; every current browser
 /// supports them.
-pub(crate) const FLAGS: [&str; 7] = [
-    "-Os",
+pub(crate) const FLAGS: [&str; 6] = [
     "--enable-bulk-memory",
     "--enable-nontrapping-float-to-int",
     "--enable-sign-ext",
@@ -36,12 +35,17 @@ pub(crate) fn get(repo: &Repo, console: &Console) -> Result<PathBuf> {
     Ok(dir.join("node_modules/.bin"))
 }
 
-/// The command that optimises `input` into `output`.
-pub(crate) fn command(repo: &Repo, input: &Path, output: &Path) -> Command {
+/// The command that optimises `input` into `output`, with as much effort as `level` says.
+pub(crate) fn command(repo: &Repo, level: &str, input: &Path, output: &Path) -> Command {
     // A JavaScript program: Windows does not start those by name.
     let mut command = Command::new("node");
     command.arg(REMEMBERS).current_dir(&repo.root);
-    command.args(FLAGS).arg(input).arg("-o").arg(output);
+    command
+        .arg(level)
+        .args(FLAGS)
+        .arg(input)
+        .arg("-o")
+        .arg(output);
     command.env("ODKIT_TOOLS", repo.tools());
     command
 }

@@ -37,14 +37,19 @@ pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
 }
 
 pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
-    let packages: &[&str] = if context.quick { &[] } else { &["--workspace"] };
-    // Tests are compiled by `unit` as well; to look at them here costs half as much again.
+    let packages: &[&str] = match (context.quick, context.long) {
+        (true, _) => &["--all-features"],
+        (_, true) => &["--workspace", "--all-features"],
+        _ => &ALL,
+    };
+    // Tests are compiled by `unit` as well; to look at them here costs half as much again. The
+    // benchmarks' peers are looked at where they are built, in a long run.
     let targets: &[&str] = if context.long {
         &["--all-targets"]
     } else {
         &[]
     };
-    let rest = ["--all-features", "--", "-D", "warnings"];
+    let rest = ["--", "-D", "warnings"];
     let args = [&["clippy"], packages, targets, &rest].concat();
     run(context, "clippy", &args)
 }
