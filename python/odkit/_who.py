@@ -9,9 +9,10 @@ import sys
 import threading
 from concurrent.futures import thread as _pool
 
-_GONE, _RUNS, _SAME, _EVER = -2.0, -1.0, float("nan"), float("inf")
+_GONE, _RUNS, _EVER = -2.0, -1.0, float("inf")
 _WAIT = threading.Condition.wait.__code__
 _JOIN = threading.Thread.join.__code__
+_START = threading.Thread.start.__code__
 _LOCK = getattr(getattr(threading.Thread, "_wait_for_tstate_lock", None), "__code__", None)
 _WORK = getattr(getattr(_pool, "_worker", None), "__code__", None)
 _WAITERS = ("threading", "queue")
@@ -26,27 +27,36 @@ def this():
     )
 
 
-def waits(threads, memory):
-    """For each thread: -2 it ended, -1 it runs, a number: it waits for at most so many seconds,
-    not a number: it waits as it did the last time."""
+def threads():
+    """The same of all threads."""
+    return [(one.ident, one.native_id, one.daemon) for one in threading.enumerate() if one.native_id]
+
+
+def waits(threads):
+    """What threads do, for each one three values. The first is -2: it ended, -1: it runs, or it waits
+    for at most so many seconds. The second is whether the wait may be over without a sign in Python;
+    the third is an object that no other wait has."""
+    found = _look(threads)
+    if len(threads) > 1 and all(one[0] != _RUNS for one in found):
+        # While one was looked at, an earlier one may have been woken by one that came later.
+        pairs = zip(found, _look(threads))
+        return [one if one[2] is other[2] else (_RUNS, False, None) for one, other in pairs]
+    return found
+
+
+def _look(threads):
     frames = sys._current_frames()
     found = []
     for ident in threads:
         frame = frames.get(ident)
         if frame is None:
-            memory.pop(ident, None)
-            found.append(_GONE)
+            found.append((_GONE, False, None))
             continue
-        wait = _wait(frame)
+        wait = _wait(frame, frames)
         if wait is None:
-            memory.pop(ident, None)
-            found.append(_RUNS)
-        elif memory.get(ident) is wait[0]:
-            found.append(_SAME)
+            found.append((_RUNS, False, None))
         else:
-            # The token lives on here, so that no later wait has the same.
-            memory[ident] = wait[0]
-            found.append(_seconds(wait[1]))
+            found.append((_seconds(wait[1]), wait[2], wait[0]))
     return found
 
 
@@ -57,37 +67,48 @@ def _seconds(timeout):
     return -(-round(timeout * 1e6) // 1000) / 1000
 
 
-def _wait(frame):
-    """The token of the wait that a thread is in, and its time-out; ``None``: it runs."""
+def _wait(frame, frames):
+    """The token of the wait that a thread is in, its time-out, and whether its end is hidden;
+    ``None``: it runs."""
     code = frame.f_code
     if code is _WAIT:
         local = frame.f_locals
         waiter = local.get("waiter")
-        if waiter is None or not waiter.locked():
+        # Whoever notifies opens the lock and takes it off the list; the thread closes it again.
+        if waiter is None or not waiter.locked() or waiter not in local["self"]._waiters:
             return None
-        return waiter, _timeout(frame, local.get("timeout"))
+        return _timed(frame, waiter, local.get("timeout"))
     if code is _LOCK:
-        lock = frame.f_locals.get("lock")
-        if lock is None or not lock.locked():
+        # Its lock is closed again, too, but the thread that it waited for has no frame then.
+        if frame.f_locals["self"].ident not in frames:
             return None
-        return frame, _timeout(frame, frame.f_locals.get("timeout"))
+        return _timed(frame, frame, frame.f_locals.get("timeout"))
     if code is _JOIN:
         local = frame.f_locals
-        return (frame, local.get("timeout")) if local["self"].is_alive() else None
+        return (frame, local.get("timeout"), False) if local["self"].is_alive() else None
     if code is _WORK:
-        return (frame, None) if frame.f_locals.get("work_item") is None else None
+        local = frame.f_locals
+        if local.get("work_item") is not None or not local["work_queue"].empty():
+            return None
+        return frame, None, True
+    if code.co_name == "get_message" and frame.f_globals.get("__name__") == "can.listener":
+        local = frame.f_locals
+        return (frame, local["timeout"], True) if local["self"].buffer.empty() else None
     if code.co_name == "select" and frame.f_globals.get("__name__") == "selectors":
         return _loop(frame)
     return None
 
 
-def _timeout(frame, timeout):
-    """The time-out of the call that waits: that of the innermost wait is what is left of it."""
+def _timed(frame, token, timeout):
+    """A wait with the time-out of the call that waits: that of the innermost wait is what is left
+    of it. A thread that starts another one runs."""
     outer = frame.f_back
     while outer is not None and outer.f_globals.get("__name__") in _WAITERS:
+        if outer.f_code is _START:
+            return None
         timeout = outer.f_locals.get("timeout", timeout)
         outer = outer.f_back
-    return timeout
+    return token, timeout, False
 
 
 def _loop(frame):
@@ -96,4 +117,4 @@ def _loop(frame):
     ready = getattr(loop, "_ready", None)
     if ready is None or ready:
         return None
-    return frame, frame.f_locals.get("timeout")
+    return frame, frame.f_locals.get("timeout"), False

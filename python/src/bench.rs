@@ -44,18 +44,17 @@ impl Bench {
         }
     }
 
-    /// Waits for a moment, or until `done`.
-    fn wait(
-        &self,
-        py: Python<'_>,
-        until: Instant,
-        done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
-    ) -> PyResult<End> {
+    /// Waits for a moment; `or_frame`: or for the next frame.
+    fn wait(&self, py: Python<'_>, until: Instant, or_frame: bool) -> PyResult<End> {
+        let before = self.wire.lock().journal.end();
         let wait = Wait {
             port: None,
             until: Some(until),
+            seen: or_frame.then_some(before),
         };
-        pass(py, &self.wire, wait, None, done)
+        pass(py, &self.wire, wait, None, &mut |state| {
+            Ok(or_frame && state.journal.end() != before)
+        })
     }
 }
 
@@ -89,7 +88,7 @@ impl Bench {
             return Err(Fault::value(format!("a wire named `{name}` is open already")).into());
         }
         state.collect();
-        let wire = registry::add(py, name, state, real, false);
+        let wire = registry::add(py, name, state, real, false)?;
         Ok(Self { wire })
     }
 
@@ -185,7 +184,7 @@ impl Bench {
             let state = self.wire.enter(py)?;
             state.present().plus_micros(time)
         };
-        self.wait(py, until, &mut |_| Ok(false))?;
+        self.wait(py, until, false)?;
         Ok(())
     }
 
@@ -212,9 +211,7 @@ impl Bench {
                 let text = format!("the condition is not true after {timeout} s");
                 return Err(Fault::Late(text).into());
             }
-            let before = self.wire.lock().journal.end();
-            let next = now.plus_micros(1000).min(end);
-            self.wait(py, next, &mut |state| Ok(state.journal.end() != before))?;
+            self.wait(py, now.plus_micros(1000).min(end), true)?;
         }
     }
 

@@ -34,6 +34,7 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
     let wait = Wait {
         port: None,
         until: Some(until),
+        seen: Some(0),
     };
     let end = pass(py, wire, wait, None, &mut |state| {
         let mut records = state.journal.since(next).enumerate();

@@ -22,6 +22,7 @@ mod registry;
 mod snapshot;
 mod spec;
 mod state;
+mod system;
 mod value;
 mod wire;
 

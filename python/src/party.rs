@@ -4,6 +4,9 @@ use std::thread::{self, Thread, ThreadId};
 use std::time::{Duration, Instant as Clock};
 
 use od_wire::Instant;
+use pyo3::prelude::*;
+
+use crate::system::{Seen, see};
 
 /// What a thread in a call of this package waits for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -12,6 +15,8 @@ pub(crate) struct Wait {
     pub(crate) port: Option<u32>,
     /// This moment.
     pub(crate) until: Option<Instant>,
+    /// Any frame on the bus: the number of frames of which it knows.
+    pub(crate) seen: Option<usize>,
 }
 
 /// What a thread outside this package does.
@@ -24,22 +29,40 @@ pub(crate) enum Outside {
     Waits(Option<Instant>),
 }
 
-/// A thread that opened a bus of the wire, sent, received, or changed the bench.
+/// What `odkit._who` found of a thread: a number, whether the end of its wait is hidden, and its wait.
+#[derive(FromPyObject)]
+pub(crate) struct Found(f64, bool, Option<Py<PyAny>>);
+
+impl Found {
+    /// The thread ended.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.0 == -2.0
+    }
+}
+
+/// A thread that opened a bus of the wire, sent, received, or changed the bench; or one that started
+/// while the wire was open, until it sleeps for other reasons.
 #[derive(Debug)]
 pub(crate) struct Party {
-    pub(crate) id: ThreadId,
-    pub(crate) thread: Thread,
+    /// `None` as long as it has not taken part.
+    pub(crate) thread: Option<Thread>,
     /// `threading.get_ident()`.
     pub(crate) ident: u64,
     /// `threading.get_native_id()`.
-    native: u64,
+    pub(crate) native: u64,
     /// `Some` in a call that waits.
     pub(crate) wait: Option<Wait>,
     pub(crate) outside: Outside,
     /// Since when it does what it does.
-    pub(crate) since: Clock,
-    /// A moment, and the time that the thread had spent with a processor then.
-    sample: Option<(Clock, Duration)>,
+    since: Clock,
+    /// A moment, and what the thread did then.
+    sample: Option<(Clock, Seen)>,
+    /// What it had done when it was looked at first.
+    first: Option<Seen>,
+    /// The wait that it is in, as Python has it.
+    token: Option<Py<PyAny>>,
+    /// It may be in a wait of C that ends at this moment at the latest, or may come out of it.
+    hidden: Option<Option<Instant>>,
     /// Time follows the clock because of it.
     pub(crate) leads: bool,
     /// Python ends without waiting for it.
@@ -59,27 +82,45 @@ pub(crate) enum Known {
 
 /// A thread that has slept for this long, in no wait that Python shows, sleeps.
 const NAP: Duration = Duration::from_millis(20);
+/// A thread that has slept for this long without a turn does not wait for the interpreter.
+const STILL: Duration = Duration::from_millis(8);
 /// A thread that computes for this long does not mind that time goes on.
 const BUSY: Duration = Duration::from_secs(2);
+/// A thread that has waited for locks for this long does not wait for the interpreter.
+const LOCKED: Duration = Duration::from_millis(500);
 /// As `NAP`, where the system does not say what a thread does.
 const UNKNOWN: Duration = Duration::from_millis(100);
 
 impl Party {
-    /// The thread that calls.
-    pub(crate) fn this(ident: u64, native: u64, daemon: bool) -> Self {
-        let thread = thread::current();
+    /// A thread that has not taken part.
+    pub(crate) fn new(ident: u64, native: u64, daemon: bool) -> Self {
         Self {
-            id: thread.id(),
-            thread,
+            thread: None,
             ident,
             native,
             wait: None,
             outside: Outside::Runs,
             since: Clock::now(),
             sample: None,
+            first: None,
+            token: None,
+            hidden: None,
             leads: false,
             daemon,
         }
+    }
+
+    /// The thread that calls.
+    pub(crate) fn this((ident, native, daemon): (u64, u64, bool)) -> Self {
+        Self {
+            thread: Some(thread::current()),
+            ..Self::new(ident, native, daemon)
+        }
+    }
+
+    /// It is this thread.
+    pub(crate) fn is(&self, id: ThreadId) -> bool {
+        self.thread.as_ref().is_some_and(|own| own.id() == id)
     }
 
     /// It is outside this package, and runs.
@@ -87,11 +128,58 @@ impl Party {
         self.wait.is_none() && self.outside == Outside::Runs
     }
 
-    /// It touched the wire, or begins something else.
-    pub(crate) fn touch(&mut self) {
+    /// It touched the wire, or begins something else. Returns its last wait.
+    pub(crate) fn touch(&mut self) -> Option<Py<PyAny>> {
         self.outside = Outside::Runs;
         self.since = Clock::now();
-        self.sample = None;
+        (self.sample, self.first, self.hidden) = (None, None, None);
+        self.token.take()
+    }
+
+    /// Notes what was found now. Returns its last wait if that is over.
+    pub(crate) fn learn(&mut self, found: Found, now: Instant) -> Option<Py<PyAny>> {
+        let Found(seconds, hidden, token) = found;
+        let mut over = None;
+        match (&self.token, &token) {
+            (Some(old), Some(new)) if old.is(new) => {}
+            // It runs on.
+            (None, None) => {}
+            (Some(_), None) => over = self.touch(),
+            _ => {
+                over = self.touch();
+                self.token = token;
+                let micros = (seconds * 1e6).round();
+                let until = (micros < 1e18).then(|| now.plus_micros(micros as u64));
+                self.outside = Outside::Waits(until);
+                self.hidden = hidden.then_some(until);
+            }
+        }
+        if let Some(until) = self.hidden {
+            self.outside = match self.is_still() {
+                true => Outside::Waits(until),
+                false => Outside::Runs,
+            };
+        }
+        over
+    }
+
+    /// It waits in no wait that ends by what other threads do, or Python does not show that it does.
+    pub(crate) fn is_of_its_own(&self) -> bool {
+        matches!(self.outside, Outside::Waits(until) if until.is_some() || self.hidden.is_some())
+    }
+
+    /// It sleeps, and not for the interpreter.
+    fn is_still(&mut self) -> bool {
+        let Some(seen) = see(self.native) else {
+            return true;
+        };
+        match self.sample {
+            Some((at, before)) if before == seen && seen.sleeps => at.elapsed() >= STILL,
+            _ => {
+                self.sample = Some((Clock::now(), seen));
+                false
+            }
+        }
     }
 
     /// Returns whether time shall follow the clock because of this thread, and since when: it
@@ -99,39 +187,30 @@ impl Party {
     pub(crate) fn lets_time_follow(&mut self) -> Option<Clock> {
         let now = Clock::now();
         let so_far = now.duration_since(self.since);
-        if so_far < NAP {
+        if so_far < NAP || self.hidden.is_some() {
             return None;
         }
-        let Some(spent) = self.spent() else {
+        let Some(seen) = see(self.native) else {
             return (so_far > UNKNOWN).then_some(self.since);
         };
-        let Some(spent) = spent else {
+        let first = *self.first.get_or_insert(seen);
+        let is_busy = seen.ran.saturating_sub(first.ran) > BUSY;
+        if !seen.sleeps {
             self.sample = None;
-            return (so_far > BUSY).then_some(now);
-        };
-        let (at, before) = *self.sample.get_or_insert((now, spent));
+            return is_busy.then_some(now);
+        }
+        let (at, before) = *self.sample.get_or_insert((now, seen));
         let elapsed = now.duration_since(at);
         if elapsed < NAP / 2 {
             return None;
         }
-        self.sample = Some((now, spent));
-        match spent.saturating_sub(before) < elapsed / 2 {
+        self.sample = Some((now, seen));
+        let spent = |seen: Seen| seen.ran + seen.waited;
+        // Whoever waits for the interpreter has a turn every 5 ms, and in a lock.
+        let is_blocked = seen.locked && seen.turns != before.turns && so_far < LOCKED;
+        match !is_blocked && spent(seen).saturating_sub(spent(before)) < elapsed / 2 {
             true => Some(self.since),
-            false => (so_far > BUSY).then_some(now),
+            false => is_busy.then_some(now),
         }
-    }
-
-    /// Time that the thread spent on a processor or waited for one, where the system has it;
-    /// `Some(None)`: it does so now.
-    fn spent(&self) -> Option<Option<Duration>> {
-        let folder = format!("/proc/self/task/{}", self.native);
-        let stat = std::fs::read_to_string(format!("{folder}/stat")).ok()?;
-        if !stat.rsplit_once(") ")?.1.starts_with('S') {
-            return Some(None);
-        }
-        let text = std::fs::read_to_string(format!("{folder}/schedstat")).ok()?;
-        let mut numbers = text.split_whitespace().map(str::parse::<u64>);
-        let (ran, waited) = (numbers.next()?.ok()?, numbers.next()?.ok()?);
-        Some(Some(Duration::from_nanos(ran.saturating_add(waited))))
     }
 }

@@ -5,6 +5,7 @@
 //! runs, nobody does. Of a thread that sleeps where Python does not show it, nobody knows what for:
 //! time follows the clock then.
 
+use std::sync::MutexGuard;
 use std::thread;
 use std::time::{Duration, Instant as Clock};
 
@@ -51,7 +52,12 @@ pub(crate) fn pass(
     done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
 ) -> PyResult<End> {
     let result = Pass::new(wire, patience).run(py, wait, done);
-    wire.lock().leave(thread::current().id());
+    let mut state = wire.lock();
+    state.leave(thread::current().id());
+    let over = std::mem::take(&mut state.over);
+    drop(state);
+    // What goes with them may use the wire.
+    drop(over);
     result
 }
 
@@ -61,6 +67,8 @@ struct Pass<'w> {
     patience: Option<Duration>,
     steps: u32,
     idle: u32,
+    /// The threads that started before it.
+    knows_threads: bool,
 }
 
 impl<'w> Pass<'w> {
@@ -71,6 +79,7 @@ impl<'w> Pass<'w> {
             patience,
             steps: 0,
             idle: 0,
+            knows_threads: false,
         }
     }
 
@@ -96,9 +105,7 @@ impl<'w> Pass<'w> {
                 state.leave(own);
                 return Ok(end);
             }
-            if let Some(party) = state.parties.iter_mut().find(|party| party.id == own) {
-                party.wait = Some(wait);
-            }
+            state.begin(own, wait);
             if state.real.is_some() {
                 let next = [state.next(), wait.until].into_iter().flatten().min();
                 let left = next.map(|next| next.micros_since(state.now()));
@@ -110,8 +117,7 @@ impl<'w> Pass<'w> {
                 continue;
             }
             drop(state);
-            let way = self.survey(py, wait)?;
-            let state = self.wire.lock();
+            let (state, way) = self.survey(py, wait)?;
             let to = match way {
                 Way::Free(to) => to,
                 Way::Frames(to)
@@ -151,17 +157,20 @@ impl<'w> Pass<'w> {
         }
     }
 
-    /// Looks at all threads that take part.
-    fn survey(&self, py: Python<'_>, own: Wait) -> PyResult<Way> {
+    /// Looks at all threads that take part. What it finds holds as long as the lock is held.
+    fn survey(&mut self, py: Python<'_>, own: Wait) -> PyResult<(MutexGuard<'w, State>, Way)> {
         let id = thread::current().id();
         let mut limit = own.until;
+        if !self.knows_threads {
+            self.knows_threads = !self.wire.notice_threads(py, false)?;
+        }
         let mut state = self.wire.lock();
         let (mut outside, mut knows, mut wanted, mut daemon) =
             (Vec::new(), true, own.port.is_none(), false);
         for party in &state.parties {
             match party.wait {
-                _ if party.id == id => daemon = party.daemon,
-                Some(wait) if state.is_over(wait) => return Ok(Way::Closed),
+                _ if party.is(id) => daemon = party.daemon,
+                Some(wait) if state.is_over(wait) => return Ok((state, Way::Closed)),
                 Some(wait) => {
                     limit = earlier(limit, wait.until);
                     wanted |= wait.port.is_none();
@@ -172,21 +181,22 @@ impl<'w> Pass<'w> {
                 }
             }
         }
-        if outside.is_empty() {
-            return Ok(Way::Free(limit));
+        if outside.is_empty() && self.knows_threads {
+            return Ok((state, Way::Free(limit)));
         }
         // One that ran a moment ago mostly still does.
-        if !knows && self.idle == 0 {
-            return Ok(Way::Closed);
+        if (!knows || !self.knows_threads) && self.idle == 0 {
+            return Ok((state, Way::Closed));
         }
         let changes = state.changes;
         drop(state);
-        let found = self.wire.look(py, &outside)?;
+        let found = Wire::look(py, &outside)?;
+        self.knows_threads = !self.wire.notice_threads(py, false)?;
         state = self.wire.lock();
-        if state.changes != changes {
-            return Ok(Way::Closed);
+        if !self.knows_threads || state.changes != changes {
+            return Ok((state, Way::Closed));
         }
-        Ok(match state.learn(&outside, &found) {
+        let way = match state.learn(&outside, found) {
             Known::Run => match follow(&mut state) {
                 Some(clock) => Way::Free(earlier(limit, Some(clock))),
                 None => Way::Closed,
@@ -194,21 +204,27 @@ impl<'w> Pass<'w> {
             Known::Wait(until) => Way::Free(earlier(limit, Some(until))),
             Known::WaitForEver if daemon && !wanted => Way::Frames(limit),
             Known::WaitForEver => Way::Free(limit),
-        })
+        };
+        Ok((state, way))
     }
 
     /// One step in time.
     fn step(
         &mut self,
         py: Python<'_>,
-        mut state: std::sync::MutexGuard<'_, State>,
+        mut state: MutexGuard<'_, State>,
         to: Instant,
     ) -> PyResult<Step> {
         let step = state.step(to);
         state.wake();
-        drop(state);
         if let Step::Call(task, place) = step {
+            // Python runs in this thread now.
+            state.leave(thread::current().id());
+            drop(state);
+            self.knows_threads = false;
             call(py, self.wire, task, place)?;
+        } else {
+            drop(state);
         }
         self.steps += 1;
         if self.steps.is_multiple_of(STEPS) {
@@ -232,7 +248,7 @@ impl<'w> Pass<'w> {
     fn catch_up(
         &mut self,
         py: Python<'_>,
-        state: std::sync::MutexGuard<'_, State>,
+        state: MutexGuard<'_, State>,
         clock: Instant,
     ) -> PyResult<()> {
         drop(state);
@@ -277,19 +293,27 @@ fn earlier(a: Option<Instant>, b: Option<Instant>) -> Option<Instant> {
 fn follow(state: &mut State) -> Option<Instant> {
     if state.follows.is_none() {
         let own = thread::current().id();
-        let mut latest = None;
-        for party in state
-            .parties
-            .iter_mut()
-            .filter(|party| party.id != own && party.runs())
-        {
-            latest = latest.max(Some(party.lets_time_follow()?));
+        let (mut latest, mut is_closed) = (None, false);
+        state.parties.retain_mut(|party| {
+            if party.is(own) || !party.runs() {
+                return true;
+            }
+            let since = party.lets_time_follow();
+            let takes_part = party.thread.is_some();
+            is_closed |= since.is_none();
+            if takes_part {
+                latest = latest.max(since);
+            }
+            // One that never took part may sleep or compute.
+            takes_part || since.is_none()
+        });
+        if is_closed {
+            return None;
         }
         let now = state.now();
-        state
-            .parties
-            .iter_mut()
-            .for_each(|party| party.leads = party.id != own && party.runs());
+        for party in &mut state.parties {
+            party.leads = !party.is(own) && party.runs();
+        }
         state.follows = Some((latest?, now));
     }
     let (clock, from) = state.follows?;

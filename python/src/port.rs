@@ -110,6 +110,7 @@ impl Port {
             let wait = Wait {
                 port: Some(self.id),
                 until: time.map(|micros| now.plus_micros(micros)),
+                seen: None,
             };
             let mut is_closed = false;
             pass(

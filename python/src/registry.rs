@@ -77,17 +77,20 @@ pub(crate) fn open(py: Python<'_>, channel: &str, time: Option<&str>) -> PyResul
         spec::add(&mut state.bus, &mut state.names, devices)?;
     }
     state.start();
-    Ok(add(py, name.to_owned(), state, real == Some(true), true))
+    add(py, name.to_owned(), state, real == Some(true), true)
 }
 
 /// Makes a wire known by its name.
+///
+/// # Errors
+/// An exception in Python.
 pub(crate) fn add(
     py: Python<'_>,
     name: String,
     mut state: State,
     real: bool,
     of_channel: bool,
-) -> Arc<Wire> {
+) -> PyResult<Arc<Wire>> {
     let mut epoch = 0.0;
     if real {
         state.real = Some(Clock::now());
@@ -96,9 +99,10 @@ pub(crate) fn add(
     }
     let mut wire = Wire::new(py, name, epoch, state);
     wire.of_channel = of_channel;
+    wire.notice_threads(py, true)?;
     let wire = Arc::new(wire);
     open_wires().push(Arc::downgrade(&wire));
-    wire
+    Ok(wire)
 }
 
 /// Whether `time` is `real`; `None`: it does not matter.

@@ -8,19 +8,16 @@ use od_bench::bus::Bus;
 use od_bench::logs::What;
 use od_bench::wire::Condition;
 use od_wire::{Frame, Instant};
+use pyo3::{Py, PyAny};
 
 use crate::cyclic::Cyclic;
 use crate::faults::Fault;
 use crate::filter::{Filter, passes};
 use crate::journal::Journal;
-use crate::party::{Known, Outside, Party, Wait};
+use crate::party::{Found, Known, Outside, Party, Wait};
 
 /// Frames that wait for a bus; then the newest ones are lost, as in a controller.
 const QUEUED: usize = 1_000_000;
-
-/// Numbers of `odkit._who` for a thread that ended, and for one that runs.
-const GONE: f64 = -2.0;
-const RUNS: f64 = -1.0;
 
 /// What a bus of python-can received.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +58,8 @@ pub(crate) struct State {
     pub(crate) listeners: Vec<Listener>,
     pub(crate) cyclics: Vec<Cyclic>,
     pub(crate) parties: Vec<Party>,
+    /// The threads that were there before, by the numbers of the system.
+    pub(crate) threads: Vec<u64>,
     pub(crate) journal: Journal,
     /// The number of the first record that `expect` looks at.
     pub(crate) seen: usize,
@@ -72,6 +71,8 @@ pub(crate) struct State {
     pub(crate) real: Option<Clock>,
     /// Time follows the clock, since a moment and from a moment.
     pub(crate) follows: Option<(Clock, Instant)>,
+    /// Waits that are over.
+    pub(crate) over: Vec<Py<PyAny>>,
     /// Counts all that is done to the wire.
     pub(crate) changes: u64,
     ids: u32,
@@ -118,6 +119,7 @@ impl State {
 
     /// Lets time pass to the next frame, or to `to`.
     pub(crate) fn step(&mut self, to: Instant) -> Step {
+        self.changes += 1;
         let due = self.cyclics.iter().filter_map(Cyclic::due).min();
         let target = due.map_or(to, |due| due.min(to)).max(self.now());
         let sent = self.bus.advance_until_sent(target);
@@ -227,15 +229,17 @@ impl State {
             // It was closed.
             None => true,
         };
-        wait.until.is_some_and(|until| until <= self.now()) || wait.port.is_some_and(heard)
+        wait.until.is_some_and(|until| until <= self.now())
+            || wait.port.is_some_and(heard)
+            || wait.seen.is_some_and(|seen| seen != self.journal.end())
     }
 
     /// The threads whose waits are over, but for this one.
     pub(crate) fn over(&self) -> Vec<Thread> {
         let own = thread::current().id();
-        let others = self.parties.iter().filter(|party| party.id != own);
+        let others = self.parties.iter().filter(|party| !party.is(own));
         let over = others.filter(|party| party.wait.is_some_and(|wait| self.is_over(wait)));
-        over.map(|party| party.thread.clone()).collect()
+        over.filter_map(|party| party.thread.clone()).collect()
     }
 
     /// Wakes the threads whose waits are over.
@@ -250,22 +254,30 @@ impl State {
         // Of the threads before a fork only one is there.
         let process = std::process::id();
         if std::mem::replace(&mut self.process, process) != process {
-            self.parties.retain(|party| party.id == id);
+            self.parties.retain(|party| party.is(id));
         }
         self.changes += 1;
-        let Some(own) = self.parties.iter_mut().find(|party| party.id == id) else {
+        let Some(own) = self.parties.iter_mut().find(|party| party.is(id)) else {
             return false;
         };
-        own.touch();
+        self.over.extend(own.touch());
         if own.leads {
             self.follows = None;
         }
         true
     }
 
+    /// A thread begins a wait.
+    pub(crate) fn begin(&mut self, id: ThreadId, wait: Wait) {
+        if let Some(party) = self.parties.iter_mut().find(|party| party.is(id)) {
+            let seen = wait.seen.map(|_| self.journal.end());
+            party.wait = Some(Wait { seen, ..wait });
+        }
+    }
+
     /// A thread ends its wait.
     pub(crate) fn leave(&mut self, id: ThreadId) {
-        let own = self.parties.iter_mut().find(|party| party.id == id);
+        let own = self.parties.iter_mut().find(|party| party.is(id));
         if let Some(own) = own.filter(|own| own.wait.is_some()) {
             own.wait = None;
             self.touch(id);
@@ -273,30 +285,24 @@ impl State {
     }
 
     /// Notes what `odkit._who` found of the threads with these numbers.
-    pub(crate) fn learn(&mut self, idents: &[u64], found: &[f64]) -> Known {
+    pub(crate) fn learn(&mut self, idents: &[u64], found: Vec<Found>) -> Known {
         let now = self.now();
         for (ident, found) in idents.iter().zip(found) {
-            let is = |party: &Party| party.ident == *ident;
-            let Some(party) = self.parties.iter_mut().find(|party| is(party)) else {
-                continue;
-            };
-            match *found {
-                GONE => self.parties.retain(|party| !is(party)),
-                RUNS if party.outside != Outside::Runs => party.touch(),
-                RUNS => {}
-                same if same.is_nan() => {}
-                seconds => {
-                    let micros = (seconds * 1e6).round();
-                    let until = (micros < 1e18).then(|| now.plus_micros(micros as u64));
-                    party.outside = Outside::Waits(until);
-                }
+            let is = |party: &Party| party.ident == *ident && party.wait.is_none();
+            if found.is_gone() {
+                self.parties.retain(|party| !is(party));
+            } else if let Some(party) = self.parties.iter_mut().find(|party| is(party)) {
+                self.over.extend(party.learn(found, now));
             }
         }
+        // One that never took part may do what it likes.
+        self.parties
+            .retain(|party| party.thread.is_some() || !party.is_of_its_own());
         let own = thread::current().id();
         let others = self
             .parties
             .iter()
-            .filter(|party| party.id != own && party.wait.is_none());
+            .filter(|party| !party.is(own) && party.wait.is_none());
         let mut known = Known::WaitForEver;
         for party in others {
             known = match (party.outside, known) {

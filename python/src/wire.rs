@@ -3,12 +3,13 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
+use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 
 use crate::faults::Fault;
-use crate::party::Party;
+use crate::party::{Found, Party};
 use crate::state::State;
 
 /// A wire with a name. Its lock is held with the interpreter attached, and never while a thread
@@ -21,8 +22,6 @@ pub(crate) struct Wire {
     /// A channel opened it, so it ends with the last bus.
     pub(crate) of_channel: bool,
     state: Mutex<State>,
-    /// The waits that `odkit._who` has seen.
-    waits: Py<PyDict>,
     /// What makes the frames of tasks, by their numbers.
     makers: Py<PyDict>,
 }
@@ -34,7 +33,6 @@ impl Wire {
             name,
             epoch,
             state: Mutex::new(state),
-            waits: PyDict::new(py).unbind(),
             makers: PyDict::new(py).unbind(),
         }
     }
@@ -43,11 +41,11 @@ impl Wire {
     ///
     /// # Errors
     /// An exception in Python.
-    pub(crate) fn look(&self, py: Python<'_>, threads: &[u64]) -> PyResult<Vec<f64>> {
+    pub(crate) fn look(py: Python<'_>, threads: &[u64]) -> PyResult<Vec<Found>> {
         static WHO: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let load = || PyResult::Ok(py.import("odkit._who")?.getattr("waits")?.unbind());
         let who = WHO.get_or_try_init(py, load)?;
-        who.call1(py, (threads.to_vec(), &self.waits))?.extract(py)
+        who.call1(py, (threads.to_vec(),))?.extract(py)
     }
 
     /// What makes the frames of a task.
@@ -86,17 +84,69 @@ impl Wire {
             return Ok(state);
         }
         drop(state);
-        let (ident, native, daemon) = py.import("odkit._who")?.call_method0("this")?.extract()?;
-        let party = Party::this(ident, native, daemon);
+        let party = Party::this(py.import("odkit._who")?.call_method0("this")?.extract()?);
         let mut state = self.lock();
+        state.parties.retain(|one| one.native != party.native);
         state.parties.push(party);
         Ok(state)
+    }
+
+    /// Notices the threads that started since the last time; from now on they take part. Returns
+    /// whether there is one. `is_first`: all that are there were there before.
+    ///
+    /// # Errors
+    /// An exception in Python.
+    pub(crate) fn notice_threads(&self, py: Python<'_>, is_first: bool) -> PyResult<bool> {
+        let (active, limbo) = threads(py)?;
+        if !limbo.is_empty() && !is_first {
+            return Ok(true);
+        }
+        let mut natives = Vec::with_capacity(4);
+        for thread in active.values() {
+            natives.push(
+                thread
+                    .getattr(intern!(py, "_native_id"))?
+                    .extract::<u64>()?,
+            );
+        }
+        let mut state = self.lock();
+        let known = std::mem::replace(&mut state.threads, natives.clone());
+        natives.retain(|one| !known.contains(one));
+        if natives.is_empty() || is_first {
+            return Ok(false);
+        }
+        drop(state);
+        let all: Vec<(u64, u64, bool)> = py
+            .import("odkit._who")?
+            .call_method0("threads")?
+            .extract()?;
+        let mut state = self.lock();
+        for (ident, native, daemon) in all {
+            let takes_part = state.parties.iter().any(|one| one.native == native);
+            if natives.contains(&native) && !takes_part {
+                state.parties.push(Party::new(ident, native, daemon));
+            }
+        }
+        Ok(true)
     }
 
     /// Seconds of a moment, as timestamps have them.
     pub(crate) fn seconds(&self, at: od_wire::Instant) -> f64 {
         self.epoch + at.as_micros() as f64 / 1e6
     }
+}
+
+/// The threads of `threading`, and those that it starts just now.
+fn threads(py: Python<'_>) -> PyResult<(&Bound<'_, PyDict>, &Bound<'_, PyDict>)> {
+    static THREADS: PyOnceLock<(Py<PyDict>, Py<PyDict>)> = PyOnceLock::new();
+    let load = || {
+        let threading = py.import("threading")?;
+        let dict =
+            |name: &str| PyResult::Ok(threading.getattr(name)?.cast_into::<PyDict>()?.unbind());
+        PyResult::Ok((dict("_active")?, dict("_limbo")?))
+    };
+    let (active, limbo) = THREADS.get_or_try_init(py, load)?;
+    Ok((active.bind(py), limbo.bind(py)))
 }
 
 /// Microseconds of a number of seconds.

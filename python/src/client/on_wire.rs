@@ -51,6 +51,7 @@ impl OnWire {
         let wait = Wait {
             port: Some(self.id),
             until: Some(until),
+            seen: None,
         };
         let id = self.id;
         pass(py, &self.wire, wait, None, &mut |state| {

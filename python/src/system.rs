@@ -1,0 +1,47 @@
+//! What the operating system says of a thread; Linux alone says it.
+
+use std::fs::read_to_string;
+use std::time::Duration;
+
+/// Number of the system call in which a thread waits for a lock of Python, the interpreter's own
+/// among them.
+const FUTEX: &str = if cfg!(target_arch = "x86_64") {
+    "202"
+} else if cfg!(any(target_arch = "x86", target_arch = "arm")) {
+    "240"
+} else {
+    "98"
+};
+
+/// What a thread does, and did so far.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Seen {
+    /// It neither runs nor waits for a processor.
+    pub(crate) sleeps: bool,
+    /// It sleeps for a lock, as far as the system says.
+    pub(crate) locked: bool,
+    /// Time with a processor.
+    pub(crate) ran: Duration,
+    /// Time in which it waited for a processor.
+    pub(crate) waited: Duration,
+    /// How often it got a processor. One that waits for the interpreter gets one every 5 ms.
+    pub(crate) turns: u64,
+}
+
+/// Looks at the thread with this number; `None`: the system does not say what it does.
+pub(crate) fn see(native: u64) -> Option<Seen> {
+    let read = |name: &str| read_to_string(format!("/proc/self/task/{native}/{name}")).ok();
+    let sleeps = read("stat")?.rsplit_once(") ")?.1.starts_with('S');
+    let text = read("schedstat")?;
+    let mut numbers = text.split_whitespace().map(str::parse::<u64>);
+    let mut number = || numbers.next()?.ok();
+    let (ran, waited, turns) = (number()?, number()?, number()?);
+    let call = if sleeps { read("syscall") } else { None };
+    Some(Seen {
+        sleeps,
+        locked: call.is_some_and(|call| call.split_whitespace().next() == Some(FUTEX)),
+        ran: Duration::from_nanos(ran),
+        waited: Duration::from_nanos(waited),
+        turns,
+    })
+}

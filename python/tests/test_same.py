@@ -1,0 +1,175 @@
+"""Programs with several threads: each run has the same frames, at the same times."""
+
+import concurrent.futures
+import os
+import queue
+import sys
+import threading
+
+import can
+import canopen
+import pytest
+
+import odkit
+from odkit import _who
+
+EDS = os.path.join(os.path.dirname(__file__), "../../devices/eds/GXMM.eds")
+RUNS = 1000 if os.environ.get("ODKIT_LONG") else 20
+UPLOAD = bytes.fromhex("4018100100000000")
+
+
+def frame(can_id, data=b""):
+    return can.Message(arbitration_id=can_id, is_extended_id=False, data=data)
+
+
+def told(bench):
+    return [line.split("  ")[0] for line in bench.log]
+
+
+def a_program_of_python_canopen(dictionary=canopen.import_od(EDS)):
+    network = canopen.Network()
+    network.connect(interface="odkit", channel="gxmm@1")
+    node = network.add_node(1, dictionary)
+    log = []
+    for can_id in (0x581, 0x701, 0x181):
+        network.subscribe(can_id, lambda i, data, at: log.append((at, i, bytes(data))))
+    node.sdo[0x1017].raw = 1000
+    node.nmt.wait_for_heartbeat()
+    node.nmt.state = "OPERATIONAL"
+    node.nmt.wait_for_heartbeat()
+    log.append(node.nmt.state)
+    log.append(node.sdo[0x1018][1].raw)
+    node.sdo[0x1800][5].raw = 100
+    node.nmt.wait_for_heartbeat()
+    log.append(network.bus.bench.now)
+    seen = list(log)
+    network.disconnect()
+    assert seen[-1] == 3.0 and "OPERATIONAL" in seen
+    return seen
+
+
+def a_listener_that_answers():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus, bench.bus() as other:
+
+        def answer(message):
+            if message.arbitration_id == 0x200:
+                bus.send(frame(0x300, message.data))
+
+        with can.Notifier(bus, [answer]):
+            other.send_periodic(frame(0x200), 0.1)
+            bench.run(1)
+            log = told(bench)
+    # The last one may be answered after the run.
+    assert [one for one in log[:-1] if "300#" in one] == [f"{n / 10:f} -> 300#" for n in range(10)]
+    return log[:21]
+
+
+def a_reader_with_a_buffer():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus:
+        bench["gxmm"][0x1017] = 100
+        reader = can.BufferedReader()
+        with can.Notifier(bus, [reader]):
+            for _ in range(3):
+                assert reader.get_message(1).arbitration_id == 0x701
+                bus.send(frame(0x601, UPLOAD))
+                assert reader.get_message(1).arbitration_id == 0x581
+            bench["gxmm"][0x1017] = 0
+            assert reader.get_message(0.5) is None and bench.now == pytest.approx(0.8)
+            return told(bench)
+
+
+def a_thread_of_its_own():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus:
+
+        def work():
+            for number in range(5):
+                bus.send(frame(0x123, bytes([number])))
+                while bus.recv(0.2) is not None:
+                    pass
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        bench.run(2)
+        thread.join()
+        assert told(bench)[-1] == "0.800000 -> 123#04"
+        return told(bench)
+
+
+def a_pool_of_threads():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus:
+
+        def work(number):
+            bus.send(frame(0x123, bytes([number])))
+            bus.recv(0.2)
+            return bench.now
+
+        with concurrent.futures.ThreadPoolExecutor(1) as pool:
+            done = [pool.submit(work, number).result() for number in range(3)]
+            bench.run(1)
+            last = pool.submit(work, 9)
+            bench.run(1)
+            return done, last.result(), told(bench)
+
+
+def two_notifiers_and_a_queue():
+    with odkit.Bench("gxmm@1") as bench, bench.bus() as bus, bench.bus() as other:
+        beats = queue.Queue()
+
+        def beat(message):
+            if message.arbitration_id == 0x701:
+                beats.put(message)
+
+        def answer(message):
+            if message.arbitration_id == 0x100:
+                other.send(frame(0x101, message.data))
+
+        bench["gxmm"][0x1017] = 100
+        with can.Notifier(bus, [beat]), can.Notifier(other, [answer]):
+            for number in range(5):
+                beats.get(timeout=10)
+                bus.send(frame(0x100, bytes([number])))
+            bench.until("101#04", timeout=0.1)
+            return told(bench)
+
+
+PROGRAMS = [
+    a_program_of_python_canopen,
+    a_listener_that_answers,
+    a_reader_with_a_buffer,
+    a_thread_of_its_own,
+    a_pool_of_threads,
+    two_notifiers_and_a_queue,
+]
+
+
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.__name__)
+def test_each_run_is_the_same(program):
+    first = program()
+    for _ in range(RUNS):
+        assert program() == first
+
+
+def test_a_thread_that_was_notified_does_not_wait():
+    """Not even while the one that notified it still has the lock that it needs to go on."""
+    condition = threading.Condition()
+
+    def wait():
+        with condition:
+            condition.wait()
+
+    thread = threading.Thread(target=wait)
+    thread.start()
+    while True:
+        with condition:
+            if condition._waiters:
+                break
+    with condition:
+        (waiter,) = condition._waiters
+        while _who.waits([thread.ident])[0][0] != float("inf"):
+            pass
+        condition.notify()
+        # It closes its lock again, and now waits for the condition's.
+        while not waiter.locked():
+            pass
+        assert _who.waits([thread.ident])[0][0] == -1
+    thread.join()
