@@ -52,7 +52,7 @@ impl Bench {
             until: Some(until),
             seen: or_frame.then_some(before),
         };
-        pass(py, &self.wire, wait, None, &mut |state| {
+        pass(py, &self.wire, wait, (None, false), &mut |state| {
             Ok(or_frame && state.journal.end() != before)
         })
     }

@@ -36,7 +36,7 @@ pub(crate) fn expect(py: Python<'_>, wire: &Wire, text: &str, within: f64) -> Py
         until: Some(until),
         seen: Some(0),
     };
-    let end = pass(py, wire, wait, None, &mut |state| {
+    let end = pass(py, wire, wait, (None, false), &mut |state| {
         let mut records = state.journal.since(next).enumerate();
         let at =
             records.find(|(_, record)| frame(record).is_some_and(|frame| pattern.matches(&frame)));

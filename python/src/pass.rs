@@ -40,7 +40,8 @@ enum Way {
     Closed,
 }
 
-/// Waits until `done` or until `wait` is over. `done` is asked whenever something happened.
+/// Waits until `done` or until `wait` is over. `done` is asked whenever something happened; what comes
+/// for a bus `in_turn`, while nobody else runs. After `patience` on the clock it is over in any case.
 ///
 /// # Errors
 /// An exception in Python, such as `KeyboardInterrupt`.
@@ -48,10 +49,12 @@ pub(crate) fn pass(
     py: Python<'_>,
     wire: &Wire,
     wait: Wait,
-    patience: Option<Duration>,
+    (patience, in_turn): (Option<Duration>, bool),
     done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
 ) -> PyResult<End> {
-    let result = Pass::new(wire, patience).run(py, wait, done);
+    let mut pass = Pass::new(wire, patience);
+    pass.in_turn = in_turn;
+    let result = pass.run(py, wait, done);
     let mut state = wire.lock();
     state.leave(thread::current().id());
     let over = std::mem::take(&mut state.over);
@@ -67,8 +70,10 @@ struct Pass<'w> {
     patience: Option<Duration>,
     steps: u32,
     idle: u32,
-    /// The threads that started before it.
+    /// No thread has started since it looked.
     knows_threads: bool,
+    /// A frame is received only while nobody else runs.
+    in_turn: bool,
 }
 
 impl<'w> Pass<'w> {
@@ -80,22 +85,41 @@ impl<'w> Pass<'w> {
             steps: 0,
             idle: 0,
             knows_threads: false,
+            in_turn: false,
         }
     }
 
     fn run(
         &mut self,
         py: Python<'_>,
-        wait: Wait,
+        mut wait: Wait,
         done: &mut dyn FnMut(&mut State) -> PyResult<bool>,
     ) -> PyResult<End> {
         let own = thread::current().id();
+        let began = self.wire.lock().now();
         loop {
             let mut state = self.wire.lock();
             if let Some(clock) = state.clock() {
                 self.catch_up(py, state, clock)?;
                 state = self.wire.lock();
+            } else if let Some(turn) = state.turn(wait)
+                && state.parties.len() > 1
+                && (turn.0 == 1
+                    || (turn.0 == 0 && self.in_turn)
+                    || (turn.0 == 2 && state.now() > began))
+                && !self.is_out_of_patience()
+            {
+                state.begin(own, wait);
+                drop(state);
+                let (locked, is_next) = self.is_next(py, turn)?;
+                if !is_next {
+                    drop(locked);
+                    self.rest(py)?;
+                    continue;
+                }
+                state = locked;
             }
+            wait.seen = wait.seen.map(|_| state.journal.end());
             let end = match done(&mut state)? {
                 true => Some(End::Done),
                 false if wait.until.is_some_and(|until| until <= state.now()) => Some(End::Late),
@@ -206,6 +230,30 @@ impl<'w> Pass<'w> {
             Known::WaitForEver => Way::Free(limit),
         };
         Ok((state, way))
+    }
+
+    /// Does nobody run, and has nobody a turn before this one?
+    fn is_next(&self, py: Python<'_>, turn: (u8, u32)) -> PyResult<(MutexGuard<'w, State>, bool)> {
+        let id = thread::current().id();
+        let state = self.wire.lock();
+        let mut outside = Vec::new();
+        for party in state.parties.iter().filter(|party| !party.is(id)) {
+            match party.wait.map(|wait| state.turn(wait)) {
+                Some(Some(other)) if other < turn => return Ok((state, false)),
+                Some(_) => {}
+                None => outside.push(party.ident),
+            }
+        }
+        if outside.is_empty() {
+            return Ok((state, true));
+        }
+        let changes = state.changes;
+        drop(state);
+        let found = Wire::look(py, &outside)?;
+        let mut state = self.wire.lock();
+        let is_next = state.changes == changes
+            && (state.learn(&outside, found) != Known::Run || follow(&mut state).is_some());
+        Ok((state, is_next))
     }
 
     /// One step in time.

@@ -222,16 +222,28 @@ impl State {
         self.listeners.iter_mut().find(|one| one.id == id)
     }
 
-    /// Has what this wait is for happened?
-    pub(crate) fn is_over(&self, wait: Wait) -> bool {
+    /// Whose turn it is among the waits that are over: a bus that receives, in the order in which they
+    /// were opened; then a thread that looks at all frames; then one whose moment has come. `None`: the
+    /// wait is not over.
+    pub(crate) fn turn(&self, wait: Wait) -> Option<(u8, u32)> {
         let heard = |port| match self.listeners.iter().find(|one| one.id == port) {
             Some(one) => !one.queue.is_empty(),
             // It was closed.
             None => true,
         };
-        wait.until.is_some_and(|until| until <= self.now())
-            || wait.port.is_some_and(heard)
-            || wait.seen.is_some_and(|seen| seen != self.journal.end())
+        match wait.port {
+            Some(port) if heard(port) => Some((0, port)),
+            _ if wait.seen.is_some_and(|seen| seen != self.journal.end()) => Some((1, 0)),
+            _ => wait
+                .until
+                .filter(|until| *until <= self.now())
+                .map(|_| (2, 0)),
+        }
+    }
+
+    /// Has what this wait is for happened?
+    pub(crate) fn is_over(&self, wait: Wait) -> bool {
+        self.turn(wait).is_some()
     }
 
     /// The threads whose waits are over, but for this one.
@@ -270,8 +282,7 @@ impl State {
     /// A thread begins a wait.
     pub(crate) fn begin(&mut self, id: ThreadId, wait: Wait) {
         if let Some(party) = self.parties.iter_mut().find(|party| party.is(id)) {
-            let seen = wait.seen.map(|_| self.journal.end());
-            party.wait = Some(Wait { seen, ..wait });
+            party.wait = Some(wait);
         }
     }
 

@@ -79,10 +79,10 @@ def test_a_wait_lets_no_more_time_pass_than_its_time_out():
     bus = can.Bus(interface="odkit", channel="gxmm@1")
     reader = can.Notifier(bus, [lambda message: None])
     with pytest.raises(queue.Empty):
-        queue.Queue().get(timeout=0.05)
-    assert bus.bench.now == pytest.approx(0.05, abs=1e-9)
-    assert not threading.Event().wait(0.1)
-    assert bus.bench.now == pytest.approx(0.15, abs=1e-9)
+        queue.Queue().get(timeout=0.4)
+    assert bus.bench.now == pytest.approx(0.4, abs=1e-9)
+    assert not threading.Event().wait(0.4)
+    assert bus.bench.now == pytest.approx(0.8, abs=1e-9)
     reader.stop()
     bus.shutdown()
 

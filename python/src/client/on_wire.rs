@@ -54,7 +54,7 @@ impl OnWire {
             seen: None,
         };
         let id = self.id;
-        pass(py, &self.wire, wait, None, &mut |state| {
+        pass(py, &self.wire, wait, (None, false), &mut |state| {
             Ok(state.listener(id).is_none_or(|own| !own.queue.is_empty()))
         })?;
         Ok(())
