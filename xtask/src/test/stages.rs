@@ -1,4 +1,6 @@
-//! The stages, in the order they run: those that are quick and fail often come first.
+//! The stages, in the order they run: first what the tests in a browser and on a bus wait for, which
+//! take longest, and last what only compiles. One cargo at a time writes into `target/debug`, so
+//! everything that does is in one lane, or short.
 
 mod boards;
 mod c;
@@ -95,25 +97,25 @@ pub(super) const STAGES: &[Stage] = &[
     stage("page", Check, "types, tests and size of the TypeScript page", page::page).beside(Lane::Page),
     stage("wasm", Tests, "the tests of the WebAssembly module under Node.js", page::wasm).beside(Lane::Page),
     stage("browser", Tests, "the page in Chromium", page::browser).beside(Lane::Page),
-    stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Page),
     stage("interop", Tests, "python-canopen as master of the simulated devices", page::interop).beside(Lane::Bus),
     stage("python", Tests, "the Python package: a bus of python-can with devices in it", python::python).beside(Lane::Bus),
-    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("size", Check, "no firmware is larger than README.md says, and a boot loader starts a program, on an emulated Cortex-M3", rust::size).beside(Lane::Board),
     stage("no_std", Check, "what runs in a node builds for a bare Cortex-M3 and M0", rust::no_std).beside(Lane::Cross),
-    stage("hosts", Check, "the command line compiles for Windows, with --long for macOS", rust::hosts).beside(Lane::Cross),
+    stage("hosts", Check, "the command line compiles for Windows and macOS", rust::hosts).beside(Lane::Cross),
     stage("unit", Tests, "tests inside the crates", rust::unit).quick(),
     stage("firmware", Tests, "conformance scripts on an emulated Cortex-M3, to the byte", rust::firmware).beside(Lane::Board),
     stage("c", Tests, "a node in C answers as the bench does: here, and on an emulated Cortex-M3", c::c).beside(Lane::Board),
     stage("boards", Check, "the firmware of `odkit new` compiles for its boards, and one runs", boards::boards).beside(Lane::Board),
+    stage("wasm-pack", Tests, "wasm-pack makes the npm packages, and they work", page::wasm_pack).beside(Lane::Board),
+    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick().beside(Lane::Cross),
+    stage("package", Check, "every crate is packed with its licences, and compiles from that with --long", release::package).beside(Lane::Bus),
     stage("conformance", Tests, "frame scripts per CANopen service", |c| rust::outside(c, &["conformance"])).quick(),
-    stage("ui", Tests, "what must not compile, and what the compiler says", |c| rust::outside(c, &["ui", "pass"])).quick(),
     stage("tests", Tests, "all other tests from outside", rust::other_outside),
     stage("fuzz", Tests, "mutated input: SDO frames, node, EEPROM, EDS, scripts, adapters", rust::fuzz),
-    stage("doc", Tests, "the examples in the documentation", rust::doc),
+    stage("clippy", Check, "no warning, with every feature on", rust::clippy).quick(),
     stage("rustdoc", Check, "the documentation builds without a warning", rust::rustdoc),
+    stage("doc", Tests, "the examples in the documentation", rust::doc),
     stage("editor", Check, "a session in Neovim, the extension, hooks and action", editor::editor).long(),
-    stage("package", Check, "every crate is packed with its licences, and compiles from that with --long", release::package),
     stage("dist", Tests, "a release is made, and each part of it installed and used in an empty folder", dist::dist).long(),
     stage("bench", Check, "each benchmark compiles and runs once", rust::bench).long(),
 ];

@@ -1,8 +1,9 @@
 //! Stages that need Node.js, a browser or Python.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use super::rust::{ALL, long};
 use crate::bundle;
@@ -39,19 +40,32 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
         engines(context.console)?;
     }
     bundle::page(context.repo, context.console)?;
-    // The bus that the page connects to; the interoperability tests have the same program.
-    let mut build = cargo(&context.repo.root, &["build"]);
-    build.args(ALL).args(["--bin", CLI.1]);
-    context.console.run("building odkit", &mut build)?;
-    let odkit = context.repo.target.join("debug").join(program(CLI.1));
+    // The bus that the page connects to.
+    let built = odkit(context)?;
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
     let mut command = node_test(context, &tests, &[]);
     command
         .env("ODKIT_URL", &server.url)
-        .env("ODKIT", odkit)
+        .env("ODKIT", built.join(program(CLI.1)))
         .env("CHROMIUM", chromium);
     context.console.run("browser tests", &mut command)
+}
+
+/// The folder with `odkit` and the examples that the tests of other languages run. Who comes second
+/// does not ask cargo again, which may be at work on something longer.
+fn odkit(context: &Context<'_>) -> Result<PathBuf> {
+    static BUILT: Mutex<bool> = Mutex::new(false);
+    let mut is_built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    if !*is_built {
+        let mut build = cargo(&context.repo.root, &["build"]);
+        build
+            .args(ALL)
+            .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
+        context.console.run("building odkit", &mut build)?;
+        *is_built = true;
+    }
+    Ok(context.repo.target.join("debug"))
 }
 
 /// The module as the page uses it, and the package's tests on it.
@@ -91,14 +105,9 @@ pub(super) fn wasm_pack(context: &Context<'_>) -> Result<()> {
 
 /// A foreign CANopen master against `odkit`.
 pub(super) fn interop(context: &Context<'_>) -> Result<()> {
+    let built = odkit(context)?;
     let requirements = context.repo.root.join("tests/interop/requirements.txt");
     let python = python::environment(context.repo, context.console, &requirements)?;
-    let mut build = cargo(&context.repo.root, &["build"]);
-    build
-        .args(ALL)
-        .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
-    context.console.run("building odkit", &mut build)?;
-    let built = context.repo.target.join("debug");
     let example = |name| built.join("examples").join(program(name));
     let mut command = Command::new(&python);
     command

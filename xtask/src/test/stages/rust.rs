@@ -123,22 +123,22 @@ pub(super) fn no_std(context: &Context<'_>) -> Result<()> {
     for package in NO_STD {
         let args = ["check", "--package", package, "--no-default-features"];
         let what = format!("{package} without the standard library");
-        cross(context, &what, target::BARE, &args)?;
+        cross(context, &what, &[target::BARE], &args)?;
     }
     // It has a lock file of its own, so it builds all of odkit's compile-time half once more.
     if context.long {
         let args = ["check", "--manifest-path", "firmware/rtic/Cargo.toml"];
-        cross(context, "a node in RTIC", target::BARE, &args)?;
+        cross(context, "a node in RTIC", &[target::BARE], &args)?;
     }
     // The last one brings the others along.
     target::add(context.repo, context.console, target::SMALLEST)?;
     let both = ["--package", "od-devices", "--package", "od-capi"];
     let args = [&["check", "--no-default-features"], &both[..]].concat();
     let what = "od-devices and od-capi for a Cortex-M0";
-    cross(context, what, target::SMALLEST, &args)?;
+    cross(context, what, &[target::SMALLEST], &args)?;
     let args = ["check", "--package", "od-board", "--all-features"];
     let what = "od-board with every feature for a Cortex-M0";
-    cross(context, what, target::SMALLEST, &args)
+    cross(context, what, &[target::SMALLEST], &args)
 }
 
 pub(super) fn size(context: &Context<'_>) -> Result<()> {
@@ -163,20 +163,23 @@ pub(super) fn firmware(context: &Context<'_>) -> Result<()> {
 }
 
 pub(super) fn hosts(context: &Context<'_>) -> Result<()> {
-    // macOS differs from Linux and Windows by what it lacks.
-    let number = if context.long { target::HOSTS.len() } else { 1 };
-    for target in &target::HOSTS[..number] {
+    for target in target::HOSTS {
         target::add(context.repo, context.console, target)?;
-        let args = ["check", "--package", CLI.0];
-        cross(context, &format!("odkit for {target}"), target, &args)?;
     }
-    Ok(())
+    let args = ["check", "--package", CLI.0];
+    cross(
+        context,
+        "odkit for Windows and macOS",
+        &target::HOSTS,
+        &args,
+    )
 }
 
-/// cargo for another computer, in the target directory of [`Lane::Cross`](super::Lane::Cross).
-fn cross(context: &Context<'_>, what: &str, target: &str, args: &[&str]) -> Result<()> {
+/// cargo for other computers, in the target directory of [`Lane::Cross`](super::Lane::Cross).
+fn cross(context: &Context<'_>, what: &str, targets: &[&str], args: &[&str]) -> Result<()> {
     let mut command = cargo(&context.repo.root, args);
-    command.args(["--target", target, "--target-dir"]);
+    command.args(targets.iter().flat_map(|target| ["--target", target]));
+    command.arg("--target-dir");
     command.arg(context.repo.target.join("cross"));
     context.console.run(what, &mut command)
 }
