@@ -4,11 +4,21 @@ use od_runtime::encoder::Gain;
 
 /// `amount / by` revolutions, times a gain, in whole units; rounded towards zero.
 pub(super) fn exact(amount: i128, by: i128, gain: Gain) -> i64 {
+    // A division of 128 bits takes its time, and a shaft that turns evenly has no acceleration.
+    if amount == 0 {
+        return 0;
+    }
     // An amount is 2⁵⁷ at most (a way, or a difference of fine speeds), a rate 2⁶⁴.
-    let rate = (u128::from(gain.steps) << 32) / u128::from(gain.revolutions.max(1));
+    let steps = u128::from(gain.steps) << 32;
+    let rate = match gain.revolutions {
+        0 | 1 => steps,
+        revolutions => steps / u128::from(revolutions),
+    };
     let steps = nearest(amount * rate as i128, by);
-    let factor = i128::from(gain.multiplier);
-    let value = whole(nearest(steps * factor, gain.divider.max(1).into()));
+    let value = whole(match (i128::from(gain.multiplier), gain.divider) {
+        (factor, 0 | 1) => steps * factor,
+        (factor, divider) => nearest(steps * factor, divider.into()),
+    });
     value.clamp(i64::MIN.into(), i64::MAX.into()) as i64
 }
 

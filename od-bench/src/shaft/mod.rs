@@ -207,7 +207,11 @@ impl Motion for Shaft {
         let interval = i128::from(interval);
         let speed = |at| self.course.fine_speed(at);
         let placed = self.placed.way(middle, now) - self.placed.way(from, middle);
-        let change = speed(now) - speed(from) + 4 * placed * FINE / interval;
+        let turned = match placed {
+            0 => 0,
+            placed => 4 * placed * FINE / interval,
+        };
+        let change = speed(now) - speed(from) + turned;
         Some(exact(change * 50, 3 * FINE * interval, gain))
     }
 

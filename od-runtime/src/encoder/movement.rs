@@ -79,8 +79,9 @@ impl<M: Motion> Encoder<M> {
             Quantity::Speed => self.shaft.speed(now, interval, gain)?,
             Quantity::Acceleration => self.shaft.acceleration(now, interval, gain)?,
         };
-        let ignores_sense = self.has_option(store, |options| options.ignore_sense);
-        let is_turned = has_sense && self.scale.is_reversed() && !ignores_sense;
+        let is_turned = has_sense
+            && self.scale.is_reversed()
+            && !self.has_option(store, |options| options.ignore_sense);
         Some(if is_turned {
             value.saturating_neg()
         } else {
