@@ -1,7 +1,8 @@
 // What the registries of Rust, Python, npm and Visual Studio Code would get, installed from the folder alone.
 import assert from 'node:assert/strict';
 import { appendFileSync, chmodSync, copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { homedir } from 'node:os';
+import { join, resolve } from 'node:path';
 import { test } from 'node:test';
 import { dist, file, room } from './room.mjs';
 
@@ -121,10 +122,11 @@ test('the licences of what each part has of others are in it', () => {
     return readFileSync(join(dir, 'unzipped', inner, name), 'utf8');
   };
   const wheel = file('python', /\.whl$/);
+  const info = `${wheel.match(/odkit-[\d.]+/)[0]}.dist-info`;
   const texts = {
     bin: readFileSync(join(dist, 'bin', name), 'utf8'),
     npm: run('tar', ['-xzOf', file('npm', /\.tgz$/), `package/${name}`]),
-    python: unzip(wheel, `${wheel.match(/odkit-[\d.]+/)[0].replace(/-$/, '')}.dist-info/licenses`),
+    python: unzip(wheel, `${info}/licenses`),
     site: readFileSync(join(dist, 'site', name), 'utf8'),
     vscode: unzip(file('vscode', /\.vsix$/), 'extension'),
   };
@@ -137,4 +139,21 @@ test('the licences of what each part has of others are in it', () => {
     assert.deepEqual(missing.map((one) => one.purl), [], part);
     for (const block of text.split(/\n={80}\n/).slice(1)) assert.match(block, /^(\S.*\n)+\n[^]*\S{3}/, part);
   }
+});
+
+test('no part names a folder of the computer that built it', () => {
+  const { dir, run } = room('paths');
+  const unpacked = [file('npm', /\.tgz$/), ...readdirSync(join(dist, 'crates')).map((name) => join(dist, 'crates', name))];
+  for (const archive of unpacked) run('tar', ['-xzf', archive]);
+  for (const archive of [file('python', /\.whl$/), file('vscode', /\.vsix$/)]) run('python3', ['-m', 'zipfile', '-e', archive, '.']);
+  const folders = [`${process.env.CARGO_HOME ?? join(homedir(), '.cargo')}/`, `${resolve(import.meta.dirname, '../..')}/od-`];
+  let seen = 0;
+  for (const place of [dir, join(dist, 'bin'), join(dist, 'site/playground'), join(dist, 'sbom')]) {
+    for (const one of readdirSync(place, { recursive: true, withFileTypes: true }).filter((one) => one.isFile())) {
+      const text = readFileSync(join(one.parentPath ?? one.path, one.name), 'latin1');
+      for (const folder of folders) assert.ok(!text.includes(folder), `${one.name} names ${folder}`);
+      seen += 1;
+    }
+  }
+  assert.ok(seen > 1000, `${seen} files`);
 });

@@ -11,6 +11,7 @@ use std::process::Command;
 
 use crate::console::{Console, cargo};
 use crate::error::{Error, Result};
+use crate::flags::without_paths;
 use crate::lock::SetupLock;
 use crate::packages::PAGE;
 use crate::repo::{self, Repo};
@@ -86,6 +87,8 @@ fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> 
     build.args(["--package", PAGE.0, "--target", target::WASM]);
     build.args(module.features);
     build.envs(RELEASE);
+    // A page for others does not name the folders of this computer, and is the same from any.
+    build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     console.run(module.what, &mut build)?;
     let wasm = repo
         .target

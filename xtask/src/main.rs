@@ -10,6 +10,7 @@ mod console;
 mod corpus;
 mod error;
 mod files;
+mod flags;
 mod fuzz;
 mod lock;
 mod mutants;

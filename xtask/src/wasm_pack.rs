@@ -10,6 +10,7 @@ use std::process::Command;
 use crate::bundle::RELEASE;
 use crate::console::{Console, which};
 use crate::error::{Error, Result};
+use crate::flags::without_paths;
 use crate::lock::SetupLock;
 use crate::repo::{Repo, program};
 use crate::setup::{binaryen, bindgen, node, target};
@@ -29,6 +30,7 @@ pub(crate) fn run(repo: &Repo, console: &Console, args: &[String]) -> Result<()>
     command
         .current_dir(&repo.root)
         .envs(RELEASE)
+        .env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root))
         .env("ODKIT_TOOLS", repo.tools());
     if args.is_empty() {
         command.args(DEFAULT);

@@ -1,14 +1,14 @@
 //! The command line for each system, linked with all that it needs.
 
-use std::env;
 use std::path::Path;
 
 use super::dist::Dist;
 use super::notices;
 use super::systems::{SYSTEMS, System};
-use crate::console::{ask_in, cargo, which};
+use crate::console::{cargo, which};
 use crate::error::Result;
 use crate::files;
+use crate::flags::without_paths;
 use crate::packages::CLI;
 use crate::setup::{apt, target};
 
@@ -46,24 +46,4 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     }
     notices::write(dist, "bin", folder)?;
     Ok(())
-}
-
-/// Flags of rustc, with which the places of messages are the same wherever it is built.
-pub(super) fn without_paths(root: &Path) -> String {
-    let home = |name: &str, place: &str| {
-        let path =
-            env::var(name).or_else(|_| env::var("HOME").map(|home| format!("{home}/{place}")));
-        path.unwrap_or_default()
-    };
-    let sysroot = ask_in(root, "rustc", &["--print", "sysroot"]).unwrap_or_default();
-    [
-        (root.display().to_string(), "odkit"),
-        (home("CARGO_HOME", ".cargo"), "cargo"),
-        (sysroot, "rust"),
-    ]
-    .iter()
-    .filter(|(path, _)| !path.is_empty())
-    .map(|(path, name)| format!("--remap-path-prefix={path}={name}"))
-    .collect::<Vec<_>>()
-    .join("\u{1f}")
 }

@@ -11,10 +11,14 @@ use crate::files;
 
 pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     for part in bill::PARTS {
-        let bill = bill::of(dist, part)?;
-        files::write(&folder.join(format!("{part}.cdx.json")), &json(&bill))?;
+        write(dist, part, &folder.join(format!("{part}.cdx.json")))?;
     }
     Ok(())
+}
+
+/// Writes the bill of a part into a file.
+pub(super) fn write(dist: &Dist<'_>, part: &str, file: &Path) -> Result<()> {
+    files::write(file, &json(&bill::of(dist, part)?))
 }
 
 fn json(bill: &Bill) -> String {

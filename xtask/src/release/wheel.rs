@@ -3,11 +3,12 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::binaries::without_paths;
 use super::dist::Dist;
 use super::notices;
+use super::sbom;
 use crate::console::clean;
 use crate::error::Result;
+use crate::flags::without_paths;
 use crate::setup::python;
 
 /// The builder of wheels, in the version that this was tried with.
@@ -27,6 +28,10 @@ pub(super) fn make(dist: &Dist<'_>, folder: &Path) -> Result<()> {
     let mut wheel = maturin(&["build", "--release", "--locked"]);
     wheel.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     wheel.arg("--target-dir").arg(repo.target.join("wheel"));
+    // Its own one names the folders of this computer.
+    let bill = repo.cache().join("odkit.cdx.json");
+    sbom::write(dist, "python", &bill)?;
+    wheel.arg("--sbom-include").arg(&bill);
     notices::within(dist, "python", &repo.root.join("python"), || {
         console.run("the wheel", &mut wheel)
     })?;
