@@ -1,10 +1,13 @@
 //! `odkit sim`: live nodes that masters reach over slcan, SocketCAN, socketcand or WebSocket.
 
+use std::path::Path;
+
 use od_bench::serve::{self, Maker};
+use od_runtime::NodeId;
 
 use crate::failure::Failure;
 use crate::live::Live;
-use crate::source::Source;
+use crate::source::{Source, node_id};
 
 /// Run live nodes; masters connect over slcan, SocketCAN, socketcand or WebSocket
 ///
@@ -18,11 +21,11 @@ use crate::source::Source;
 /// candump log).
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Built-in devices, or EDS or DCF files
-    #[arg(value_name = "DEVICE|FILE", required_unless_present = "more")]
+    /// Built-in devices, or EDS or DCF files; with a node ID as in gxmm@5, several as in gxmm@1,eam_mt@2
+    #[arg(value_name = "DEVICE|FILE[@ID]", required_unless_present = "more")]
     devices: Vec<String>,
     /// Another device on the bus; may be repeated
-    #[arg(long = "device", value_name = "DEVICE|FILE")]
+    #[arg(long = "device", value_name = "DEVICE|FILE[@ID]")]
     more: Vec<String>,
     #[command(flatten)]
     live: Live<true>,
@@ -30,13 +33,37 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut makers = Vec::new();
-    for name in args.devices.iter().chain(&args.more) {
-        let source = Source::find(name)?;
-        makers.push(Maker {
-            name,
-            kind: source.kind,
-            make: Box::new(move |node_id| source.device(node_id)),
-        });
+    for word in args.devices.iter().chain(&args.more) {
+        for (name, node_id) in devices(word)? {
+            let source = Source::find(name)?;
+            makers.push(Maker {
+                name,
+                kind: source.kind,
+                node_id,
+                make: Box::new(move |node_id| source.device(node_id)),
+            });
+        }
+    }
+    let is_numbered = makers.iter().any(|maker| maker.node_id.is_some());
+    if is_numbered && !args.live.0.node_ids.is_empty() {
+        let why = "`--node-id` and `@` both give node IDs; write one of them for all devices";
+        return Err(Failure::Usage(why.into()));
     }
     Ok(serve::run(&makers, &args.live.0)?)
+}
+
+/// The devices of `gxmm@1,eam_mt@2` with their node IDs; the path of a file may have these characters.
+fn devices(word: &str) -> Result<Vec<(&str, Option<NodeId>)>, Failure> {
+    let is_file = |name: &str| Path::new(name).exists();
+    if is_file(word) {
+        return Ok(vec![(word, None)]);
+    }
+    let names = word.split(',').map(|name| match name.rsplit_once('@') {
+        Some((device, id)) if !is_file(name) => match node_id(id) {
+            Ok(id) => Ok((device, Some(id))),
+            Err(why) => Err(Failure::Usage(format!("`{name}`: {why} after `@`"))),
+        },
+        _ => Ok((name, None)),
+    });
+    names.collect()
 }

@@ -48,8 +48,10 @@ pub(super) fn make(makers: &[Maker<'_>], args: &Options) -> Result<Vec<Place>, F
     }
     let mut places: Vec<Place> = Vec::new();
     for (at, (maker, channel)) in nodes.into_iter().enumerate() {
-        let device = one(maker, args, at, &places)?;
-        let mut device = match args.node_ids.get(at) {
+        let wanted = args.node_ids.get(at).copied();
+        let wanted = wanted.or_else(|| maker.node_id.filter(|_| channel == 0).map(Some));
+        let device = one(maker, wanted, &places)?;
+        let mut device = match wanted {
             Some(Some(_)) => device.with_node_switch(),
             _ => device.delivered(),
         };
@@ -128,11 +130,10 @@ fn eeprom(path: &Path, name: &str, device: &VirtualDevice, reset: bool) -> Resul
 /// A device with the node ID that it is given, else its own, else the next one that is free.
 fn one(
     maker: &Maker<'_>,
-    args: &Options,
-    at: usize,
+    wanted: Option<Option<NodeId>>,
     others: &[Place],
 ) -> Result<VirtualDevice, Failure> {
-    let wanted = match args.node_ids.get(at).copied() {
+    let wanted = match wanted {
         Some(None) => return unconfigured(maker),
         wanted => wanted.flatten(),
     };

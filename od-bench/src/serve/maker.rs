@@ -10,6 +10,8 @@ pub struct Maker<'m> {
     pub name: &'m str,
     /// The built-in device; `None`: a file describes it.
     pub kind: Option<&'static DeviceKind>,
+    /// Its node ID, of a redundant encoder that of the first node, as `--node-id` gives it; `None`: its own.
+    pub node_id: Option<NodeId>,
     /// Makes it.
     pub make: Make<'m>,
 }

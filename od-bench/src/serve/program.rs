@@ -48,6 +48,7 @@ fn serve(
     let maker = Maker {
         name,
         kind: None,
+        node_id: None,
         make: Box::new(|node_id| Ok(make(node_id))),
     };
     run(&[maker], options)

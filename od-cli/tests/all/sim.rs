@@ -86,7 +86,7 @@ fn a_domain_takes_what_the_option_says() {
 
 #[test]
 fn several_devices_share_the_bus() {
-    let sim = Sim::start(&["gxmm", "gcam", "--device", "gxam", "--node-id", "5"]);
+    let sim = Sim::start(&["gxmm@5,gcam", "--device", "gxam@7"]);
     for line in [
         "3 devices",
         "node 5 ",
@@ -103,6 +103,14 @@ fn several_devices_share_the_bus() {
         "5\rt60584000100000000000\rt60684000100000000000\rt60784000100000000000\r",
         "z\rz\rt58584300100096010200\rz\rt58684300100096010100\rz\rt58784300100096010100\r",
     );
+    for (args, why) in [
+        (&["gxmm@128"][..], "`gxmm@128`: write a node ID from 1 to 127"),
+        (&["gxmm@5", "--node-id", "6"], "write one of them"),
+    ] {
+        let wrong = odkit(&[&["sim"], args].concat(), "");
+        assert_eq!(wrong.code, 2);
+        assert!(wrong.err.contains(why), "{}", wrong.err);
+    }
 }
 
 #[test]
