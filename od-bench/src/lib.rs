@@ -29,6 +29,8 @@ pub mod journal;
 #[cfg(feature = "real")]
 mod knowledge;
 mod leds;
+#[cfg(feature = "eds")]
+mod left_out;
 pub mod lesson;
 pub mod links;
 #[cfg(feature = "eds")]

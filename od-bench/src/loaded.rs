@@ -8,6 +8,7 @@ use od_runtime::{LssProfile, NodeId, Profile};
 
 use crate::behaviour::Behaviour;
 use crate::device::VirtualDevice;
+use crate::left_out;
 use crate::long::Long;
 use crate::programs;
 use crate::roomy::roomy;
@@ -36,10 +37,11 @@ impl VirtualDevice {
 
     /// As [`from_eds`](Self::from_eds), with the findings also of a text that runs.
     pub fn read_eds(text: &str, options: EdsOptions) -> (Option<Self>, Vec<Finding>) {
-        let parsed = od_eds::load(text);
+        let mut parsed = od_eds::load(text);
         if !options.lenient && parsed.findings.iter().any(Finding::is_unsound) {
             return (None, parsed.findings);
         }
+        left_out::fill(&mut parsed.description);
         let description = &parsed.description;
         let commissioned = description.commissioned_node_id().and_then(NodeId::new);
         let node_id = options.node_id.or(commissioned).unwrap_or(NodeId::ONE);

@@ -6,4 +6,5 @@ mod mutant;
 mod mutants;
 mod simulated;
 mod stopped;
+mod traits;
 mod twin;

@@ -104,7 +104,10 @@ fn several_devices_share_the_bus() {
         "z\rz\rt58584300100096010200\rz\rt58684300100096010100\rz\rt58784300100096010100\r",
     );
     for (args, why) in [
-        (&["gxmm@128"][..], "`gxmm@128`: write a node ID from 1 to 127"),
+        (
+            &["gxmm@128"][..],
+            "`gxmm@128`: write a node ID from 1 to 127",
+        ),
         (&["gxmm@5", "--node-id", "6"], "write one of them"),
     ] {
         let wrong = odkit(&[&["sim"], args].concat(), "");

@@ -70,6 +70,8 @@ pub(super) fn check<D: Device>(
         (0x1016, 1..) if D::CONSUMER && is_watched_elsewhere(store, sub, value) => {
             Err(AbortCode::Incompatible)
         }
+        // CiA 301 reserves 03h to 7Fh; the bus covers have a meaning for 03h (chapter 7.5.2.32).
+        (0x1029, 1..) if D::BEHAVIOUR && matches!(value, 4..=0x7F) => Err(AbortCode::ValueRange),
         (0x1014, 0) | (0x1800..=0x19FF, 1) => check_cob_id(true),
         // An SDO exists while both COB-IDs are valid (chapter 7.5.2.33).
         (0x1201..=0x127F, 1 | 2) if D::SERVERS => check_cob_id(true),

@@ -5,7 +5,7 @@ use od_wire::nmt::Command;
 use od_wire::{CobId, Frame};
 
 use super::heartbeat::{emcy, sends_emcy};
-use super::transmit::{Mapped, learn_sync, mapping, sync};
+use super::transmit::{Mapped, contradiction, is_on, learn_sync, mapping, sync};
 use crate::conform::dut::Dut;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 
@@ -27,8 +27,9 @@ fn first(dut: &mut Dut<'_>, kind: u8) -> Checked<Rpdo> {
         };
         let entry = dut.eds.entry(one.address.index, one.address.sub);
         let fits = entry.is_some_and(|entry| entry.access.readable());
-        let is_on = CobId::new(cob_id).is_valid() && cob_id & 0x7FF != 0;
-        if !is_on || !fits || one.bits % 8 != 0 {
+        let is_whole = all.iter().all(|one| one.bits % 8 == 0);
+        let works = is_on(cob_id) && contradiction(dut.eds, &all, false).is_none();
+        if !works || !fits || !is_whole {
             continue;
         }
         dut.keep(one.address)?;

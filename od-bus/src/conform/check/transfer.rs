@@ -52,7 +52,9 @@ pub(super) fn one_answer(dut: &mut Dut<'_>) -> Checked {
 }
 
 pub(super) fn read_write_back(dut: &mut Dut<'_>) -> Checked {
-    let entries = dut.eds.writable();
+    let mut entries = dut.eds.writable();
+    // 1019h can be written only while 1006h is 0.
+    entries.retain(|entry| entry.address.index != 0x1019);
     let mut of_communication = entries.iter().filter(|entry| entry.address.index < 0x2000);
     let Some(entry) = of_communication.next().or_else(|| entries.first()) else {
         return lacks("no object can be written");
@@ -218,9 +220,13 @@ fn beyond(dut: &mut Dut<'_>, high: bool) -> Checked {
 /// A value just outside a limit, if the type has room for one.
 pub(super) fn outside(entry: &Entry, high: bool, node: u8) -> Option<Vec<u8>> {
     let (least, most) = entry.data_type.integer_range()?;
+    let (low, top) = (entry.low.integer(node), entry.high.integer(node));
+    if low > top && top.is_some() {
+        return None;
+    }
     let value = match high {
-        true => entry.high.integer(node)? + 1,
-        false => entry.low.integer(node)? - 1,
+        true => top? + 1,
+        false => low? - 1,
     };
     let size = entry.data_type.size()?;
     let fits = (least..=most).contains(&value);

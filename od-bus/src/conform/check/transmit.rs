@@ -5,6 +5,7 @@ use od_wire::nmt::Command;
 use od_wire::{CanId, CobId, Frame};
 
 use crate::conform::dut::Dut;
+use crate::conform::eds::Eds;
 use crate::conform::end::{Checked, ensure, fail, lacks};
 use crate::link::Heard;
 
@@ -40,10 +41,13 @@ pub(super) struct Mapped {
     pub(super) bits: usize,
 }
 
-/// The mapping, as the node has it.
+/// The mapping, as the node has it; empty for a multiplexed PDO, whose sub-index 0 is FEh or FFh.
 pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
-    let count = dut.number(map, 0)?.min(64) as u8;
     let mut all = Vec::new();
+    let count = match dut.number(map, 0)? {
+        0xFE.. => return Ok(all),
+        count => count.min(64) as u8,
+    };
     for sub in 1..=count {
         let raw = dut.number(map, sub)?;
         all.push(Mapped {
@@ -54,18 +58,52 @@ pub(super) fn mapping(dut: &mut Dut<'_>, map: u16) -> Checked<Vec<Mapped>> {
     Ok(all)
 }
 
-/// The first TPDO that is on.
+/// Why a node cannot have this mapping, by the EDS. A case of its own is about that (pdo-mapped-objects).
+pub(super) fn contradiction(eds: &Eds, all: &[Mapped], transmits: bool) -> Option<String> {
+    all.iter().find_map(|Mapped { address, bits }| {
+        if !transmits && address.index < 0x20 {
+            return None;
+        }
+        let Some(entry) = eds.entry(address.index, address.sub) else {
+            return Some(format!("{address} is mapped and missing"));
+        };
+        let may = match transmits {
+            true => entry.maps_to_tpdo(),
+            false => entry.maps_to_rpdo(),
+        };
+        let own = entry.data_type.bits().map_or(0, usize::from);
+        match may {
+            false => Some(format!("{address} cannot be mapped")),
+            true if own != *bits => {
+                Some(format!("{address} has {own} bits, and {bits} are mapped"))
+            }
+            true => None,
+        }
+    })
+}
+
+/// Whether a PDO has this COB-ID. One that CiA 301 keeps for itself, as 0, comes from an EDS that is wrong.
+pub(super) fn is_on(cob_id: u32) -> bool {
+    CobId::new(cob_id).is_valid() && !CobId::new(cob_id).is_restricted()
+}
+
+/// The first TPDO that is on, with a mapping that the EDS allows.
 pub(super) fn first(dut: &mut Dut<'_>) -> Checked<Tpdo> {
+    let mut why = String::from("no TPDO is on");
     for pdo in dut.eds.pdos(0x1800) {
         let com = 0x1800 + pdo;
         let cob_id = dut.number(com, 1)? as u32;
-        // 0 is NMT: a PDO that the EDS never gave an identifier.
-        let is_on = CobId::new(cob_id).is_valid() && cob_id & 0x7FF != 0;
-        if is_on && dut.number(com + 0x200, 0)? > 0 {
-            return Ok(Tpdo { com, cob_id });
+        if !is_on(cob_id) {
+            continue;
+        }
+        let all = mapping(dut, com + 0x200)?;
+        match contradiction(dut.eds, &all, true) {
+            None if all.is_empty() => {}
+            None => return Ok(Tpdo { com, cob_id }),
+            Some(contradiction) => why = format!("no TPDO works, by its EDS: {contradiction}"),
         }
     }
-    lacks("no TPDO is on")
+    lacks(why)
 }
 
 /// The first TPDO, sent by its event timer alone every so many milliseconds.
