@@ -21,6 +21,8 @@ const SLICE = 50_000;
 const MOST_UNDRAWN = 2;
 /** Frames at the end of a batch that come with their words. */
 const WITH_WORDS = 48;
+/** Milliseconds between two pictures of a bench on which nothing happens but that time passes. */
+const QUIET = 50;
 /** Milliseconds between two readings of the watched objects. */
 const WATCH_PERIOD = 200;
 /** Inputs that change what is on the bus. */
@@ -43,6 +45,10 @@ export class Engine {
   private last = performance.now();
   private undrawn = 0;
   private changed = true;
+  /** Of the last picture: its moment, where the shafts were, and whether one turned. */
+  private shownAt = 0;
+  private turns = '';
+  private isTurning = false;
   private selected = 0;
   private watched: Address[] = [];
   private plotted: Address[] = [];
@@ -224,11 +230,11 @@ export class Engine {
     this.last = wall;
     if (this.live) {
       this.live.follow();
-      if (this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+      if (this.isDue(wall)) this.snapshot(wall);
       return;
     }
     if (world.bus.deviceCount() === 0 && world.bus.toCome() === 0) {
-      if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+      if (this.undrawn < MOST_UNDRAWN && this.changed) this.snapshot(wall);
       return;
     }
     if (this.until !== null) {
@@ -244,10 +250,16 @@ export class Engine {
       this.changed = true;
     } else if (this.running) {
       this.pass(wall, Math.floor(gap * 1000 * this.factor));
-      this.changed = true;
     }
     if (this.running) this.measure(wall);
-    if (this.changed && this.undrawn < MOST_UNDRAWN) this.snapshot(wall);
+    if (this.isDue(wall)) this.snapshot(wall);
+  }
+
+  /** Is there something to show? Where only time passes, a picture now and then does. */
+  private isDue(wall: number): boolean {
+    if (this.undrawn >= MOST_UNDRAWN) return false;
+    const isRunning = this.running || this.live !== null;
+    return this.changed || (isRunning && (this.isTurning || this.world.bus.pending() > 0 || wall - this.shownAt >= QUIET));
   }
 
   /** What was missed at the end of the budget is missed: time is slower, not late. */
@@ -270,7 +282,10 @@ export class Engine {
   /** A checkpoint that is reached stops time: there is something to read. */
   private pauseAtGoal(): boolean {
     const isReached = this.world.reachedGoal() && !this.live;
-    if (isReached) this.running = false;
+    if (isReached) {
+      this.running = false;
+      this.changed = true;
+    }
     return isReached;
   }
 
@@ -315,6 +330,10 @@ export class Engine {
     }
     const nodes = Array.from({ length: bus.deviceCount() }, (_, number) => bus.status(number));
     for (const [ticket, outcome] of world.outcomes()) this.answer(ticket, outcome);
+    const turns = nodes.map(({ shaft }) => shaft?.turns).join();
+    this.isTurning = turns !== this.turns;
+    this.turns = turns;
+    this.shownAt = wall;
     this.changed = false;
     this.undrawn += 1;
     this.report(
