@@ -1,15 +1,18 @@
-// A stand-in for Web Serial: the page's port leads to a TCP connection of the test.
-import { connect } from 'node:net';
-import { once } from 'node:events';
+// A stand-in for Web Serial: the page's port leads to a terminal, as that of a USB adapter would.
+import { constants, openSync } from 'node:fs';
+import { ReadStream } from 'node:tty';
 import { URL_OF_PAGE } from './harness.mjs';
 
-/** Opens the page with an adapter; `plug` leads its port to an address, or to nobody, `pull` pulls it out. */
+/** A terminal, byte by byte, as a browser opens it. */
+const terminal = (path) => new ReadStream(openSync(path, constants.O_RDWR | constants.O_NOCTTY)).setRawMode(true);
+
+/** Opens the page with an adapter; `plug` leads its port to a terminal, or to nobody, `pull` pulls it out. */
 export async function withAdapter(browser) {
   const context = await browser.newContext({ viewport: { width: 1366, height: 625 } });
   const page = await context.newPage();
-  let socket = null;
+  let line = null;
   let isPlugged = false;
-  await page.exposeFunction('toAdapter', (text) => void socket?.write(text, 'latin1'));
+  await page.exposeFunction('toAdapter', (text) => void line?.write(text, 'latin1'));
   await page.exposeFunction('isPlugged', () => isPlugged);
   await page.addInitScript(() => {
     const serial = new EventTarget();
@@ -34,24 +37,24 @@ export async function withAdapter(browser) {
   await page.goto(URL_OF_PAGE);
   return {
     page,
-    async plug(address) {
-      if (address) {
-        const [host, place] = address.split(':');
-        socket = connect(Number(place), host);
-        await once(socket, 'connect');
-        socket.on('data', (bytes) => void page.evaluate((text) => globalThis.fromAdapter(text), bytes.toString('latin1')).catch(() => undefined));
+    async plug(path) {
+      if (path) {
+        line = terminal(path);
+        // A terminal whose other end is gone says so by an error.
+        line.on('error', () => undefined);
+        line.on('data', (bytes) => void page.evaluate((text) => globalThis.fromAdapter(text), bytes.toString('latin1')).catch(() => undefined));
       }
       isPlugged = true;
       await page.evaluate(() => globalThis.plugged());
     },
     async pull() {
       isPlugged = false;
-      socket?.destroy();
-      socket = null;
+      line?.destroy();
+      line = null;
       await page.evaluate(() => globalThis.pulled());
     },
     close: async () => {
-      socket?.destroy();
+      line?.destroy();
       await context.close();
     },
   };

@@ -34,5 +34,5 @@ export async function odkit(args, pattern) {
 export const simulated = (devices, port = 0, more = '') =>
   odkit(['sim', ...devices, '--link', `ws:127.0.0.1:${port}${more}`], /pages on (ws:\S+)/);
 
-/** `odkit sim` as an adapter that speaks slcan; `found` is `HOST:PORT`. */
-export const adapted = (devices) => odkit(['sim', ...devices, '--link', 'slcan:127.0.0.1:0'], /slcan on (\S+:\d+)/);
+/** `odkit sim` as an adapter that speaks slcan; `found` is its terminal. */
+export const adapted = (devices) => odkit(['sim', ...devices, '--link', 'slcan:pty'], /slcan on (\/\S+)/);

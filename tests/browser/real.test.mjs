@@ -1,18 +1,20 @@
 // A real bus in the page: over WebSocket against `odkit sim`, and through an adapter.
 import assert from 'node:assert/strict';
-import { after, test } from 'node:test';
+import { afterEach, test } from 'node:test';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
 import { withAdapter } from './adapter.mjs';
 import { browser, open } from './check.mjs';
 import { adapted, simulated } from './odkit.mjs';
 
+/** The programs of the test that runs. */
 const running = [];
-const sim = async (...args) => {
-  const one = await simulated(...args);
+const started = async (starting) => {
+  const one = await starting;
   running.push(one);
   return one;
 };
-after(() => Promise.all(running.map((one) => one.stop())));
+const sim = (...args) => started(simulated(...args));
+afterEach(() => Promise.all(running.splice(0).map((one) => one.stop())));
 
 const dialog = (page) => page.getByRole('dialog', { name: /Real bus|Connect to a real bus/ });
 const mark = (page) => page.locator('.topbar .real-mark');
@@ -190,8 +192,7 @@ on('a search finds the nodes; one of ours has its dictionary, and its values are
 });
 
 test('an adapter over Web Serial: its bus is shown, and a cable that was pulled out and plugged in again goes on', async () => {
-  const bus = await adapted(['gxmm', '--node-id', '7']);
-  running.push(bus);
+  const bus = await started(adapted(['gxmm', '--node-id', '7']));
   const { page, plug, pull, close } = await withAdapter(browser);
   try {
     await booted(page);
