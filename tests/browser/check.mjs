@@ -1,15 +1,39 @@
-// One browser per test file, and one page per test.
+// One browser, and for each test a page that knows nothing of the tests before.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { launch, open as openIn } from './harness.mjs';
+import { blank, launch, opened, URL_OF_PAGE, visit } from './harness.mjs';
 
 /** The browser of this file. */
 export let browser;
 before(async () => (browser = await launch()));
 after(() => browser?.close());
 
-/** Opens the page in the browser of this file. */
-export const open = (options) => openIn(browser, options);
+/** Pages whose tests are over: a tab that goes on costs half of what a new one does. */
+const idle = [];
+
+/** A tab as if nobody had been there, but for the service worker. */
+async function forget(page) {
+  await page.mouse.move(0, 0);
+  await page.goto('about:blank');
+  const client = await page.context().newCDPSession(page);
+  await client.send('Storage.clearDataForOrigin', { origin: new URL(URL_OF_PAGE).origin, storageTypes: 'local_storage,indexeddb' });
+  await client.detach();
+}
+
+/** Opens the page in the browser of this file. What needs more than a size gets a context of its `own`. */
+export async function open({ width = 1280, height = 800, hash, own = false, ...context } = {}) {
+  const isOwn = own || Object.keys(context).length > 0;
+  const page = (isOwn ? null : idle.pop()) ?? (await blank(browser, { width, height, ...context }));
+  await page.setViewportSize({ width, height });
+  const faults = await visit(page, hash);
+  const close = async () => {
+    opened.delete(page);
+    if (isOwn) return page.context().close();
+    await forget(page);
+    idle.push(page);
+  };
+  return { page, faults, close };
+}
 
 /**
  * Makes `check(name, [options,] body)`: a test with a page of its own, which must not complain on

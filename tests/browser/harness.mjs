@@ -15,19 +15,28 @@ export const launch = () => chromium.launch({ executablePath, args: ARGS });
 /** The pages that are open, and what went wrong in them. */
 export const opened = new Map();
 
-/**
- * Opens the page in a context of its own. `faults` collects what went wrong in it:
- * console errors, uncaught exceptions, requests that failed.
- */
-export async function open(browser, { width = 1280, height = 800, hash = '', ...context } = {}) {
-  const own = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, ...context });
+/** An empty page in a context of its own. Motion is reduced: nothing fades, so a look finds what stays. */
+export async function blank(browser, { width = 1280, height = 800, ...context } = {}) {
+  const own = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, reducedMotion: 'reduce', ...context });
   const page = await own.newPage();
-  const faults = [];
-  page.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
-  page.on('pageerror', (error) => faults.push(String(error)));
-  page.on('requestfailed', (request) => faults.push(`${request.url()} ${request.failure()?.errorText}`));
-  opened.set(page, faults);
+  const fault = (text) => opened.get(page)?.push(text);
+  page.on('console', (message) => message.type() === 'error' && fault(message.text()));
+  page.on('pageerror', (error) => fault(String(error)));
+  page.on('requestfailed', (request) => fault(`${request.url()} ${request.failure()?.errorText}`));
   page.on('close', () => opened.delete(page));
+  return page;
+}
+
+/** Goes to the page; answers with what goes wrong in it: console errors, exceptions, requests that failed. */
+export async function visit(page, hash = '') {
+  const faults = [];
+  opened.set(page, faults);
   await page.goto(new URL(hash, URL_OF_PAGE).href);
-  return { page, faults, close: () => own.close() };
+  return faults;
+}
+
+/** Opens the page in a context of its own. */
+export async function open(browser, { hash, ...context } = {}) {
+  const page = await blank(browser, context);
+  return { page, faults: await visit(page, hash), close: () => page.context().close() };
 }

@@ -238,7 +238,7 @@ check('nothing is offered where nothing was done', async (page) => {
 });
 
 test('it loads without a network after the first visit', async () => {
-  const { page, faults, close } = await open();
+  const { page, faults, close } = await open({ own: true });
   await booted(page);
   await page.evaluate(async () => {
     const { active } = await navigator.serviceWorker.ready;

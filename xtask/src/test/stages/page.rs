@@ -44,7 +44,8 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
     let built = odkit(context)?;
     node::ci(context.console, &tests, "fetching npm packages")?;
     let server = Server::start(context.repo, Some(0))?;
-    let mut command = node_test(context, &tests, &[]);
+    // One process: a browser and its pages serve all files.
+    let mut command = node_test(context, &tests, &["all.mjs"]);
     command
         .env("ODKIT_URL", &server.url)
         .env("ODKIT", built.join(program(CLI.1)))

@@ -1,0 +1,5 @@
+// All tests in one process: one browser, and few pages, for all of them.
+import { readdir } from 'node:fs/promises';
+
+const files = (await readdir(new URL('.', import.meta.url))).filter((name) => name.endsWith('.test.mjs'));
+for (const file of files.sort()) await import(`./${file}`);
