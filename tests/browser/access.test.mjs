@@ -1,23 +1,9 @@
 // People who use no mouse, no eyes, or little light: axe finds nothing, keys reach everything.
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import { test } from 'node:test';
+import { flawless } from './axe.mjs';
 import { becomes, booted, nmt, row } from './bench.mjs';
 import { open } from './check.mjs';
-
-const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-async function faults(page, part) {
-  // The page itself may load no script but its own.
-  if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe);
-  // What holds needs no address.
-  const { violations } = await page.evaluate((part) => globalThis.axe.run(part, { resultTypes: ['violations'] }), part);
-  return violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).join(', ')}`);
-}
-
-/** What axe finds in the page, or in a part of it, where the rest was looked at before. */
-const flawless = (page, where, part = 'html') => becomes(`what axe finds: ${where}`, () => faults(page, part), []);
 
 for (const colorScheme of ['light', 'dark']) {
   test(`axe finds nothing, ${colorScheme}`, async () => {

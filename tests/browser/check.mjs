@@ -1,6 +1,6 @@
 // One browser, and for each test a page that knows nothing of the tests before.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { after, afterEach, before, test } from 'node:test';
 import { blank, launch, opened, URL_OF_PAGE, visit } from './harness.mjs';
 
 /** The browser of this file. */
@@ -10,6 +10,13 @@ after(() => browser?.close());
 
 /** Pages whose tests are over: a tab that goes on costs half of what a new one does. */
 const idle = [];
+
+/** Pages of the test that runs; those of one that failed would go on. */
+const inUse = new Set();
+afterEach(async () => {
+  for (const page of inUse) await page.context().close();
+  inUse.clear();
+});
 
 /** A tab as if nobody had been there, but for the service worker. */
 async function forget(page) {
@@ -25,9 +32,11 @@ export async function open({ width = 1280, height = 800, hash, own = false, ...c
   const isOwn = own || Object.keys(context).length > 0;
   const page = (isOwn ? null : idle.pop()) ?? (await blank(browser, { width, height, ...context }));
   await page.setViewportSize({ width, height });
+  inUse.add(page);
   const faults = await visit(page, hash);
   const close = async () => {
     opened.delete(page);
+    inUse.delete(page);
     if (isOwn) return page.context().close();
     await forget(page);
     idle.push(page);

@@ -1,6 +1,7 @@
 // A real bus in the page: over WebSocket against `odkit sim`, and through an adapter.
 import assert from 'node:assert/strict';
 import { afterEach, test } from 'node:test';
+import { flawless } from './axe.mjs';
 import { becomes, booted, captured, nmt, row, rows, sdo, sdoNote, sendRaw, until } from './bench.mjs';
 import { withAdapter } from './adapter.mjs';
 import { browser, open } from './check.mjs';
@@ -51,6 +52,7 @@ on('a bus over WebSocket is shown, marked in red, and nothing is sent before som
   const before = await captured(page);
   await connect(page, found);
   await becomes('the mark', () => mark(page).innerText(), /Real bus/);
+  await flawless(page, 'a real bus');
   for (const name of ['Pause time', 'Step back one frame', 'Share and save']) assert.equal(await page.getByRole('button', { name }).isVisible(), false, name);
   await nmt(page, 'Start');
   await page.getByText('Sending to the real bus is off.').waitFor();
@@ -85,6 +87,7 @@ on('what keeps a page from a bus is said in words, and the virtual bench goes on
     await dialog(page).getByRole('button', { name: 'Connect', exact: true }).click();
     await becomes(`the reason for ${address}`, () => problem(page), words);
   }
+  await flawless(page, 'the dialog', 'dialog[open]');
   await page.keyboard.press('Escape');
   await sendRaw(page, '601#40 00 10 00');
   await row(page, 'the answer of the virtual node', (one) => one.id === '581');

@@ -8,7 +8,7 @@ import { URL_OF_PAGE } from './harness.mjs';
 const SIZES = [[1920, 1080], [1366, 625], [1280, 800], [1024, 768], [720, 450], [640, 400], [390, 844]];
 const EMBEDDED = [['', 900, 600], ['encoder', 420, 520], ['console', 700, 500], ['objects', 420, 420]];
 
-/** What is too small, cut or covered, in words; looked at where it is, so the page may scroll. */
+/** What is too small, cut or covered, in words; what is not in sight is scrolled to. */
 const cramped = (page) =>
   page.evaluate(() => {
     const faults = [];
@@ -31,11 +31,17 @@ const cramped = (page) =>
       const isText = [...it.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
       if (!isControl && !isText) continue;
       if (it.closest('.row, option, svg')) continue;
-      it.scrollIntoView({ block: 'center', inline: 'nearest' });
-      const { left, top, width, height } = it.getBoundingClientRect();
-      const there = document.elementFromPoint(left + Math.min(width / 2, innerWidth - left - 1), top + height / 2);
-      const isInside = !there || it.contains(there) || there.contains(it) || it.parentElement.contains(there);
-      if (!isInside) faults.push(`${nameOf(it)} is covered by ${nameOf(there)}`);
+      const over = () => {
+        const { left, top, width, height } = it.getBoundingClientRect();
+        const there = document.elementFromPoint(left + Math.min(width / 2, innerWidth - left - 1), top + height / 2);
+        return there && (it.contains(there) || there.contains(it) || it.parentElement.contains(there)) ? null : (there ?? it);
+      };
+      if (over()) {
+        it.scrollIntoView({ block: 'center', inline: 'nearest' });
+        const there = over();
+        if (there && there !== it) faults.push(`${nameOf(it)} is covered by ${nameOf(there)}`);
+      }
+      const { width, height } = it.getBoundingClientRect();
       if (innerWidth < 600 && isControl && !it.matches('input[type=checkbox], input[type=radio], .link') && Math.min(width, height) < 39.5) faults.push(`${nameOf(it)} is ${Math.round(width)} × ${Math.round(height)} pixels: too small for a finger`);
     }
     scrollTo(0, 0);

@@ -155,11 +155,13 @@ check('a dropped EDS, its node and its values go along', async (page) => {
 });
 
 test('bad links get a message and a fresh bench', async () => {
-  for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900']) {
+  for (const hash of ['#bench=', '#bench=%%%', '#bench=AAAA', '#bench=q1bKz1ayUtJRykvMTVWyUsooKSmw0tcvLy_XSyvNS9dLzs8FAA', '#device=nonsense&node=900', `#${'device=gxam&'.repeat(2000)}`, '#bus=%']) {
     const { page, faults, close } = await open({ hash });
     await booted(page);
     if (hash.startsWith('#bench')) await until(`a message about ${hash}`, () => page.getByText('This link cannot be opened').isVisible());
-    if (hash.startsWith('#device')) await until('a message about the device', () => page.getByText('No built-in device is named “nonsense”').isVisible());
+    if (hash.includes('nonsense')) await until('a message about the device', () => page.getByText('No built-in device is named “nonsense”').isVisible());
+    if (hash.includes('gxam')) await until('a message about the devices', () => page.getByText('The address names 2000 devices. The page starts with the first 4.').isVisible());
+    if (hash.startsWith('#bus')) await until('a message about the bus', () => page.getByText('This is not an address.').isVisible());
     await becomes('the state', () => state(page), 'Pre-operational');
     assert.deepEqual(faults, []);
     await close();

@@ -164,7 +164,9 @@ function remember(): void {
 export function recall(): { source: Source; nodeId: number }[] {
   const parts = new URLSearchParams(location.hash.slice(1));
   const nodes = parts.getAll('node').map(Number);
-  const names = parts.getAll('device').slice(0, MOST_NODES);
+  const all = parts.getAll('device');
+  const names = all.slice(0, MOST_NODES);
+  if (all.length > MOST_NODES) state.toast.value = { text: T.app.tooMany(MOST_NODES, all.length), tone: 'error' };
   return (names.length ? names : ['gxmm']).map((name, i) => {
     const node = nodes[i] ?? i + 1;
     return {

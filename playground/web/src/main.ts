@@ -20,7 +20,7 @@ async function open(): Promise<void> {
     if (await openHash(hash)) return;
   }
   if (hash.startsWith('#bus=')) {
-    const bus = decodeURIComponent(hash.slice(5));
+    const bus = plain(hash.slice(5));
     history.replaceState(null, '', location.pathname + location.search);
     if (state.devices.value.length === 0) await begin(recall());
     await import('./real/dialog');
@@ -40,6 +40,15 @@ async function open(): Promise<void> {
   }
   // A real bus that is shown stays.
   if (!state.real.value) await begin(recall());
+}
+
+/** What an address says; one that is not well encoded is taken as it is written. */
+function plain(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
 }
 
 /** What can wait until the bench runs. A frame in another page keeps nothing. */

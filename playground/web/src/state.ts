@@ -109,7 +109,7 @@ export const tour = signal<number | null>(null);
 export type Tab = 'encoder' | 'console' | 'objects' | 'lesson';
 export const tab = signal<Tab>('encoder');
 
-/** A message that goes away by itself. */
+/** A message. One about a fault stays until it is closed or another comes. */
 export const toast = signal<{ text: string; tone: 'info' | 'error'; action?: { text: string; run(): void } } | null>(null);
 
 /** What the page offers once, until it is taken or waved away. */

@@ -39,6 +39,9 @@ export class Code {
   readonly view: EditorView;
   /** The end of a line in the file. */
   private readonly lineEnd: string;
+  /** Both kinds of line ends are in the file: it is saved with one. */
+  readonly isMixed: boolean;
+  private readonly first: Text;
   private version = 1;
   /** Versions that are being checked, and what changed since each. */
   private unchecked: { version: number; doc: Text; since: ChangeSet | null }[];
@@ -51,7 +54,9 @@ export class Code {
     private readonly on: { found(found: Found): void; changed(): void; leave(): void },
   ) {
     const crlf = text.split('\r\n').length - 1;
-    this.lineEnd = crlf > 0 && crlf * 2 >= text.split('\n').length - 1 ? '\r\n' : '\n';
+    const all = text.split('\n').length - 1;
+    this.lineEnd = crlf > 0 && crlf * 2 >= all ? '\r\n' : '\n';
+    this.isMixed = crlf > 0 && crlf < all;
     const root = place.shadowRoot ?? place.attachShadow({ mode: 'open' });
     root.replaceChildren();
     const state = EditorState.create({
@@ -88,6 +93,7 @@ export class Code {
         theme,
       ],
     });
+    this.first = state.doc;
     this.view = new EditorView({ state, root, parent: root });
     this.unchecked = [{ version: 1, doc: state.doc, since: null }];
     this.unlisten = listen(uri, (found) => this.found(found));
@@ -101,6 +107,20 @@ export class Code {
   /** The text as a file has it. */
   get text(): string {
     return this.view.state.doc.sliceString(0, undefined, this.lineEnd);
+  }
+
+  get isChanged(): boolean {
+    return !this.view.state.doc.eq(this.first);
+  }
+
+  /** How a line ends in the file that is saved. */
+  get ending(): string {
+    return this.lineEnd === '\n' ? 'LF' : 'CRLF';
+  }
+
+  /** Another text in its place, as if it were typed. */
+  replace(text: string): void {
+    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
   }
 
   /** Takes the findings of a text that was opened again. */

@@ -35,6 +35,10 @@ class Editor extends View {
   private device: state.OpenedDevice | null = null;
   private original = '';
   private origin: Origin = { text: '' };
+  /** The text that runs, and the texts of other devices that were left with changes. */
+  private running = '';
+  private readonly drafts = new Map<string, { since: string[]; text: string }>();
+  private key = '';
   private fixes: { finding: Finding; actions: Action[] } | null = null;
   private unopen: (() => void) | undefined;
   private compared = 0;
@@ -70,7 +74,7 @@ class Editor extends View {
 
   private async open(dialog: HTMLDialogElement, wanted: state.Editing): Promise<void> {
     dialog.showModal();
-    const isSame = this.device && this.code && this.device.name === wanted.name && this.device.place === wanted.place && (this.original === wanted.text || this.code.text === wanted.text || (wanted.builtin && wanted.builtin === ('name' in this.origin && this.origin.name)));
+    const isSame = this.device && this.code && this.device.name === wanted.name && this.device.place === wanted.place && ([this.original, this.running, this.code.text].includes(wanted.text) || (wanted.builtin && wanted.builtin === ('name' in this.origin && this.origin.name)));
     this.device = wanted;
     if (!isSame) await this.load(wanted);
     if (wanted.at) this.code?.go(wanted.at);
@@ -78,14 +82,18 @@ class Editor extends View {
   }
 
   private async load(wanted: state.Editing): Promise<void> {
-    const { name, text, bytes, builtin } = wanted;
-    if (this.code) send({ op: 'close', uri: this.code.uri });
+    const { name, text, bytes, builtin, place } = wanted;
+    if (this.code) {
+      if (this.code.isChanged) this.drafts.set(this.key, { since: [this.original, this.running], text: this.code.text });
+      send({ op: 'close', uri: this.code.uri });
+    }
+    this.key = `${place}/${name}`;
     this.code?.dispose();
     this.list?.dispose();
     this.clear();
     this.origin = builtin ? { name: builtin } : bytes ? { bytes } : { text };
     const uri = uriOf(name);
-    this.original = await ask('open', uri, this.origin);
+    this.original = this.running = await ask('open', uri, this.origin);
     const on = { found: (found: Found) => this.check(found), changed: () => this.changed(), leave: () => this.close() };
     this.code = new Code(this.querySelector<HTMLElement>('.code')!, uri, this.original, on);
     this.list = new FindingList(this.querySelector<HTMLElement>('.found')!, uri, (finding) => void this.choose(finding), (finding) => this.offered(finding));
@@ -93,6 +101,14 @@ class Editor extends View {
     outline.uri = uri;
     outline.go = (line) => this.code?.go({ line, character: 0 });
     outline.refresh();
+    if (this.code.isMixed) this.note = { text: E.editor.mixed(this.code.ending), isBad: false };
+    const draft = this.drafts.get(this.key);
+    this.drafts.delete(this.key);
+    // Of the same text; what another file of this name had is not wanted here.
+    if (draft?.since.includes(this.original)) {
+      this.code.replace(draft.text);
+      this.note = { text: E.editor.draft, isBad: false };
+    }
   }
 
   /** The worker broke: the text as it is goes to a fresh one. */
@@ -175,13 +191,15 @@ class Editor extends View {
     }
     this.device = { ...device, place: node };
     this.ran = true;
+    this.running = text;
+    this.key = `${node}/${name}`;
     this.note = { text: (lenient ? E.editor.ranLenient : E.editor.ran)(nodeId), isBad: false };
     this.show('changes');
   }
 
   private async save(): Promise<void> {
     const { code, device } = this;
-    if (code && device) download(new Uint8Array(await ask('encode', this.origin, code.text)), device.name);
+    if (code && device) download(new Uint8Array(await ask('encode', this.origin, code.isChanged ? code.text : this.original)), device.name);
   }
 
   private close(): void {

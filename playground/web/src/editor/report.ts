@@ -77,7 +77,7 @@ class Report extends View {
     const total = found ? found.counts.error + found.counts.warning + found.counts.info : 0;
     return html`<section class="report" role=${opened.isBad ? 'alert' : 'region'} aria-label=${E.report.label} data-bad=${opened.isBad}
       @keydown=${(event: KeyboardEvent) => event.key === 'Escape' && close()}>
-      <header>
+      <header role="none">
         <h3>${opened.said}</h3>
         ${device ? html`<span class="muted">${found ? (total ? E.counts(found.counts.error, found.counts.warning, found.counts.info) : E.report.clean) : E.checking}</span>` : nothing}
         <div class="spacer"></div>

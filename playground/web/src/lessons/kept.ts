@@ -16,15 +16,27 @@ const read = <T>(key: string, none: T): T => {
   }
 };
 
-export const progress = (): Progress => read<Progress>(KEY, {});
+const isDone = (value: unknown): value is Done =>
+  Array.isArray(value) && value.length === 3 && value.slice(0, 2).every((count) => Number.isSafeInteger(count) && count >= 0) && /^\d{4}-\d\d-\d\d$/.test(String(value[2]));
+
+/** What somebody else wrote there is left out. */
+export const progress = (): Progress => {
+  const known: unknown = read(KEY, {});
+  return Object.fromEntries(Object.entries(known ?? {}).filter((one): one is [string, Done] => isDone(one[1])));
+};
+
+const old = (): string[] => {
+  const names: unknown = read(OLD, []);
+  return Array.isArray(names) ? names.filter((name) => typeof name === 'string') : [];
+};
 
 export const finished = (): Set<string> =>
-  new Set([...read<string[]>(OLD, []), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
+  new Set([...old(), ...Object.entries(progress()).filter(([, [done, all]]) => done >= all).map(([name]) => name)]);
 
 /** So many steps of a lesson are done; a lesson that is taken again loses nothing. */
 export function reached(name: string, done: number, all: number): void {
   const known = progress();
-  const [before = 0, of] = known[name] ?? [];
+  const [before = 0, of] = Object.hasOwn(known, name) ? known[name]! : [];
   if (done === 0 || (done <= before && of === all)) return;
   try {
     localStorage.setItem(KEY, JSON.stringify({ ...known, [name]: [done, all, new Date().toISOString().slice(0, 10)] }));

@@ -16,6 +16,7 @@ export const page = {
     restarted: (why: string) => `The simulation stopped (${why}) and was started again.`,
     hung: 'it does not answer',
     hungRestarted: 'The simulation did not answer for 2 s. It was started again from its last good moment.',
+    tooMany: (most: number, all: number) => `The address names ${all} devices. The page starts with the first ${most}.`,
     noDevice: (name: string) => `No built-in device is named “${name}”. The page starts with gxmm.`,
     unloaded: 'the worker could not be loaded',
   },

@@ -22,6 +22,9 @@ const TABS = ['encoder', 'console', 'objects', 'lesson'] as const satisfies stat
 /** The parts of the page, in the order in which F6 goes through them. */
 const PARTS = ['.dial', 'od-encoder .switch', '.object-rows', '.lesson', '.frames', '#raw-frame', '.topbar .device-button'];
 
+/** Milliseconds that a message without a fault stays. */
+const READ = 20_000;
+
 class App extends View {
   static override properties = { isDropping: { state: true } };
   declare isDropping: boolean;
@@ -63,7 +66,8 @@ class App extends View {
     });
     effect(() => {
       const { value } = state.toast;
-      if (value) setTimeout(() => state.toast.value === value && (state.toast.value = null), value.action ? 20_000 : 6000);
+      // What went wrong stays until somebody has read it.
+      if (value?.tone === 'info') setTimeout(() => state.toast.value === value && (state.toast.value = null), READ);
     });
   }
 

@@ -48,7 +48,7 @@ class Lessons extends View {
     const failed = state.lessonFailed.value;
     if (!failed) return nothing;
     return html`<section class="faults" role="alert">
-      <header><h3>${T.lessons.failed(failed.name, failed.problems.length)}</h3></header>
+      <header role="none"><h3>${T.lessons.failed(failed.name, failed.problems.length)}</h3></header>
       <ol class="scroll" tabindex="0" aria-label=${T.lessons.failed(failed.name, failed.problems.length)}>${failed.problems.map((one) => html`<li data-severity="error">
         <span class="where">${one.line ? T.lessons.line(one.line) : nothing}</span>
         <span>${one.message}${one.help ? html`<span class="help muted">${one.help}</span>` : nothing}</span></li>`)}</ol>

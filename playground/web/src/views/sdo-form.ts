@@ -21,7 +21,7 @@ class SdoForm extends View {
   declare offered: ObjectRecord[];
   declare active: number;
   declare isBusy: boolean;
-  private unselect: (() => void) | undefined;
+  private effects: (() => void)[] = [];
 
   constructor() {
     super();
@@ -35,15 +35,22 @@ class SdoForm extends View {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.unselect = effect(() => {
-      const object = state.selected.value;
-      if (object) this.choose(object);
-    });
+    this.effects.push(
+      effect(() => {
+        const object = state.selected.value;
+        if (object) this.choose(object);
+      }),
+      // What a device said is not said by another one, nor at another moment.
+      effect(() => {
+        void state.device.value;
+        this.result = null;
+      }),
+    );
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
-    this.unselect?.();
+    for (const stop of this.effects.splice(0)) stop();
   }
 
   private choose(object: ObjectRecord): void {

@@ -57,7 +57,7 @@ class Topbar extends View {
         @click=${() => (isChosen ? (state.deviceDialog.value = number) : select(number))}>
         <i class="nmt-dot" data-nmt=${nmt}></i>
         <strong>${device.name}</strong>
-        ${devices.length === 1 ? html`<span class="device-title">${device.source.kind === 'eds' ? device.source.name : device.title}</span>` : nothing}
+        ${devices.length === 1 ? html`<span class="device-title">${device.source.kind === 'eds' ? device.source.name : T.dialog.kind(device.title.replace(/^[A-Z0-9]+, /, ''))}</span>` : nothing}
         <span class="badge">${T.topbar.nodeBadge(node)}</span><span class="sr">, ${nmt}</span>
         ${isChosen ? icons.chevron : nothing}
       </button>`;
