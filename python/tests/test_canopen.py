@@ -112,7 +112,8 @@ def is_read(path):
         return False
 
 
-@pytest.mark.skipif(CORPUS is None, reason="ODKIT_LONG, and a folder of device files")
+@pytest.mark.long
+@pytest.mark.skipif(CORPUS is None, reason="no folder of device files")
 def test_the_corpus_is_equal():
     for path in files(CORPUS):
         unknown, _ = compare(path)

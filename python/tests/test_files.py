@@ -158,8 +158,11 @@ def test_overlays(tmp_path, gxmm):
         (error,) = laid.errors
         assert (error.path, error.line, error.code) == (str(path), 2, "E0412")
         assert laid[0x6004].name == "Position value"
-    good = odkit.overlay(gxmm.text, "[1017]\nDefaultValue=250\n")
-    assert good[0x1017].default == 250
+    for base in (gxmm.text, gxmm, odkit.read(gxmm)):
+        good = odkit.overlay(base, "[1017]\nDefaultValue=250\n", node_id=5)
+        assert (good[0x1017].default, good[0x1800, 1].default) == (250, 0x185)
+    with pytest.raises(ValueError, match="`node_id` must be 1 to 127"):
+        odkit.overlay(gxmm, "[1017]\nDefaultValue=250\n", node_id=200)
     with pytest.raises(ValueError, match=r"overlay: line 1: section \[7777\] to remove is missing"):
         odkit.overlay(EDS, "[7777]\nRemove=1\n")
     with pytest.raises(ValueError, match="fix base and overlay one by one"):

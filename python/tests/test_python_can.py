@@ -1,6 +1,5 @@
 """python-can's own tests of a back end, run against the interface `odkit`."""
 
-import os
 import subprocess
 import sys
 import tarfile
@@ -61,7 +60,7 @@ class Real(Odkit, back2back_test.Back2BackTestCase):
 '''
 
 
-@pytest.mark.skipif(not os.environ.get("ODKIT_LONG"), reason="ODKIT_LONG: it needs the network")
+@pytest.mark.long
 def test_back_to_back(tmp_path):
     package = f"python-can=={can.__version__}"
     fetch = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--no-binary", "python-can"]

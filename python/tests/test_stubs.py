@@ -32,7 +32,7 @@ def test_the_stubs_name_every_member_and_no_other():
     assert os.path.exists(os.path.join(os.path.dirname(STUBS), "py.typed"))
 
 
-@pytest.mark.skipif(not os.environ.get("ODKIT_LONG"), reason="ODKIT_LONG: it needs the network")
+@pytest.mark.long
 def test_mypy_finds_the_stubs_true(tmp_path):
     """Names, arguments and defaults are those that the compiled part has."""
     subprocess.run([sys.executable, "-m", "venv", tmp_path / "venv"], check=True)

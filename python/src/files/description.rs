@@ -65,8 +65,8 @@ pub(crate) fn source_of(source: &Bound<'_, PyAny>) -> PyResult<Source> {
 
 /// Reads and checks an EDS, DCF, XDD or XDC.
 ///
-/// `source` is a path, a built-in device, `base.eds+variant.overlay`, a text with line ends, or the
-/// `bytes` of a file in any encoding. What a file says wrongly is a finding, not an exception; with
+/// `source` is a path, a built-in device, `base.eds+variant.overlay`, a text with line ends, the
+/// `bytes` of a file in any encoding, or a description that was read. What a file says wrongly is a finding, not an exception; with
 /// `strict=True` errors with which no sound device can be built raise `ValueError`, with their lines.
 /// `node_id` (1 to 127) makes numbers of values such as `$NODEID+0x180`; without it that of a DCF does.
 ///
@@ -79,10 +79,7 @@ pub(crate) fn read(
     node_id: Option<u8>,
     strict: bool,
 ) -> PyResult<Description> {
-    if node_id.is_some_and(|id| !(1..=127).contains(&id)) {
-        return Err(Fault::value("`node_id` must be 1 to 127").into());
-    }
-    let read = Read::checked(Source::of(source)?, node_id);
+    let read = Read::checked(source_of(source)?, valid(node_id)?);
     if strict {
         let unsound: Vec<_> = read
             .findings
@@ -100,7 +97,7 @@ pub(crate) fn read(
 }
 
 /// Lays an overlay over a base, and reads the result: `odkit.read("base.eds+variant.overlay")` with both as
-/// paths, texts with line ends, or `bytes`.
+/// paths, texts with line ends, or `bytes`; the base may be a description that was read.
 ///
 /// Raises `ValueError` with the line of the overlay if it removes what the base lacks, `OSError` if a file
 /// cannot be read.
@@ -111,10 +108,17 @@ pub(crate) fn overlay(
     overlay: &Bound<'_, PyAny>,
     node_id: Option<u8>,
 ) -> PyResult<Description> {
-    let source = Source::of(base)?.with(Source::of(overlay)?)?;
+    let source = source_of(base)?.with(Source::of(overlay)?)?;
     Ok(Description {
-        read: Arc::new(Read::checked(source, node_id)),
+        read: Arc::new(Read::checked(source, valid(node_id)?)),
     })
+}
+
+fn valid(node_id: Option<u8>) -> Result<Option<u8>, Fault> {
+    match node_id.is_none_or(|id| (1..=127).contains(&id)) {
+        true => Ok(node_id),
+        false => Err(Fault::value("`node_id` must be 1 to 127")),
+    }
 }
 
 impl Description {
