@@ -1,7 +1,7 @@
 //! Fixes that look right and are wrong: what odkit does instead.
 
-use od_eds::Document;
 use od_eds::fix::{Applicability, fix};
+use od_eds::{Document, Eds, say};
 
 /// An object with sub-objects of one type; `subs` are the names of their sections.
 fn array(index: &str, types: &[(&str, &str)]) -> String {
@@ -52,11 +52,21 @@ fn a_section_with_a_misspelled_name_still_counts() {
     let subs = ["sub1", "sub2", "sb3", "sub4"].map(|sub| (sub, "0x0005"));
     let text = array("2005", &subs);
     assert!(fixed(&text, Applicability::Safe).contains("SubNumber=5"));
-    let fixed = fixed(&text, Applicability::Unsafe);
+    let unsafely = fixed(&text, Applicability::Unsafe);
     assert!(
-        fixed.contains("SubNumber=5") && fixed.contains("[2005sub3]"),
-        "{fixed}"
+        unsafely.contains("SubNumber=5") && unsafely.contains("[2005sub3]"),
+        "{unsafely}"
     );
+    // The last one: sub-index 0 is right, too.
+    let subs = ["sub1", "sub2", "sb3"].map(|sub| (sub, "0x0005"));
+    let text = array("2005", &subs);
+    assert_eq!(
+        fixed(&text, Applicability::Unsafe),
+        text.replace("sb3]", "sub3]")
+    );
+    let findings = Document::new(text.as_str()).load().findings;
+    let count = findings.iter().find(|finding| finding.code() == "W0350");
+    assert!(count.is_some_and(|finding| finding.fix.is_none()));
 }
 
 #[test]
@@ -70,6 +80,43 @@ fn a_sub_index_in_decimal_does_not_raise_sub_index_0() {
         fixed.contains("DefaultValue=10") && fixed.contains("[2010subA]"),
         "{fixed}"
     );
+    assert!(help(&text, "W0311").contains("`[2010subA]`"));
+}
+
+/// The help of the first finding of a rule.
+fn help(text: &str, code: &str) -> String {
+    let findings = Document::new(text).load().findings;
+    let found = findings.iter().find(|finding| finding.code() == code);
+    say(found.expect("a finding"), &Eds).help
+}
+
+#[test]
+fn a_missing_type_is_that_of_the_profile() {
+    let start = "[1000]\nParameterName=t\nDataType=7\nAccessType=ro\nDefaultValue=0x00030191\n";
+    let text = start.to_string() + &array("6000", &[("sub1", "0x0005")]);
+    let text = text.replace(
+        "ParameterName=sub1\nDataType=0x0005\n",
+        "ParameterName=sub1\n",
+    );
+    assert!(help(&text, "E0401").contains("UNSIGNED8"), "{text}");
+}
+
+#[test]
+fn a_number_that_is_not_one_of_32_bits_is_reported_once() {
+    let text =
+        "[DeviceInfo]\nVendorNumber=-1\n".to_string() + &array("1018", &[("sub1", "0x0007")]);
+    let text = text.replace(
+        "AccessType=rw\nDefaultValue=0",
+        "AccessType=ro\nDefaultValue=0x5F",
+    );
+    let findings = Document::new(text.as_str()).load().findings;
+    let about = |code: &str| {
+        findings
+            .iter()
+            .filter(|finding| finding.code() == code)
+            .count()
+    };
+    assert_eq!((about("W0609"), about("W0607")), (1, 0));
 }
 
 #[test]

@@ -89,7 +89,7 @@ fn broken_texts_are_read_too() {
         .collect();
     let mut random = Xorshift(0x9E37_79B9_7F4A_7C15);
     let rounds = env::var("ODKIT_ROUNDS").ok().and_then(|n| n.parse().ok());
-    for round in 0..rounds.unwrap_or(3000) {
+    for round in 0..rounds.unwrap_or(1000) {
         let mut bytes = texts[random.below(texts.len())].clone().into_bytes();
         for _ in 0..=random.below(6) {
             mutate(&mut bytes, &texts, &mut random);
