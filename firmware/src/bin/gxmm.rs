@@ -3,13 +3,20 @@
 #![no_main]
 
 use od_devices::bus_cover::{ENCODER, PROFILE, gxmm};
-use odkit::encoder::{Angle, Encoder, Sampled};
+use odkit::encoder::{Angle, Encoder, EncoderProfile, Family, Sampled};
 use odkit::storage::Memory;
 use odkit::{Device, Dictionary, Duration, Frame, Lent, Node, NodeId, Only, Profile, rooms};
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
-type Shaft = Encoder<Sampled<Angle>>;
+type Shaft = Encoder<Sampled<Angle>, Covers>;
+
+/// The encoders with a bus cover.
+struct Covers;
+
+impl Family for Covers {
+    const PROFILE: Option<&'static EncoderProfile> = Some(&ENCODER);
+}
 
 /// GXMM without what its profile switches off anyway.
 struct Gxmm;
@@ -31,10 +38,10 @@ const LONGEST: usize = gxmm::DICTIONARY.longest();
 static NODE: Once<Node<Gxmm, PDOS, LONGEST, Only<rooms!(Gxmm)>>> =
     Once::new(Node::new(NodeId::ONE));
 static VALUES: Once<[u8; gxmm::STORE_LEN]> = Once::new([0; gxmm::STORE_LEN]);
-static SHAFT: Once<Shaft> = Once::new(Encoder::new(
-    &ENCODER,
-    Sampled::new(Angle::from_fractions(1 << 30), Duration::from_millis(1)),
-));
+static SHAFT: Once<Shaft> = Once::new(Encoder::of_family(Sampled::new(
+    Angle::from_fractions(1 << 30),
+    Duration::from_millis(1),
+)));
 #[unsafe(link_section = ".eeprom")]
 static EEPROM: Once<[u8; 2048]> = Once::new([0; 2048]);
 

@@ -5,6 +5,7 @@ use od_model::{Address, Kind};
 
 use super::angle::Angle;
 use super::configure::STEPS;
+use super::family::Family;
 use super::faults::{self, Faults};
 use super::motion::Motion;
 use super::object::Role;
@@ -18,7 +19,7 @@ use od_wire::{AbortCode, Instant, NodeId};
 
 const POSITION: u16 = 0x6004;
 
-impl<M: Motion> Application for Encoder<M> {
+impl<M: Motion, F: Family> Application for Encoder<M, F> {
     fn reset(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
         let starts = matches!(reset, Reset::PowerOn | Reset::Node);
         if starts {
@@ -35,15 +36,16 @@ impl<M: Motion> Application for Encoder<M> {
         self.output = None;
         self.configure(cx.store);
         if starts {
-            self.shaft.start(cx.now, self.profile.counter, self.sensor);
+            self.shaft
+                .start(cx.now, self.profile().counter, self.sensor);
         }
         self.agree_on_timer(cx, starts);
         self.show_time(cx);
     }
 
     fn node_id(&self, store: &Store<'_>) -> Option<NodeId> {
-        let at = self.profile.object(Role::NodeId)?;
-        let switches = match self.profile.switch_rates {
+        let at = self.profile().object(Role::NodeId)?;
+        let switches = match self.profile().switch_rates {
             [] => None,
             _ => NodeId::new(self.switches.node_id),
         };
@@ -51,7 +53,7 @@ impl<M: Motion> Application for Encoder<M> {
     }
 
     fn is_live(&self, address: Address) -> bool {
-        address.index == POSITION || self.profile.role(address).is_some_and(Role::is_live)
+        address.index == POSITION || self.profile().role(address).is_some_and(Role::is_live)
     }
 
     #[inline]
@@ -59,9 +61,10 @@ impl<M: Motion> Application for Encoder<M> {
         if address.index == POSITION {
             if let Some(handle) = self.position {
                 let angle = self.sense(cx);
-                cx.store.set(handle, self.scale.position(angle));
+                let count = self.count(angle);
+                cx.store.set(handle, self.scale.shown(count));
             }
-        } else if let Some(role) = self.profile.role(address)
+        } else if let Some(role) = self.profile().role(address)
             && role.is_live()
         {
             self.show(cx, address, role);
@@ -79,7 +82,7 @@ impl<M: Motion> Application for Encoder<M> {
             Ok(row) if row.data_type().kind() == Kind::Unsigned => number_in(value),
             _ => return Ok(()),
         };
-        let profile = self.profile;
+        let profile = self.profile();
         match profile.role(address) {
             Some(Role::OneOf(list)) => in_list(list.iter().copied(), number)?,
             Some(Role::NodeId) => self.between(number, 1, 127)?,
@@ -88,10 +91,12 @@ impl<M: Motion> Application for Encoder<M> {
                 let rate = profile.bit_rates.get(code);
                 only(rate.is_some_and(|rate| *rate != 0))?;
             }
-            Some(Role::InjectedError) => only(Faults::knows(profile.reports, number as u32))?,
+            Some(Role::InjectedError) if Self::PARTS.injected_error => {
+                only(Faults::knows(profile.reports, number as u32))?
+            }
             _ => {}
         }
-        for (_, movement) in profile.movements() {
+        for (_, movement) in self.movements() {
             if movement.selector == Some(address) {
                 in_list(movement.sources.iter().map(|(value, _)| *value), number)?;
             }
@@ -132,7 +137,7 @@ impl<M: Motion> Application for Encoder<M> {
                 self.configure(cx.store);
             }
             index if self.is_acting_gear(cx.store, index) => self.take_new_resolution(cx),
-            index if first == TIMER || self.profile.options.is_some_and(|o| o.index == index) => {
+            index if first == TIMER || self.profile().options.is_some_and(|o| o.index == index) => {
                 self.timer_to_event_timer(cx);
             }
             _ if first == EVENT_TIMER => self.event_timer_to_timer(cx),
@@ -141,7 +146,7 @@ impl<M: Motion> Application for Encoder<M> {
     }
 
     fn saving(&mut self, cx: &mut Context<'_, '_>, begins: bool) {
-        if self.output.is_some() {
+        if self.engaged().is_some() {
             cx.store.set_unsigned(STEPS, self.own_steps);
             if !begins {
                 self.configure(cx.store);
@@ -161,18 +166,18 @@ impl<M: Motion> Application for Encoder<M> {
         if self.shaft.due().is_some() {
             self.sense(cx);
         }
-        self.faults.report(cx, self.profile);
+        self.faults.report(cx, self.profile());
         let deadlines = [self.keep_time(cx), self.shaft.due()];
         deadlines.into_iter().flatten().min()
     }
 }
 
-impl<M: Motion> Encoder<M> {
+impl<M: Motion, F: Family> Encoder<M, F> {
     /// Returns the angle now; while the sensor cannot tell, the last one.
     #[inline]
     fn sense(&mut self, cx: &mut Context<'_, '_>) -> Angle {
         let sensed = self.shaft.angle(cx.now);
-        if self.faults.sensed(sensed.err(), self.profile.reports) {
+        if self.faults.sensed(sensed.err(), self.profile().reports) {
             cx.signals.wake();
         }
         if let Ok(angle) = sensed {
@@ -189,14 +194,18 @@ impl<M: Motion> Encoder<M> {
             Role::TenthHours => (self.seconds_at(cx.now) / 360).into(),
             Role::SecondsSinceStart => self.seconds_since_start(cx.now).into(),
             Role::TenthHoursSinceStart => (self.seconds_since_start(cx.now) / 360).into(),
-            Role::TimeStamp => self.micros(cx.now),
+            Role::TimeStamp if Self::PARTS.time_stamp => self.micros(cx.now),
             // Modulo 2³², as the object holds it.
-            Role::RawPosition => self.sensor.raw(self.sense(cx)),
-            Role::Diagnosis(mirrors) => mirrors.iter().fold(0, |bits, mirror| {
-                let of = cx.store.unsigned(mirror.from, 0);
-                bits | (of >> mirror.bit & 1) << mirror.shown
-            }),
-            Role::Movement(movement) => self.shown_movement(cx, address, movement) as u64,
+            Role::RawPosition if Self::PARTS.raw_position => self.sensor.raw(self.sense(cx)),
+            Role::Diagnosis(mirrors) if Self::PARTS.diagnosis => {
+                mirrors.iter().fold(0, |bits, mirror| {
+                    let of = cx.store.unsigned(mirror.from, 0);
+                    bits | (of >> mirror.bit & 1) << mirror.shown
+                })
+            }
+            Role::Movement(movement) if Self::PARTS.movement => {
+                self.shown_movement(cx, address, movement) as u64
+            }
             _ => return,
         };
         cx.store.set_unsigned(address, value);
@@ -212,20 +221,20 @@ impl<M: Motion> Encoder<M> {
 
     /// A test fakes something.
     fn take_injection(&mut self, cx: &mut Context<'_, '_>, address: Address) {
-        match self.profile.role(address) {
-            Some(Role::InjectedError) => {
+        match self.profile().role(address) {
+            Some(Role::InjectedError) if Self::PARTS.injected_error => {
                 let code = cx.store.unsigned(address.index, address.sub) as u32;
-                self.faults.inject(self.profile.reports, code);
-                self.faults.report(cx, self.profile);
+                self.faults.inject(self.profile().reports, code);
+                self.faults.report(cx, self.profile());
             }
-            Some(Role::InjectedOffset) => self.configure(cx.store),
+            Some(Role::InjectedOffset) if Self::PARTS.injected_offset => self.configure(cx.store),
             _ => {}
         }
     }
 
     /// Is one of these bits of the manufacturer options set?
     pub(super) fn has_option(&self, store: &Store<'_>, bits: impl Fn(&Options) -> u32) -> bool {
-        let Some(options) = &self.profile.options else {
+        let Some(options) = &self.profile().options else {
             return false;
         };
         store.unsigned(options.index, 0) & u64::from(bits(options)) != 0

@@ -3,6 +3,7 @@
 use od_model::{Address, Group};
 
 use super::angle::Angle;
+use super::family::Family;
 use super::motion::{Gain, Motion};
 use super::object::Role;
 use super::position::Scale;
@@ -48,20 +49,31 @@ impl Factor {
     }
 }
 
-impl<M: Motion> Encoder<M> {
+impl<M: Motion, F: Family> Encoder<M, F> {
     /// The gear that acts when it is written, if it is on.
     fn output_gear(&self, store: &Store<'_>) -> Option<(u64, u64)> {
         let gear = self
-            .profile
+            .profile()
             .gear
             .filter(|gear| gear.kind == GearKind::Output)?;
         Factor::load(store, gear, None).ratio()
     }
 
+    /// The gear that acts at once, as it acts.
+    pub(super) fn engaged(&self) -> Option<(u64, u64)> {
+        self.output.filter(|_| Self::PARTS.gear)
+    }
+
+    /// The position at an angle, as it would be with offset 0.
+    #[inline]
+    pub(super) fn count(&self, angle: Angle) -> u64 {
+        self.scale.count(angle, Self::PARTS.gear)
+    }
+
     /// A start: the gear that storage held acts from now on.
     pub(super) fn engage_gear(&mut self, store: &Store<'_>) {
         let gear = self
-            .profile
+            .profile()
             .gear
             .filter(|gear| gear.kind == GearKind::Position);
         self.gear = gear.and_then(|gear| Factor::load(store, gear, None).ratio());
@@ -74,9 +86,9 @@ impl<M: Motion> Encoder<M> {
 
     /// Does a write to this index change a gear that acts, or acted before it?
     pub(super) fn is_acting_gear(&self, store: &Store<'_>, index: u16) -> bool {
-        let gear = self.profile.gear;
+        let gear = self.profile().gear;
         let is_gear = gear.is_some_and(|gear| gear.index == index);
-        is_gear && (self.output.is_some() || self.output_gear(store).is_some())
+        is_gear && (self.engaged().is_some() || self.output_gear(store).is_some())
     }
 
     /// 6001h; without any the sensor's own, 1 or more.
@@ -90,7 +102,7 @@ impl<M: Motion> Encoder<M> {
     /// The range that a value of 6002h means.
     fn range(&self, value: Option<u64>) -> u64 {
         match value {
-            Some(0) if self.profile.zero_is_full => 1 << 32,
+            Some(0) if self.profile().zero_is_full => 1 << 32,
             Some(0) | None => self.sensor.range(),
             Some(range) => range,
         }
@@ -100,11 +112,11 @@ impl<M: Motion> Encoder<M> {
     /// shows quotients of others.
     pub(super) fn configure(&mut self, store: &mut Store<'_>) {
         let number = |index| store.try_unsigned(index, 0);
-        self.sensor = self.profile.sensor_by(number);
+        self.sensor = self.profile().sensor_by(number);
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
         let output = self.output_gear(store);
-        match (self.output, output) {
+        match (self.engaged(), output) {
             (None, Some(_)) => self.own_steps = store.unsigned(STEPS.index, STEPS.sub),
             (Some(_), None) => {
                 store.set_unsigned(STEPS, self.own_steps);
@@ -119,7 +131,7 @@ impl<M: Motion> Encoder<M> {
             store.set_unsigned(STEPS, steps);
         }
         let steps = self.resolution(store);
-        if self.profile.total == Total::Shown {
+        if self.profile().total == Total::Shown {
             let turns = range / at_least_1(steps.into());
             store.set_unsigned(Address::new(0x6502, 0), turns);
         }
@@ -136,7 +148,10 @@ impl<M: Motion> Encoder<M> {
             self.gain = Gain::steps(steps);
             Scale::new(self.sensor, steps, range)
         };
-        let scale = match (self.gear, self.profile.counter) {
+        let scale = match (
+            self.gear.filter(|_| Self::PARTS.gear),
+            self.profile().counter,
+        ) {
             (Some((numerator, denominator)), _) => scale.with_gear(denominator, numerator),
             (None, Counter::Sensor) => scale,
             (None, Counter::Kept { .. } | Counter::Volatile) if output.is_none() => {
@@ -147,13 +162,13 @@ impl<M: Motion> Encoder<M> {
         self.scale = scale
             .with_sense(operating & REVERSED != 0)
             .with_offset(self.offset(store) + self.injected_offset(store));
-        let shown = operating & u64::from(self.profile.operating_bits);
+        let shown = operating & u64::from(self.profile().operating_bits);
         store.set_unsigned(Address::new(0x6500, 0), shown);
     }
 
     /// The scale with scaling off.
     fn unscaled(&mut self) -> Scale {
-        let steps = self.profile.unscaled_steps.unwrap_or(self.sensor.steps);
+        let steps = self.profile().unscaled_steps.unwrap_or(self.sensor.steps);
         self.gain = Gain::steps(steps);
         let range = u64::from(steps) * u64::from(self.sensor.turns);
         Scale::new(self.sensor, steps, range.min(1 << 32))
@@ -162,7 +177,7 @@ impl<M: Motion> Encoder<M> {
     /// 6509h.
     fn offset(&self, store: &Store<'_>) -> i64 {
         let offset = store.unsigned(OFFSET.index, OFFSET.sub) as u32;
-        if self.profile.signed_offset {
+        if self.profile().signed_offset {
             // An INTEGER32 comes as its 32 bits or with its sign.
             i64::from(offset as i32)
         } else {
@@ -172,7 +187,8 @@ impl<M: Motion> Encoder<M> {
 
     /// Steps that a test adds to the position.
     fn injected_offset(&self, store: &Store<'_>) -> i64 {
-        let at = self.profile.object(Role::InjectedOffset);
+        let at = self.profile().object(Role::InjectedOffset);
+        let at = at.filter(|_| Self::PARTS.injected_offset);
         at.map_or(0, |at| i64::from(store.unsigned(at.index, at.sub) as u32))
     }
 
@@ -184,12 +200,12 @@ impl<M: Motion> Encoder<M> {
 
     /// The offset with which the position at an angle is `preset`.
     pub(super) fn offset_for(&self, angle: Angle, preset: u32) -> i64 {
-        if !self.profile.signed_offset {
-            return self.scale.offset_for(angle, preset).into();
+        if !self.profile().signed_offset {
+            return self.scale.offset_from(self.count(angle), preset).into();
         }
         // The difference as it is, unless an INTEGER32 cannot hold it.
         let range = self.scale.range() as i64;
-        match i64::from(preset) - self.scale.without_offset(angle) as i64 {
+        match i64::from(preset) - self.count(angle) as i64 {
             above if above > i64::from(i32::MAX) => above - range,
             below if below < i64::from(i32::MIN) => below + range,
             offset => offset,
@@ -202,10 +218,10 @@ impl<M: Motion> Encoder<M> {
             return self.check_output(value, numerator, denominator);
         }
         let steps = u64::from(self.resolution(store));
-        match self.profile.range_rule {
-            RangeRule::Sensor if value == 0 && self.profile.zero_is_full => Ok(()),
+        match self.profile().range_rule {
+            RangeRule::Sensor if value == 0 && self.profile().zero_is_full => Ok(()),
             RangeRule::Sensor => self.between(value, 1, self.sensor.range()),
-            RangeRule::PowerOfTwo if value == 0 && self.profile.zero_is_full => Ok(()),
+            RangeRule::PowerOfTwo if value == 0 && self.profile().zero_is_full => Ok(()),
             RangeRule::PowerOfTwo => {
                 if value.is_multiple_of(steps) && (value / steps).is_power_of_two() {
                     Ok(())
@@ -227,7 +243,7 @@ impl<M: Motion> Encoder<M> {
         sub: u8,
         value: u64,
     ) -> Result<(), AbortCode> {
-        let Some(gear) = self.profile.gear else {
+        let Some(gear) = self.profile().gear else {
             return Ok(());
         };
         if matches!(sub, 2 | 3) {
@@ -257,7 +273,7 @@ impl<M: Motion> Encoder<M> {
         if number > high {
             Err(AbortCode::ValueTooHigh)
         } else if number < low {
-            Err(self.profile.below_limit)
+            Err(self.profile().below_limit)
         } else {
             Ok(())
         }
@@ -265,14 +281,14 @@ impl<M: Motion> Encoder<M> {
 
     /// The first of two linked objects that an address is one of; else the address.
     pub(super) fn link(&self, address: Address) -> Address {
-        let mut links = self.profile.links.iter();
+        let mut links = self.profile().links.iter();
         let link = links.find(|(_, other)| *other == address);
         link.map_or(address, |(first, _)| *first)
     }
 
     /// The second of two linked objects shows the first.
     pub(super) fn show_link(&self, store: &mut Store<'_>, first: Address) {
-        for (from, to) in self.profile.links {
+        for (from, to) in self.profile().links {
             if *from == first {
                 let value = store.unsigned(from.index, from.sub);
                 store.set_unsigned(*to, value);
@@ -291,7 +307,7 @@ impl<M: Motion> Encoder<M> {
             Ok(row) => row.group() != Group::None && !store.has_default(row),
             Err(_) => false,
         };
-        for (first, second) in self.profile.links {
+        for (first, second) in self.profile().links {
             if is_saved(store, *second) && !is_saved(store, *first)
                 || is_stored(store, *second) && !is_stored(store, *first)
             {

@@ -7,6 +7,7 @@
 mod angle;
 mod application;
 mod configure;
+mod family;
 mod fault;
 mod faults;
 mod motion;
@@ -21,6 +22,7 @@ mod timer;
 
 pub use angle::Angle;
 pub use configure::{REVERSED, SCALING};
+pub use family::{AnyFamily, Family};
 pub use fault::{Appears, Fault, Report, Until};
 pub use motion::{Gain, Motion};
 pub use object::{Mirror, Movement, Quantity, Role, Source};

@@ -2,6 +2,7 @@
 
 use od_model::Address;
 
+use super::family::Family;
 use super::motion::{Gain, Motion};
 use super::object::{Movement, Quantity, Source};
 use super::state::Encoder;
@@ -9,7 +10,16 @@ use crate::application::Context;
 use crate::store::Store;
 use od_wire::Instant;
 
-impl<M: Motion> Encoder<M> {
+impl<M: Motion, F: Family> Encoder<M, F> {
+    /// The movements of the family.
+    #[inline]
+    pub(super) fn movements(
+        &self,
+    ) -> impl Iterator<Item = (Address, &'static Movement)> + use<M, F> {
+        let movements = Self::PARTS.movement.then(|| self.profile().movements());
+        movements.into_iter().flatten()
+    }
+
     /// Starts movements again after a start, or after a change of source or interval: for a
     /// whole interval they are not known.
     pub(super) fn forget_movements(
@@ -18,7 +28,7 @@ impl<M: Motion> Encoder<M> {
         which: impl Fn(&Movement) -> bool,
     ) {
         let mut longest = 0;
-        let movements = self.profile.movements();
+        let movements = self.movements();
         for (since, (_, movement)) in self.measured_since.iter_mut().zip(movements) {
             if which(movement) {
                 *since = cx.now;
@@ -41,7 +51,7 @@ impl<M: Motion> Encoder<M> {
         address: Address,
         movement: &Movement,
     ) -> i64 {
-        let mut known = self.measured_since.iter().zip(self.profile.movements());
+        let mut known = self.measured_since.iter().zip(self.movements());
         let since = known.find(|(_, (at, _))| *at == address);
         let bits = match cx.store.dictionary().row_of(address) {
             Ok(row) if row.is_variable() => 32,

@@ -184,7 +184,13 @@ impl Scale {
     /// starts again at 0 with each revolution.
     #[inline]
     pub const fn position(&self, angle: Angle) -> u32 {
-        let position = self.without_offset(angle) + self.offset;
+        self.shown(self.without_offset(angle))
+    }
+
+    /// The position that a count is shown as.
+    #[inline]
+    pub(super) const fn shown(&self, count: u64) -> u32 {
+        let position = count + self.offset;
         if position >= self.range {
             (position - self.range) as u32
         } else {
@@ -195,6 +201,12 @@ impl Scale {
     /// The position as it would be with offset 0.
     #[inline]
     pub const fn without_offset(&self, angle: Angle) -> u64 {
+        self.count(angle, true)
+    }
+
+    /// As [`without_offset`](Self::without_offset), without code for a gear where there can be none.
+    #[inline(always)]
+    pub(super) const fn count(&self, angle: Angle, may_have_gear: bool) -> u64 {
         let (turns, fraction) = angle.split();
         let step = self.sensor.step(fraction);
         // Both factors are less than 2³².
@@ -211,7 +223,7 @@ impl Scale {
         };
         let position = if self.mask != 0 {
             total as u64 & self.mask
-        } else if let Some(gear) = self.gear {
+        } else if may_have_gear && let Some(gear) = self.gear {
             gear.of(total, self.range)
         } else {
             total.wrapping_rem_euclid(at_least_1(self.wrap) as i64) as u64
@@ -225,7 +237,12 @@ impl Scale {
 
     /// The offset that makes the position at `angle` this one, 0 to range − 1.
     pub const fn offset_for(&self, angle: Angle, position: u32) -> u32 {
-        let difference = position as i64 - self.without_offset(angle) as i64;
+        self.offset_from(self.without_offset(angle), position)
+    }
+
+    /// The offset that makes a count this position.
+    pub(super) const fn offset_from(&self, count: u64, position: u32) -> u32 {
+        let difference = position as i64 - count as i64;
         self.in_range(difference) as u32
     }
 

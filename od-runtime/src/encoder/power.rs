@@ -2,6 +2,7 @@
 
 use od_model::Address;
 
+use super::family::Family;
 use super::faults::Off;
 use super::motion::Motion;
 use super::object::Role;
@@ -13,7 +14,7 @@ use od_wire::Instant;
 /// Microseconds between two saves of the operating time.
 const SIX_MINUTES: u64 = 360_000_000;
 
-impl<M: Motion> Encoder<M> {
+impl<M: Motion, F: Family> Encoder<M, F> {
     /// Power goes; the shaft may turn on. Only a simulation outlives this.
     pub fn power_off(&mut self, now: Instant) {
         self.seconds = self.seconds_at(now);
@@ -24,7 +25,7 @@ impl<M: Motion> Encoder<M> {
 
     /// The device starts: power came, or NMT reset node.
     pub(super) fn start(&mut self, cx: &mut Context<'_, '_>, reset: Reset) {
-        let [seconds, cycles] = [Role::Seconds, Role::Cycles].map(|of| self.profile.object(of));
+        let [seconds, cycles] = [Role::Seconds, Role::Cycles].map(|of| self.profile().object(of));
         let number = |at: Option<Address>| match at {
             Some(at) => cx.store.unsigned(at.index, at.sub) as u32,
             None => 0,
@@ -39,7 +40,7 @@ impl<M: Motion> Encoder<M> {
             (Reset::PowerOn, None) => Off::Always,
             _ => Off::Never,
         };
-        self.faults.reset(cx, self.profile.reports, off);
+        self.faults.reset(cx, self.profile().reports, off);
         self.bit_rate = self.starting_bit_rate(cx.store);
         if let Some(cycles) = cycles {
             if reset == Reset::PowerOn {
@@ -69,7 +70,7 @@ impl<M: Motion> Encoder<M> {
 
     /// Brings the objects that show time up to date.
     pub(super) fn show_time(&mut self, cx: &mut Context<'_, '_>) {
-        let times = self.profile.objects.iter().filter(|(_, of)| of.is_time());
+        let times = self.profile().objects.iter().filter(|(_, of)| of.is_time());
         for (address, role) in times {
             self.show(cx, *address, role);
         }
@@ -88,7 +89,7 @@ impl<M: Motion> Encoder<M> {
 
     /// Switches rule the bit rate where they rule the node ID, unless their position has none.
     fn starting_bit_rate(&self, store: &Store<'_>) -> Option<u16> {
-        let profile = self.profile;
+        let profile = self.profile();
         let by_switch = match self.switches.node_id {
             0 => None,
             _ => profile

@@ -1,9 +1,12 @@
 //! The encoder: its state and what a host can do to it.
 
+use core::marker::PhantomData;
+
 use od_model::typed::{Ro, Var};
 use od_model::{Address, Dictionary};
 
 use super::angle::Angle;
+use super::family::{AnyFamily, Family, Parts};
 use super::fault::Fault;
 use super::faults::Faults;
 use super::motion::{Gain, Motion};
@@ -25,9 +28,13 @@ pub struct Switches {
 ///
 /// The host sets switches and reports faults between calls of the node; after a change of
 /// faults it calls [`Node::handle_change`](crate::Node::handle_change).
+///
+/// `F` is what the compiler knows of its family: with a [`Family`] of its own it has no code for what
+/// the family does not have.
 #[derive(Clone, Debug)]
-pub struct Encoder<M> {
-    pub(super) profile: &'static EncoderProfile,
+pub struct Encoder<M, F = AnyFamily> {
+    family: PhantomData<F>,
+    profile: &'static EncoderProfile,
     /// The shaft that it sits on.
     pub shaft: M,
     pub(super) switches: Switches,
@@ -67,11 +74,26 @@ pub struct Encoder<M> {
 impl<M: Motion> Encoder<M> {
     /// An encoder on a shaft: nothing broken, switches at 0.
     pub const fn new(profile: &'static EncoderProfile, shaft: M) -> Self {
+        Self::with_profile(profile, shaft)
+    }
+}
+
+impl<M: Motion, F: Family> Encoder<M, F> {
+    /// As [`new`](Encoder::new), of a family whose profile the compiler knows; others do not compile.
+    pub const fn of_family(shaft: M) -> Self {
+        Self::with_profile(
+            const { F::PROFILE.expect("the family has no PROFILE") },
+            shaft,
+        )
+    }
+
+    const fn with_profile(profile: &'static EncoderProfile, shaft: M) -> Self {
         let sensor = match profile.sensor {
             Some(sensor) => sensor,
             None => Sensor { steps: 1, turns: 1 },
         };
         Self {
+            family: PhantomData,
             profile,
             shaft,
             switches: Switches {
@@ -103,14 +125,21 @@ impl<M: Motion> Encoder<M> {
     /// [`sensor`](Self::sensor) is known before the first power-on then.
     #[must_use]
     pub fn with_sensor_of(mut self, dictionary: Dictionary<'_>) -> Self {
-        self.sensor = self.profile.sensor_of(dictionary);
+        self.sensor = self.profile().sensor_of(dictionary);
         self
     }
 
     /// Returns the properties of its family.
+    #[inline(always)]
     pub const fn profile(&self) -> &'static EncoderProfile {
-        self.profile
+        match F::PROFILE {
+            Some(profile) => profile,
+            None => self.profile,
+        }
     }
+
+    /// What the family may have.
+    pub(super) const PARTS: Parts = Parts::of::<F>();
 
     /// With this serial number in 1018h:04 and 650Bh from the next reset on.
     #[must_use]
@@ -158,7 +187,7 @@ impl<M: Motion> Encoder<M> {
     /// Returns whether the encoder computes the value of an object, from its shaft, its time, its
     /// errors or other objects.
     pub fn computes(&self, address: Address) -> bool {
-        let profile = self.profile;
+        let profile = self.profile();
         let role = profile.role(address);
         let mut counters = profile.reports.iter().filter_map(|report| report.counter);
         matches!(address.index, 0x6004 | 0x6500 | 0x6503 | 0x6505 | 0x6509)

@@ -2,6 +2,7 @@
 
 use od_model::Address;
 
+use super::family::Family;
 use super::motion::Motion;
 use super::state::Encoder;
 use crate::application::Context;
@@ -10,10 +11,10 @@ use crate::store::Store;
 pub(super) const TIMER: Address = Address::new(0x6200, 0);
 pub(super) const EVENT_TIMER: Address = Address::new(0x1800, 5);
 
-impl<M: Motion> Encoder<M> {
+impl<M: Motion, F: Family> Encoder<M, F> {
     /// Delay of 1800h:05 against 6200h, in milliseconds.
     fn delay(&self, store: &Store<'_>) -> u64 {
-        match &self.profile.options {
+        match &self.profile().options {
             Some(options) if self.has_option(store, |options| options.delay_timer) => {
                 options.delay_ms.into()
             }
