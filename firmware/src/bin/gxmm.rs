@@ -9,7 +9,8 @@ use odkit::{Device, Dictionary, Duration, Frame, Lent, Node, NodeId, Only, Profi
 use odkit_firmware::board::Once;
 use odkit_firmware::master::{self, Step, frame, sdo};
 
-type Shaft = Encoder<Sampled<Angle>, Covers>;
+/// No object shows a speed, so no sample is remembered.
+type Shaft = Encoder<Sampled<Angle, 0>, Covers>;
 
 /// The encoders with a bus cover.
 struct Covers;

@@ -14,7 +14,7 @@ pub mod twin;
 #[macro_export]
 macro_rules! twin {
     ($dictionary:path, $profile:path, $encoder:path) => {
-        use odkit::encoder::EncoderProfile;
+        use odkit::encoder::{EncoderProfile, Family};
         use odkit::storage::image;
         use odkit::{Device, Dictionary, Node, NodeId, Only, Profile, rooms};
         use odkit_firmware::board::Once;
@@ -23,7 +23,6 @@ macro_rules! twin {
 
         const DICTIONARY: Dictionary<'static> = $dictionary;
         const DEVICE: &Profile = &$profile;
-        const ENCODER: &EncoderProfile = &$encoder;
 
         impl Device for Own {
             const DICTIONARY: Option<Dictionary<'static>> = Some(DICTIONARY);
@@ -33,6 +32,10 @@ macro_rules! twin {
             const BLOCK: bool = DEVICE.sdo.block;
             const RPDOS: bool = DICTIONARY.rpdos() > 0;
             const CHANGES: bool = DEVICE.pdo.event_on_change;
+        }
+
+        impl Family for Own {
+            const PROFILE: Option<&'static EncoderProfile> = Some(&$encoder);
         }
 
         type Slave = Node<Own, { DICTIONARY.tpdos() }, { DICTIONARY.longest() }, Only<rooms!(Own)>>;
@@ -45,13 +48,12 @@ macro_rules! twin {
 
         #[unsafe(no_mangle)]
         extern "C" fn main() -> ! {
-            $crate::twin::run(
+            $crate::twin::run::<Own, _, _, _, _>(
                 NODE.take(),
                 DICTIONARY,
                 VALUES.take(),
                 EEPROM.take(),
                 DEVICE,
-                ENCODER,
             )
         }
     };

@@ -21,7 +21,7 @@
 //! in microseconds (8), ticks of the clock that it took (4), number of frames, and the frames as
 //! above. `D` adds a hash of each value (4) and the bytes of the EEPROM.
 
-use odkit::encoder::{Angle, Encoder, EncoderProfile, Fault, Motion, Sampled, Switches};
+use odkit::encoder::{Angle, Encoder, Family, Fault, Motion, Sampled, Switches};
 use odkit::storage::Memory;
 use odkit::{
     Address, Application, BusEvent, CanId, Context, Device, Dictionary, Duration, Emcy, Extras,
@@ -58,14 +58,13 @@ impl core::fmt::Write for Hash {
 }
 
 /// A device and its surroundings.
-struct Twin<'b, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
+struct Twin<'b, F, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     node: &'b mut Node<D, PDO, SDO, X>,
     dictionary: Dictionary<'static>,
     values: &'b mut [u8],
-    encoder: Encoder<Shaft>,
+    encoder: Encoder<Shaft, F>,
     eeprom: Eeprom<'b>,
     profile: &'static Profile,
-    family: &'static EncoderProfile,
     calls: Input,
     answers: Output,
     frames: [Frame; FRAMES],
@@ -74,28 +73,26 @@ struct Twin<'b, D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
 }
 
 /// Plays the calls to their end.
-pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
+pub fn run<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
     node: &mut Node<D, PDO, SDO, X>,
     dictionary: Dictionary<'static>,
     values: &mut [u8],
     eeprom: &mut [u8],
     profile: &'static Profile,
-    family: &'static EncoderProfile,
 ) -> ! {
     board::start_clock();
     let before = board::clock();
     let overhead = since(before);
-    let mut twin = Twin {
+    let mut twin: Twin<'_, F, D, PDO, SDO, X> = Twin {
         node,
         dictionary,
         values,
-        encoder: encoder(family, dictionary, None),
+        encoder: encoder(dictionary, None),
         eeprom: Eeprom {
             memory: Memory::new(eeprom),
             broken: false,
         },
         profile,
-        family,
         calls: Input::open(c"calls"),
         answers: Output::open(c"answers"),
         frames: [Frame::standard(0, &[]); FRAMES],
@@ -111,13 +108,12 @@ pub fn run<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>(
 }
 
 /// An encoder that has no sample yet.
-fn encoder(
-    family: &'static EncoderProfile,
+fn encoder<F: Family>(
     dictionary: Dictionary<'static>,
     serial_number: Option<u32>,
-) -> Encoder<Shaft> {
+) -> Encoder<Shaft, F> {
     let shaft = Sampled::new(Angle::ZERO, Duration::from_millis(1));
-    let encoder = Encoder::new(family, Shaft(shaft)).with_sensor_of(dictionary);
+    let encoder = Encoder::of_family(Shaft(shaft)).with_sensor_of(dictionary);
     match serial_number {
         Some(number) => encoder.with_serial_number(number),
         None => encoder,
@@ -129,7 +125,9 @@ fn since(before: u32) -> u32 {
     before.wrapping_sub(board::clock()) & 0xFF_FFFF
 }
 
-impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Twin<'_, D, PDO, SDO, X> {
+impl<F: Family, D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>>
+    Twin<'_, F, D, PDO, SDO, X>
+{
     /// Handles a call; `None` where it makes no sense.
     fn call(&mut self, call: u8) -> Option<()> {
         let now = Instant::from_micros(u64::from_le_bytes(self.calls.array()?));
@@ -164,7 +162,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Twin<'_, 
         self.values.fill(0);
         self.eeprom.memory.bytes_mut().fill(0xFF);
         let number = (has_number != 0).then_some(u32::from_le_bytes(number));
-        self.encoder = encoder(self.family, self.dictionary, number);
+        self.encoder = encoder(self.dictionary, number);
         Some(())
     }
 

@@ -52,7 +52,8 @@ impl PositionSource for Angle {
 /// time before the newest sample; an acceleration is the difference of the mean speeds in the
 /// two halves of it. `N`, 3 to 255, is how many samples are remembered, 12 bytes each. Where
 /// `N − 2` times `every` is less than the longest integration time, samples are left out, and
-/// the angle changes evenly between two that are remembered.
+/// the angle changes evenly between two that are remembered. With 0 samples, for an encoder that shows
+/// neither, speed and acceleration are never known.
 ///
 /// ```
 /// use od_runtime::encoder::{Angle, Encoder, EncoderProfile, Fault, PositionSource, Sampled};

@@ -6,7 +6,7 @@ use super::float::quotient;
 ///
 /// Times are microseconds modulo 2³². The newest sample is replaced by the next one as long as
 /// it lies less than `spacing` after the one before it, so that `N` samples are enough for any
-/// time.
+/// time. One of none remembers nothing.
 #[derive(Clone, Debug)]
 pub(super) struct Track<const N: usize> {
     at: [u32; N],
@@ -19,7 +19,12 @@ pub(super) struct Track<const N: usize> {
 
 impl<const N: usize> Track<N> {
     pub(super) const fn new() -> Self {
-        const { assert!(N > 2 && N < 256, "a track has 3 to 255 samples") };
+        const {
+            assert!(
+                N == 0 || N > 2 && N < 256,
+                "a track has 3 to 255 samples, or none"
+            )
+        };
         Self {
             at: [0; N],
             angle: [0; N],
@@ -35,12 +40,12 @@ impl<const N: usize> Track<N> {
 
     /// Remembers samples for this many microseconds.
     pub(super) fn reach(&mut self, micros: u32) {
-        self.spacing = micros.div_ceil(N as u32 - 2);
+        self.spacing = micros.div_ceil((N as u32).saturating_sub(2).max(1));
     }
 
     /// Returns the sample `back` places before the newest.
     fn sample(&self, back: u8) -> Option<(u32, i64)> {
-        if back >= self.len {
+        if N == 0 || back >= self.len {
             return None;
         }
         let (newest, back) = (usize::from(self.newest), usize::from(back));
@@ -53,6 +58,9 @@ impl<const N: usize> Track<N> {
     }
 
     pub(super) fn add(&mut self, at: u32, angle: i64) {
+        if N == 0 {
+            return;
+        }
         let gap = match (self.sample(0), self.sample(1)) {
             (Some((newest, _)), Some((before, _))) => newest.wrapping_sub(before),
             // The first two are always remembered.

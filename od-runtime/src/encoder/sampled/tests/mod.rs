@@ -241,3 +241,22 @@ fn a_sensor_that_fails_is_asked_again_and_has_no_speed() {
     ask(&mut shaft, hours + MS);
     assert_eq!(speed(&shaft, hours + MS), None);
 }
+
+#[test]
+fn a_shaft_without_samples_tells_its_angle_alone() {
+    let mut shaft: Sampled<_, 0> = Sampled::new(
+        Turning(|micros| micros as f64 / 1e6),
+        Duration::from_millis(1),
+    );
+    shaft.look_back(50_000);
+    for ms in 0..200 {
+        ask(&mut shaft, ms * MS);
+    }
+    let now = Instant::from_micros(199 * MS);
+    assert_eq!(
+        shaft.angle(now).unwrap().fractions() >> 19,
+        199 * 0x2000 / 1000
+    );
+    assert_eq!(speed(&shaft, 199 * MS), None);
+    assert_eq!(shaft.acceleration(now, 50_000, Gain::steps(STEPS)), None);
+}
