@@ -182,7 +182,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// without power.
     ///
     /// Time does not run backwards here, whatever the host's clock says.
-    #[inline]
+    #[inline(never)]
     fn open<'c>(
         &'c mut self,
         device: &'c mut Lent<'_>,
