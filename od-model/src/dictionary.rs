@@ -5,6 +5,7 @@ use core::ops::Range as Span;
 use crate::address::Address;
 use crate::entry::{Entry, Missing, Object, Slot};
 use crate::index;
+use crate::real::Reals;
 use crate::row::Row;
 use crate::value::{Literal, Range};
 
@@ -23,6 +24,7 @@ pub struct Dictionary<'a> {
     text: &'a str,
     blob: &'a [u8],
     store_len: usize,
+    reals: Option<&'static Reals>,
     #[cfg(feature = "names")]
     names: Names<'a>,
 }
@@ -48,6 +50,7 @@ impl<'a> Dictionary<'a> {
         "",
         &[],
         0,
+        None,
         Names {
             rows: &[],
             text: "",
@@ -56,6 +59,7 @@ impl<'a> Dictionary<'a> {
 
     /// A view over tables that are sound by the way they were made: by `od_eds::Tables`.
     #[doc(hidden)]
+    #[allow(clippy::too_many_arguments)] // each is a table
     pub const fn trusted(
         buckets: &'a [u16],
         rows: &'a [Row],
@@ -63,6 +67,7 @@ impl<'a> Dictionary<'a> {
         text: &'a str,
         blob: &'a [u8],
         store_len: usize,
+        reals: Option<&'static Reals>,
         names: Names<'a>,
     ) -> Self {
         #[cfg(not(feature = "names"))]
@@ -74,6 +79,7 @@ impl<'a> Dictionary<'a> {
             text,
             blob,
             store_len,
+            reals,
             #[cfg(feature = "names")]
             names,
         }
@@ -164,6 +170,13 @@ impl<'a> Dictionary<'a> {
     #[inline(always)]
     pub const fn pool(&self) -> &'a [u32] {
         self.pool
+    }
+
+    /// What REALs need; `None`: there are none.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn reals(&self) -> Option<&'static Reals> {
+        self.reals
     }
 
     /// The object at `index`.

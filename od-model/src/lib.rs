@@ -21,6 +21,8 @@ mod dictionary;
 mod entry;
 mod index;
 mod needs;
+#[doc(hidden)]
+pub mod real;
 mod restricted;
 #[doc(hidden)]
 pub mod row;

@@ -89,7 +89,6 @@ mod objects;
 mod pdo;
 mod profile;
 pub mod program;
-mod real;
 #[doc(hidden)]
 pub mod rooms;
 mod sdo;

@@ -4,7 +4,6 @@ use od_model::Kind;
 use od_model::row::Row;
 
 use crate::number::number_in;
-use crate::real;
 use crate::store::Store;
 
 /// Reason why an object cannot have a value.
@@ -27,25 +26,27 @@ pub(crate) fn check(store: &Store<'_>, row: &Row, bytes: &[u8]) -> Result<(), Ou
     if kind == Kind::Boolean && bytes.first().is_some_and(|byte| *byte > 1) {
         return Err(Outside::NotAllowed);
     }
-    let is_real = match kind {
+    let dictionary = store.dictionary();
+    let reals = match kind {
         Kind::Text | Kind::Bytes | Kind::Record => return Ok(()),
         Kind::Real if !matches!(bytes.len(), 4 | 8) => return Err(Outside::Length),
-        kind => kind == Kind::Real,
+        Kind::Real => dictionary.reals(),
+        _ => None,
     };
     let value = number_in(bytes);
     let unused = 64u32.saturating_sub(8 * bytes.len() as u32) & 63;
-    let value = match bytes.len() {
-        4 if is_real => real::widened(value as u32),
+    let value = match reals {
+        Some(reals) if bytes.len() == 4 => (reals.widened)(value as u32),
         _ if kind == Kind::Signed => ((value << unused) as i64 >> unused) as u64,
         _ => value,
     };
     // The limits of an entry are of its type, so both sides of a comparison have the same order.
     let sign = if kind == Kind::Signed { 1 << 63 } else { 0 };
-    let is_greater = |one: u64, other: u64| match is_real {
-        true => real::is_greater(one, other),
-        false => one ^ sign > other ^ sign,
+    let is_greater = |one: u64, other: u64| match reals {
+        Some(reals) => (reals.is_greater)(one, other),
+        None => one ^ sign > other ^ sign,
     };
-    let (pool, node_id) = (store.dictionary().pool(), store.node_id().raw());
+    let (pool, node_id) = (dictionary.pool(), store.node_id().raw());
     if let Some(high) = row.high(pool, node_id)
         && is_greater(value, high)
     {

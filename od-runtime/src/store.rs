@@ -7,7 +7,6 @@ use od_model::typed::{DeviceWritable, Scalar, Text, Var};
 use od_model::{Address, DataType, Dictionary, Entry, Slot};
 
 use crate::number::{copy, fill, little_endian, number_in};
-use crate::real;
 use od_wire::{AbortCode, NodeId};
 
 /// The slice is shorter than [`Dictionary::store_len`].
@@ -372,11 +371,11 @@ fn default_bytes<'b>(
 }
 
 /// The default of a number.
-#[inline]
+#[inline(never)]
 fn default(dictionary: &Dictionary<'_>, row: &Row, node_id: NodeId) -> u64 {
     let default = row.default(dictionary.pool(), node_id.raw());
-    match row.data_type() {
-        DataType::Real32 => real::narrowed(default).into(),
+    match dictionary.reals() {
+        Some(reals) if row.data_type() == DataType::Real32 => (reals.narrowed)(default).into(),
         _ => default,
     }
 }

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use crate::description::{Description, EntryDescription, Value};
 use crate::span::Spanned;
 use od_model::owned::{EMPTY, bucket_count, fill};
+use od_model::real::Reals;
 use od_model::row::{Row, literal, words};
 use od_model::{
     Access, Address, DataType, Dictionary, Entry, Kind, Literal, Names, ObjectCode, Range, Slot,
@@ -70,6 +71,7 @@ impl Tables {
             &self.text,
             &self.blob,
             self.store_len,
+            Reals::SOME,
             self.names(),
         )
     }

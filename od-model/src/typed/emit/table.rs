@@ -6,6 +6,7 @@
 
 pub use crate::dictionary::{Dictionary, Names};
 pub use crate::index::{bucket_count, buckets};
+use crate::real::Reals;
 pub use crate::row::Row;
 pub use crate::value::Range;
 
@@ -81,5 +82,6 @@ pub const fn dictionary(
     store_len: usize,
     names: Names<'static>,
 ) -> Dictionary<'static> {
-    Dictionary::trusted(buckets, rows, pool, text, blob, store_len, names)
+    let reals = Reals::of(rows);
+    Dictionary::trusted(buckets, rows, pool, text, blob, store_len, reals, names)
 }

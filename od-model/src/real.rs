@@ -1,13 +1,47 @@
 //! REALs as their bits: a processor without a floating-point unit gets no code for arithmetic.
 
+use crate::row::Row;
+use crate::types::Kind;
+
+/// What a dictionary with REALs has to do for them. It is data, so that a firmware whose dictionary has
+/// none holds no code for it.
+#[derive(Debug)]
+pub struct Reals {
+    /// The bits of the single nearest to a double, as `as f32` rounds.
+    pub narrowed: fn(u64) -> u32,
+    /// The bits of the double that a single is.
+    pub widened: fn(u32) -> u64,
+    /// Whether one double is greater than another; neither is where one is not a number.
+    pub is_greater: fn(u64, u64) -> bool,
+}
+
+impl Reals {
+    /// For a dictionary that may have some.
+    pub const SOME: Option<&Self> = Some(&Self {
+        narrowed,
+        widened,
+        is_greater,
+    });
+
+    /// For a dictionary with these rows.
+    pub const fn of(rows: &[Row]) -> Option<&'static Self> {
+        let mut rest = rows;
+        while let [row, others @ ..] = rest {
+            if let Kind::Real = row.data_type().kind() {
+                return Self::SOME;
+            }
+            rest = others;
+        }
+        None
+    }
+}
+
 /// Bits of a double behind those of a single.
 const MORE: u32 = 52 - 23;
 /// Exponent of a double where that of a single is 0.
 const LOWEST: u32 = 1023 - 127;
 
-/// The bits of the single nearest to a double, as `as f32` rounds.
-#[inline(never)]
-pub(crate) const fn narrowed(double: u64) -> u32 {
+const fn narrowed(double: u64) -> u32 {
     let sign = (double >> 63 << 31) as u32;
     let (exponent, fraction) = ((double >> 52) as u32 & 0x7FF, double & ((1 << 52) - 1));
     if exponent == 0x7FF {
@@ -31,8 +65,7 @@ pub(crate) const fn narrowed(double: u64) -> u32 {
     sign | (whole as u32 + up as u32)
 }
 
-/// The bits of the double that a single is.
-pub(crate) const fn widened(single: u32) -> u64 {
+const fn widened(single: u32) -> u64 {
     let sign = (single as u64) >> 31 << 63;
     let (exponent, fraction) = (single >> 23 & 0xFF, single as u64 & ((1 << 23) - 1));
     let (exponent, fraction) = match (exponent, fraction) {
@@ -47,9 +80,7 @@ pub(crate) const fn widened(single: u32) -> u64 {
     sign | (exponent as u64) << 52 | fraction << MORE
 }
 
-/// Whether one double is greater than another; neither is where one is not a number.
-#[inline(never)]
-pub(crate) const fn is_greater(one: u64, other: u64) -> bool {
+const fn is_greater(one: u64, other: u64) -> bool {
     const INFINITE: u64 = 0x7FF << 53;
     if one << 1 > INFINITE || other << 1 > INFINITE || (one | other) << 1 == 0 {
         return false;
