@@ -72,6 +72,41 @@ pub trait Device {
     };
 }
 
+/// Whether a device may have a value whose index is one of these, and whose sub-index is this one if it is
+/// named. To be asked at compile time.
+pub(crate) const fn may_have<D: Device>(first: u16, last: u16, sub: Option<u8>) -> bool {
+    let Some(dictionary) = &D::DICTIONARY else {
+        return true;
+    };
+    let mut rest = dictionary.rows();
+    while let [row, others @ ..] = rest {
+        let is_sub = match sub {
+            Some(sub) => row.address().sub == sub,
+            None => true,
+        };
+        if is_sub && first <= row.index() && row.index() <= last {
+            return true;
+        }
+        rest = others;
+    }
+    false
+}
+
+/// As [`may_have`], in its store: any other value cannot change.
+pub(crate) const fn may_change<D: Device>(first: u16, last: u16) -> bool {
+    let Some(dictionary) = &D::DICTIONARY else {
+        return true;
+    };
+    let mut rest = dictionary.rows();
+    while let [row, others @ ..] = rest {
+        if row.is_stored() && first <= row.index() && row.index() <= last {
+            return true;
+        }
+        rest = others;
+    }
+    false
+}
+
 /// Device whose dictionary is known at run time only.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub struct AnyDevice;

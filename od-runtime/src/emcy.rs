@@ -2,6 +2,7 @@
 
 pub(crate) use crate::change::Change;
 use crate::deadline::Deadline;
+use crate::device::{Device, may_have};
 use crate::fifo::Fifo;
 use crate::profile::ErrorReset;
 use crate::rooms::{Blank, Room, Rooms};
@@ -85,7 +86,7 @@ impl<R: Rooms> Producer<R> {
     /// `send` is false where the NMT state or 1014h forbids the frame; the log
     /// in 1003h is kept all the same. Messages that wait for the inhibit time keep their order; the
     /// seventeenth is dropped, and an event says so.
-    pub(crate) fn change(
+    pub(crate) fn change<D: Device>(
         &mut self,
         store: &mut Store<'_>,
         change: Change,
@@ -102,7 +103,9 @@ impl<R: Rooms> Producer<R> {
                     return NO_NEWS;
                 }
                 self.active_mut().push(error);
-                log(store, error.code);
+                if const { may_have::<D>(0x1003, 0x1003, None) } {
+                    log(store, error.code);
+                }
                 (error.code, error.info)
             }
             Change::Cleared {
@@ -167,14 +170,16 @@ impl<R: Rooms> Producer<R> {
     }
 
     /// The next frame, when the inhibit time 1015h (in 100 µs) allows it.
-    pub(crate) fn poll(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
+    pub(crate) fn poll<D: Device>(&mut self, store: &Store<'_>, now: Instant) -> Option<Frame> {
         if self.waiting.is_empty() || now < self.blocked_until {
             return None;
         }
         let cob_id = cob_id(store);
         let emcy = Room::queue_mut(&mut self.waiting).pop()?;
-        let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
-        self.blocked_until = now.plus_micros(inhibit);
+        if const { may_have::<D>(0x1015, 0x1015, None) } {
+            let inhibit = u64::from(store.word(0x1015, 0, 0)) * 100;
+            self.blocked_until = now.plus_micros(inhibit);
+        }
         cob_id.map(|cob_id| Frame::full(cob_id.can_id(), emcy.emit()))
     }
 

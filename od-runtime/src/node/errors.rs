@@ -81,7 +81,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             });
         }
         if gravest >= Behaviour::Stopped && self.sends_emcy() {
-            while let Some(frame) = self.emcy.poll(&objects.store, objects.now) {
+            while let Some(frame) = self.emcy.poll::<D>(&objects.store, objects.now) {
                 self.push(frame);
             }
         }
@@ -107,7 +107,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         while let Some(change) = objects.outbox.signals.errors.pop() {
             let send = self.state != State::Stopped && emcy::cob_id(&objects.store).is_some();
             let reset = objects.profile().errors.reset;
-            let outcome = self.emcy.change(&mut objects.store, change, reset, send);
+            let outcome = self
+                .emcy
+                .change::<D>(&mut objects.store, change, reset, send);
             set |= outcome.set;
             if outcome.is_news {
                 self.event(match change {

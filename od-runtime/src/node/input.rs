@@ -131,7 +131,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             return;
         };
         let now = objects.now;
-        if node.boot_at.is_due(now) {
+        if Machines::<D, PDO, SDO, X>::BOOTS_LATE && node.boot_at.is_due(now) {
             node.boot_up(objects);
         }
         if node.mute.is_some_and(|mute| mute.until <= now) {
@@ -303,7 +303,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             && tpdos
                 .iter()
                 .take(self.tpdo_count.into())
-                .all(pdo::Tpdo::only_counts)
+                .all(pdo::Tpdo::only_counts::<D>)
             && !(D::RPDOS && rpdos.all().iter().any(pdo::Rpdo::is_waiting));
         if only_counts {
             let mut pending = false;

@@ -248,6 +248,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     const RPDOS: usize =
         <<X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO> as Room<pdo::Rpdo<X::Rooms>>>::LEN;
 
+    /// Initialisation may take its time.
+    const BOOTS_LATE: bool = match D::PROFILE {
+        Some(profile) => profile.nmt.reset_node_us > 0 || profile.nmt.reset_communication_us > 0,
+        None => true,
+    };
+
     /// There is somebody to watch: a master that guards, or a node that sends heartbeats.
     const HAS_MONITOR: bool = D::GUARDING || D::CONSUMER;
 

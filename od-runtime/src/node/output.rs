@@ -69,7 +69,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node_id = node.node_id;
         let pdos = node.tpdo.get_mut(..node.tpdo_count.into())?;
         // One that the inhibit time holds back stays pending.
-        let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready(now)) else {
+        let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready::<D>(now)) else {
             if !pdos.iter().any(pdo::Tpdo::is_pending) {
                 node.pending &= !pending::PDO;
             }
@@ -86,7 +86,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             }
         }
         let store = Store::new(&device.dictionary, device.values, node_id).ok()?;
-        let frame = pdo.send(&store, now);
+        let frame = pdo.send::<D>(&store, now);
         if !pdos.iter().any(pdo::Tpdo::is_pending) {
             node.pending &= !pending::PDO;
         }
@@ -105,7 +105,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let mut objects = device.objects(node.node_id, now, outbox, saving);
         let objects: &mut Objects<'_, D> = objects.as_mut()?;
         if node.sends_emcy() {
-            let frame = node.emcy.poll(&objects.store, now);
+            let frame = node.emcy.poll::<D>(&objects.store, now);
             if frame.is_some() {
                 return frame;
             }
@@ -195,7 +195,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// The first deadline of all that is not a frame that waits.
     #[inline(never)]
     pub(super) fn timers(&self) -> Deadline {
-        let mut first = self.boot_at.or(self.tick_at).or(self.heartbeat.deadline());
+        let mut first = self.tick_at.or(self.heartbeat.deadline());
+        if Self::BOOTS_LATE {
+            first = first.or(self.boot_at);
+        }
         if Self::HAS_MONITOR {
             first = first.or(self.monitor.deadline::<D>());
         }
@@ -216,7 +219,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         if self.state == State::Operational && self.mute.is_none() {
             for pdo in self.tpdo.get(..self.tpdo_count.into()).unwrap_or_default() {
-                first = first.or(pdo.deadline());
+                first = first.or(pdo.deadline::<D>());
             }
         }
         first

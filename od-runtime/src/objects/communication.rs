@@ -4,7 +4,7 @@ use od_model::Address;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
-use crate::device::Device;
+use crate::device::{Device, may_change, may_have};
 use crate::number::number_in;
 use crate::profile::Profile;
 use crate::store::Store;
@@ -46,7 +46,9 @@ pub(super) fn check<D: Device>(
     let check_cob_id = |has_valid_bit| check_cob_id(store, profile, row, value, has_valid_bit);
     match (index, sub) {
         // Writing 0 clears the log; nothing else may be written (chapter 7.5.2.4).
-        (0x1003, 0) if value != 0 => Err(AbortCode::ValueRange),
+        (0x1003, 0) if const { may_have::<D>(0x1003, 0x1003, None) } && value != 0 => {
+            Err(AbortCode::ValueRange)
+        }
         // A device that produces no SYNC cannot have bit 30 set (chapter 7.5.2.5).
         (0x1005, 0) if CobId::new(value).produces_sync() && !produces_sync::<D>(store) => {
             Err(AbortCode::ValueRange)
@@ -59,11 +61,15 @@ pub(super) fn check<D: Device>(
             Err(AbortCode::ValueRange)
         }
         (0x1012, 0) if D::TIME => check_cob_id(false),
-        (0x1019, 0) if has::<D>(0x1019) && !sync::is_overflow(value as u8) => {
+        (0x1019, 0)
+            if const { may_have::<D>(0x1019, 0x1019, None) } && !sync::is_overflow(value as u8) =>
+        {
             Err(AbortCode::ValueRange)
         }
         // SYNC may be on its way (chapter 7.5.2.22).
-        (0x1019, 0) if has::<D>(0x1019) && store.unsigned(0x1006, 0) != 0 => {
+        (0x1019, 0)
+            if const { may_have::<D>(0x1019, 0x1019, None) } && store.unsigned(0x1006, 0) != 0 =>
+        {
             Err(AbortCode::DeviceState)
         }
         // A node has one heartbeat time (chapter 7.5.2.13).
@@ -88,9 +94,14 @@ pub(super) fn check<D: Device>(
             }
         }
         // The inhibit time cannot change while the PDO exists (chapter 7.5.2.37).
-        (0x1800..=0x19FF, 3) if is_valid(store, index) && !profile.pdo.direct_cob_id => {
+        (0x1800..=0x19FF, 3)
+            if const { may_have::<D>(0x1800, 0x19FF, Some(3)) }
+                && is_valid(store, index)
+                && !profile.pdo.direct_cob_id =>
+        {
             Err(AbortCode::ValueRange)
         }
+        (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) if !const { can_map::<D>() } => Ok(()),
         (0x1600..=0x17FF | 0x1A00..=0x1BFF, 0) => check_mapping_count(store, index, value),
         (0x1600..=0x17FF | 0x1A00..=0x1BFF, _) => {
             if store.word(index, 0, 0) != 0 {
@@ -115,12 +126,9 @@ fn produces_sync<D: Device>(store: &Store<'_>) -> bool {
     D::SYNC_PRODUCER && store.try_unsigned(0x1006, 0).is_some()
 }
 
-/// Whether the dictionary may have an object, as far as the compiler knows.
-const fn has<D: Device>(index: u16) -> bool {
-    match &D::DICTIONARY {
-        Some(dictionary) => dictionary.has(index),
-        None => true,
-    }
+/// Whether the mapping of a PDO may change.
+const fn can_map<D: Device>() -> bool {
+    may_change::<D>(0x1600, 0x17FF) || may_change::<D>(0x1A00, 0x1BFF)
 }
 
 /// Whether one of these bits is set and stays set, and the CAN-ID would change.

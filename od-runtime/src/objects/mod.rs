@@ -10,7 +10,7 @@ use od_model::row::Row;
 
 use crate::application::{Application, Context, Halt, Reset, Stream};
 use crate::deadline::Deadline;
-use crate::device::Device;
+use crate::device::{Device, may_have};
 use crate::limits::{self, Outside};
 use crate::profile::{Profile, SaveAnswer};
 use crate::storage::{Storage, image};
@@ -53,6 +53,9 @@ pub(crate) struct Objects<'c, D> {
 }
 
 impl<'c, D: Device> Objects<'c, D> {
+    /// The device may have a log of its errors.
+    const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
+
     /// Options of the device family: those that the compiler knows, or else those that were lent.
     #[inline(always)]
     pub(crate) fn profile(&self) -> &'c Profile {
@@ -95,7 +98,7 @@ impl<'c, D: Device> Objects<'c, D> {
         if plain.len == 0 {
             self.check_special(row)?;
         }
-        if address.index == 0x1003 {
+        if Self::HAS_LOG && address.index == 0x1003 {
             self.unused_error(address)?;
         }
         self.refresh(address)?;
@@ -227,7 +230,7 @@ impl<'c, D: Device> Objects<'c, D> {
         }
         self.application(|application, context| application.validate(context, address, bytes))?;
         self.store.put_row(row, bytes)?;
-        if address == Address::new(0x1003, 0) {
+        if Self::HAS_LOG && address == Address::new(0x1003, 0) {
             crate::emcy::clear_log(&mut self.store);
         }
         self.application(|application, context| application.written(context, address));

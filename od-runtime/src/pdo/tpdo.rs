@@ -2,7 +2,7 @@
 
 use super::mapping::Mapping;
 use crate::deadline::Deadline;
-use crate::device::Device;
+use crate::device::{Device, may_have};
 use crate::objects::Objects;
 use crate::rooms::Rooms;
 use crate::store::Store;
@@ -16,6 +16,20 @@ mod kind {
     pub(super) const RTR: u8 = 253;
     pub(super) const EVENT_FIRST: u8 = 254;
 }
+
+/// Parameters that a TPDO of the device may have.
+trait Parameters: Device + Sized {
+    const INHIBITED: bool = may_have::<Self>(0x1800, 0x19FF, Some(3));
+    const TIMED: bool = may_have::<Self>(0x1800, 0x19FF, Some(5));
+    const STARTED: bool = may_have::<Self>(0x1800, 0x19FF, Some(6));
+    /// The repeat counter of a family.
+    const REPEATED: bool = match Self::PROFILE {
+        Some(profile) => profile.pdo.repeat_counter.is_some(),
+        None => true,
+    };
+}
+
+impl<D: Device> Parameters for D {}
 
 /// Configuration of a TPDO, from its objects.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -145,7 +159,7 @@ impl<R: Rooms> Tpdo<R> {
         self.sampled = false;
         self.inhibited_until = objects.now;
         self.event_at = Deadline::NEVER;
-        if self.config.valid && self.is_event_driven() && self.config.event > 0 {
+        if D::TIMED && self.config.valid && self.is_event_driven() && self.config.event > 0 {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
         if self.config.valid {
@@ -190,11 +204,11 @@ impl<R: Rooms> Tpdo<R> {
 
     /// Whether a SYNC is no more than [counted](Self::count_sync).
     #[inline(always)]
-    pub(crate) fn only_counts(&self) -> bool {
+    pub(crate) fn only_counts<D: Device>(&self) -> bool {
         match self.config.kind {
             _ if !self.config.valid => true,
             kind::ACYCLIC | kind::SYNC_RTR => false,
-            _ => self.config.repeat == 0 && !self.waits_for_start,
+            _ => !(D::REPEATED && self.config.repeat != 0 || D::STARTED && self.waits_for_start),
         }
     }
 
@@ -216,7 +230,7 @@ impl<R: Rooms> Tpdo<R> {
         if !self.config.valid {
             return;
         }
-        if self.waits_for_start {
+        if D::STARTED && self.waits_for_start {
             match counter {
                 Some(counter) if counter != self.config.sync_start => return,
                 _ => self.waits_for_start = false,
@@ -247,7 +261,7 @@ impl<R: Rooms> Tpdo<R> {
     /// A cyclic transmission is due; the repeat counter may hold it back.
     #[inline]
     fn due<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
-        if self.config.repeat != 0 {
+        if D::REPEATED && self.config.repeat != 0 {
             let data = self.mapping.sample(objects);
             if data != self.last {
                 self.last = data;
@@ -264,7 +278,7 @@ impl<R: Rooms> Tpdo<R> {
     /// The event timer, if its tick has come.
     #[inline]
     pub(crate) fn handle_timeout<D: Device>(&mut self, objects: &mut Objects<'_, D>) {
-        if self.event_at.is_due(objects.now) {
+        if D::TIMED && self.event_at.is_due(objects.now) {
             self.event_at = self.event_at.next_period(self.config.event, objects.now);
             self.due(objects);
         }
@@ -289,7 +303,10 @@ impl<R: Rooms> Tpdo<R> {
 
     /// The next tick of its event timer.
     #[inline]
-    pub(crate) fn deadline(&self) -> Deadline {
+    pub(crate) fn deadline<D: Device>(&self) -> Deadline {
+        if !D::TIMED {
+            return Deadline::NEVER;
+        }
         self.event_at
     }
 
@@ -314,12 +331,15 @@ impl<R: Rooms> Tpdo<R> {
 
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
     #[inline]
-    pub(crate) fn send(&mut self, store: &Store<'_>, now: Instant) -> Frame {
+    pub(crate) fn send<D: Device>(&mut self, store: &Store<'_>, now: Instant) -> Frame {
         self.pending = false;
         self.last = self.mapping.read(store);
         self.sampled = true;
         if self.is_event_driven() || self.config.kind == kind::RTR {
-            self.inhibited_until = now.plus_micros(u64::from(self.config.inhibit) * 100);
+            self.inhibited_until = match D::INHIBITED {
+                true => now.plus_micros(u64::from(self.config.inhibit) * 100),
+                false => now,
+            };
         }
         self.frame(self.last)
     }
@@ -332,8 +352,8 @@ impl<R: Rooms> Tpdo<R> {
 
     /// Something waits to be sent, and nothing keeps it.
     #[inline]
-    pub(crate) fn is_ready(&self, now: Instant) -> bool {
-        self.pending && now >= self.inhibited_until
+    pub(crate) fn is_ready<D: Device>(&self, now: Instant) -> bool {
+        self.pending && (!D::INHIBITED || now >= self.inhibited_until)
     }
 
     fn frame(&self, data: [u8; 8]) -> Frame {
