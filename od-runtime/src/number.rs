@@ -33,9 +33,11 @@ pub(crate) fn fill(room: &mut [u8], number: [u8; 8]) {
     if let Ok(room) = <&mut [u8; 4]>::try_from(&mut *room) {
         *room = [a, b, c, d];
     } else {
-        room.iter_mut()
-            .zip(number)
-            .for_each(|(to, from)| *to = from);
+        let mut rest = u64::from_le_bytes(number);
+        for to in room.iter_mut().take(8) {
+            *to = rest as u8;
+            rest >>= 8;
+        }
     }
 }
 
