@@ -263,7 +263,15 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[inline(never)]
     pub fn row_of(&self, address: Address) -> Result<&'a Row, Missing> {
-        self.locate(address).map(|(_, row)| row)
+        self.row_at(address).ok_or_else(|| self.missing(address))
+    }
+
+    /// The row of an address, if there is one. A pointer, which a register holds; what
+    /// [`row_of`](Self::row_of) returns goes through memory.
+    #[doc(hidden)]
+    #[inline(never)]
+    pub fn row_at(&self, address: Address) -> Option<&'a Row> {
+        index::position(self.buckets, self.rows, address).map(|(_, row)| row)
     }
 
     /// The row of a number in the store that a master may read and one frame carries.

@@ -122,11 +122,12 @@ const fn number(kind: u32, bits: u64, node_id: u8) -> u64 {
     }
 }
 
-/// Length of each data type in bits, 0 where it varies, in the order of [`DataType::ALL`].
-static BITS: [u8; DataType::ALL.len()] = {
-    let mut bits = [0; DataType::ALL.len()];
+/// Length of each data type in bits, 0 where it varies, in the order of [`DataType::ALL`]: for every number
+/// that a row can have.
+static BITS: [u8; 32] = {
+    let mut bits = [0; 32];
     let mut i = 0;
-    while i < bits.len() {
+    while i < DataType::ALL.len() {
         if let Some(number) = DataType::ALL[i].bits() {
             bits[i] = number;
         }
@@ -244,8 +245,7 @@ impl Row {
     /// Length of a value whose type gives it, in bits; 0 for a string or DOMAIN.
     #[inline(always)]
     pub const fn bits(self) -> u8 {
-        let number = (self.0[0] >> 3 & 31) as usize;
-        if number < BITS.len() { BITS[number] } else { 0 }
+        BITS[(self.0[0] >> 3 & 31) as usize]
     }
 
     /// Length of a value whose type gives it, in bytes; 0 for a string or DOMAIN.

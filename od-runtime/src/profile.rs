@@ -140,7 +140,7 @@ impl StoreProfile {
 
     fn give_node_id(&self, store: &mut Store<'_>, which: &dyn Fn(&Row) -> bool) {
         if let Some((address, node_id)) = self.node_id
-            && let Ok(row) = store.dictionary().row_of(address)
+            && let Some(row) = store.dictionary().row_at(address)
             && which(row)
         {
             // An UNSIGNED8, or the dictionary's own default stays.

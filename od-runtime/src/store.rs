@@ -119,7 +119,7 @@ impl<'a> Store<'a> {
 
     /// One value becomes its default; a description that gives none means 0 or empty.
     pub fn reset_entry(&mut self, entry: &Entry) {
-        if let Ok(row) = self.dictionary.row_of(entry.address) {
+        if let Some(row) = self.dictionary.row_at(entry.address) {
             self.reset_row(row);
         }
     }
@@ -144,8 +144,8 @@ impl<'a> Store<'a> {
 
     /// Returns whether the value is its default.
     pub fn is_default(&self, entry: &Entry) -> bool {
-        let row = self.dictionary.row_of(entry.address);
-        row.is_ok_and(|row| self.has_default(row))
+        let row = self.dictionary.row_at(entry.address);
+        row.is_some_and(|row| self.has_default(row))
     }
 
     /// Whether the value is its default.
@@ -161,9 +161,9 @@ impl<'a> Store<'a> {
             Some(bytes) if !bytes.is_empty() => T::from_wire(bytes),
             _ => {
                 let mut number = [0; 8];
-                T::from_wire(match self.dictionary.row_of(var.address()) {
-                    Ok(row) => self.value(row, &mut number),
-                    Err(_) => &[],
+                T::from_wire(match self.dictionary.row_at(var.address()) {
+                    Some(row) => self.value(row, &mut number),
+                    None => &[],
                 })
             }
         }
@@ -179,9 +179,9 @@ impl<'a> Store<'a> {
 
     /// The bytes of a string or domain.
     pub fn text<A>(&self, text: Text<A>) -> &[u8] {
-        match self.dictionary.row_of(text.address()) {
-            Ok(row) => variable(self.dictionary, self.values, row),
-            Err(_) => &[],
+        match self.dictionary.row_at(text.address()) {
+            Some(row) => variable(self.dictionary, self.values, row),
+            None => &[],
         }
     }
 
@@ -195,11 +195,11 @@ impl<'a> Store<'a> {
         bytes: &[u8],
     ) -> Result<(), TextTooLong> {
         let capacity = usize::from(text.slot().len.saturating_sub(2));
-        match self.dictionary.row_of(text.address()) {
-            Ok(row) => self
+        match self.dictionary.row_at(text.address()) {
+            Some(row) => self
                 .put_row(row, bytes)
                 .map_err(|_| TextTooLong { capacity }),
-            Err(_) => Err(TextTooLong { capacity: 0 }),
+            None => Err(TextTooLong { capacity: 0 }),
         }
     }
 
@@ -212,9 +212,9 @@ impl<'a> Store<'a> {
     /// The value's bytes as an SDO carries them. `number` is room for those of a
     /// `const` number, which is not in the store.
     pub fn bytes<'b>(&'b self, entry: &Entry, number: &'b mut [u8; 8]) -> &'b [u8] {
-        match self.dictionary.row_of(entry.address) {
-            Ok(row) => self.value(row, number),
-            Err(_) => &[],
+        match self.dictionary.row_at(entry.address) {
+            Some(row) => self.value(row, number),
+            None => &[],
         }
     }
 
@@ -277,16 +277,16 @@ impl<'a> Store<'a> {
     /// The number at an address, if there is such an object; signed ones are extended.
     #[inline(never)]
     pub fn try_unsigned(&self, index: u16, sub: u8) -> Option<u64> {
-        let row = self.dictionary.row_of(Address::new(index, sub)).ok()?;
+        let row = self.dictionary.row_at(Address::new(index, sub))?;
         Some(self.number_of(row))
     }
 
     /// The low 32 bits of the number at an address; `missing` without such an object.
     #[inline(never)]
     pub(crate) fn word(&self, index: u16, sub: u8, missing: u32) -> u32 {
-        match self.dictionary.row_of(Address::new(index, sub)) {
-            Ok(row) => self.number_of(row) as u32,
-            Err(_) => missing,
+        match self.dictionary.row_at(Address::new(index, sub)) {
+            Some(row) => self.number_of(row) as u32,
+            None => missing,
         }
     }
 
@@ -321,7 +321,7 @@ impl<'a> Store<'a> {
 
     /// Puts a number at an address, cut to the entry's length; `false` if the object does not exist.
     pub fn set_unsigned(&mut self, address: Address, value: u64) -> bool {
-        let Ok(row) = self.dictionary.row_of(address) else {
+        let Some(row) = self.dictionary.row_at(address) else {
             return false;
         };
         let is_number = row.is_stored() && !row.is_variable();

@@ -78,8 +78,8 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
         address: Address,
         value: &[u8],
     ) -> Result<(), AbortCode> {
-        let number = match cx.store.dictionary().row_of(address) {
-            Ok(row) if row.data_type().kind() == Kind::Unsigned => number_in(value),
+        let number = match cx.store.dictionary().row_at(address) {
+            Some(row) if row.data_type().kind() == Kind::Unsigned => number_in(value),
             _ => return Ok(()),
         };
         let profile = self.profile();
@@ -257,7 +257,7 @@ fn only(is_known: bool) -> Result<(), AbortCode> {
 
 /// The handle of 6004h, whatever its width; it lies in the store where it lies.
 fn position_handle(store: &Store<'_>) -> Option<Var<u32, Ro>> {
-    let row = store.dictionary().row_of(Address::new(POSITION, 0)).ok()?;
+    let row = store.dictionary().row_at(Address::new(POSITION, 0))?;
     let is_integer = matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed);
     is_integer.then(|| Var::new(row.address(), row.slot(&[]), row.bits()))
 }

@@ -299,13 +299,13 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     /// A reset: the one of two linked objects that is saved rules; of two, the one that
     /// storage held.
     pub(super) fn agree_on_links(&self, store: &mut Store<'_>) {
-        let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().row_of(at) {
-            Ok(row) => row.group() != Group::None,
-            Err(_) => false,
+        let is_saved = |store: &Store<'_>, at: Address| match store.dictionary().row_at(at) {
+            Some(row) => row.group() != Group::None,
+            None => false,
         };
-        let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().row_of(at) {
-            Ok(row) => row.group() != Group::None && !store.has_default(row),
-            Err(_) => false,
+        let is_stored = |store: &Store<'_>, at: Address| match store.dictionary().row_at(at) {
+            Some(row) => row.group() != Group::None && !store.has_default(row),
+            None => false,
         };
         for (first, second) in self.profile().links {
             if is_saved(store, *second) && !is_saved(store, *first)

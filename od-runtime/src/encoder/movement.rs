@@ -53,10 +53,10 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     ) -> i64 {
         let mut known = self.measured_since.iter().zip(self.movements());
         let since = known.find(|(_, (at, _))| *at == address);
-        let bits = match cx.store.dictionary().row_of(address) {
-            Ok(row) if row.is_variable() => 32,
-            Ok(row) => row.bits().clamp(8, 32),
-            Err(_) => return 0,
+        let bits = match cx.store.dictionary().row_at(address) {
+            Some(row) if row.is_variable() => 32,
+            Some(row) => row.bits().clamp(8, 32),
+            None => return 0,
         };
         let most = (1i64 << (bits - 1)) - 1;
         let value = since.and_then(|(since, _)| self.movement(cx.store, cx.now, movement, *since));

@@ -50,14 +50,14 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     /// After a reset the two timers may say different things. What changed rules: where the
     /// reset took both back, what storage held; else, what it took back.
     pub(super) fn agree_on_timer(&mut self, cx: &mut Context<'_, '_>, starts: bool) {
-        if cx.store.dictionary().row_of(TIMER).is_err() {
+        if cx.store.dictionary().row_at(TIMER).is_none() {
             return;
         }
         let starts = starts || cx.store.unsigned(TIMER.index, TIMER.sub) != self.timer;
-        let changed = |at: Address, was: u64| match cx.store.dictionary().row_of(at) {
-            Ok(row) if starts => !cx.store.has_default(row),
-            Ok(row) => cx.store.number_of(row) != was,
-            Err(_) => false,
+        let changed = |at: Address, was: u64| match cx.store.dictionary().row_at(at) {
+            Some(row) if starts => !cx.store.has_default(row),
+            Some(row) => cx.store.number_of(row) != was,
+            None => false,
         };
         let was = match self.timer {
             0 => 0,

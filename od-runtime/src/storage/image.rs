@@ -138,7 +138,7 @@ pub fn load(
         if record.address.index == OWN {
             continue;
         }
-        let row = store.dictionary().row_of(record.address).ok();
+        let row = store.dictionary().row_at(record.address);
         let is_loaded = match row.filter(|row| is_saved(row)) {
             Some(row) if !which(row) || banks.is_withdrawn && !is_life_record(row) => true,
             Some(row) => load_value(storage, store, profile, row, record)?,
