@@ -111,7 +111,7 @@ pub(super) fn check<D: Device>(
             if value == 0 {
                 return Ok(());
             }
-            check_mapped(store, index, value).map(|_| ())
+            check_mapped(store, index, value)
         }
         _ => Ok(()),
     }
@@ -181,8 +181,9 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), 
     let mut bits = 0;
     for sub in 1..=count.min(0xFF) as u8 {
         let raw = store.try_unsigned(index, sub);
-        let raw = raw.ok_or(AbortCode::PdoTooLong)?;
-        bits += u32::from(check_mapped(store, index, raw as u32)?.bits);
+        let raw = raw.ok_or(AbortCode::PdoTooLong)? as u32;
+        check_mapped(store, index, raw)?;
+        bits += u32::from(MapEntry::parse(raw).bits);
         if bits > 64 {
             return Err(AbortCode::PdoTooLong);
         }
@@ -193,7 +194,7 @@ fn check_mapping_count(store: &Store<'_>, index: u16, count: u32) -> Result<(), 
 /// One entry of the mapping object at `index`: what it names exists, can be mapped in this
 /// direction, and is named with its own length. An RPDO may skip over the dummies 0001h–0007h.
 #[inline(never)]
-pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<MapEntry, AbortCode> {
+pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<(), AbortCode> {
     let mapped = MapEntry::parse(raw);
     let transmits = index >= 0x1A00;
     if let Address {
@@ -203,7 +204,7 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<Ma
     {
         let bits = od_model::DataType::from_code(dummy).and_then(od_model::DataType::bits);
         return match transmits {
-            false if bits == Some(mapped.bits) => Ok(mapped),
+            false if bits == Some(mapped.bits) => Ok(()),
             _ => Err(AbortCode::NotMappable),
         };
     }
@@ -213,7 +214,7 @@ pub(crate) fn check_mapped(store: &Store<'_>, index: u16, raw: u32) -> Result<Ma
         false => row.maps_to_rpdo(),
     };
     if direction && !row.is_variable() && row.bits() == mapped.bits {
-        Ok(mapped)
+        Ok(())
     } else {
         Err(AbortCode::NotMappable)
     }

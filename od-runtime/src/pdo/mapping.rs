@@ -45,11 +45,11 @@ impl<R: Rooms> Mapping<R> {
         let mut bits = 0u32;
         for sub in 1..=count {
             let raw = store.word(object, sub, 0);
-            let Ok(MapEntry { address, .. }) = check_mapped(store, object, raw) else {
+            if check_mapped(store, object, raw).is_err() {
                 bits = u32::MAX;
                 break;
-            };
-            self.is_live |= objects.is_live(address);
+            }
+            self.is_live |= objects.is_live(MapEntry::parse(raw).address);
             bits += raw & 0xFF;
             if let Some(kept) = self.kept.all_mut().get_mut(usize::from(sub) - 1) {
                 let mapped = mapped(store, raw);
