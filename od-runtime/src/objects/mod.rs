@@ -214,8 +214,9 @@ impl<'c, D: Device> Objects<'c, D> {
         self.change(row, bytes)
     }
 
+    /// Writes a value of which it is known that it may be written.
     #[inline(never)]
-    fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
+    pub(crate) fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let address = row.address();
         let len = self.fit(row, bytes.len())?;
         let bytes = bytes.get(..len).unwrap_or(bytes);

@@ -24,7 +24,7 @@ use crate::device::Device;
 use crate::number::number_in;
 use crate::objects::{Objects, Unread};
 use crate::rooms::{Blank, FullRooms, Room, Rooms};
-use od_wire::sdo::{Request, Response, expedited_upload};
+use od_wire::sdo::{Response, expedited_upload};
 use od_wire::{AbortCode, Frame, Instant};
 
 use block_download::BlockDownload;
@@ -179,7 +179,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 late.hold(data, dlc);
             }
             if D::STREAMS && data[0] == ABORT && self.late().awaits_stream() {
-                let answer = self.request(objects, Request::parse(data), data, dlc);
+                let answer = self.request(objects, data, dlc);
                 self.set_late(Late::BLANK);
                 self.settle(objects, answer, data, dlc);
             }
@@ -196,7 +196,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 self.is_busy = false;
                 return self.handle(objects, data, dlc);
             }
-            _ => self.request(objects, Request::parse(data), data, dlc),
+            _ => self.request(objects, data, dlc),
         };
         self.settle(objects, answer, data, dlc)
     }

@@ -14,23 +14,37 @@ use crate::objects::{Objects, Unread};
 use crate::rooms::{Room, Rooms};
 
 impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
+    #[inline]
     pub(super) fn request(
         &mut self,
         objects: &mut Objects<'_, D>,
-        request: Request,
         data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
+        let [command, low, high, sub, ..] = *data;
+        let address = Address::new(u16::from_le_bytes([low, high]), sub);
+        let [.., a, b, c, d] = *data;
+        match command >> 5 {
+            1 if command & 2 != 0 => self.expedited(objects, address, data, dlc),
+            4 => {
+                let code = u32::from_le_bytes([a, b, c, d]);
+                self.close(objects, StreamEnd::Cancelled(code));
+                Ok(None)
+            }
+            _ if D::SEGMENTED || D::BLOCK || D::STREAMS => self.transfer_request(objects, data),
+            _ => {
+                self.address = address;
+                Err(AbortCode::InvalidCommand.into())
+            }
+        }
+    }
+
+    /// A request of a transfer with more than one. Not in the frame of an expedited download, which may
+    /// save all values: that is as deep as the stack gets.
+    #[inline(never)]
+    fn transfer_request(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8]) -> Answer {
         let profile = objects.profile().sdo;
-        match (request, self.transfers.all_mut()) {
-            (
-                Request::InitiateDownload {
-                    address,
-                    size,
-                    expedited: Some(bytes),
-                },
-                _,
-            ) => self.expedited(objects, address, size, bytes, dlc),
+        match (Request::parse(data), self.transfers.all_mut()) {
             (Request::InitiateDownload { address, size, .. }, _) => {
                 self.replace(objects, address);
                 if !D::SEGMENTED || !profile.segmented_download {
@@ -71,10 +85,6 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
                 }
                 let toggle = segment.toggle;
                 Ok(Some(Response::DownloadSegment { toggle }.emit()))
-            }
-            (Request::Abort { code, .. }, _) => {
-                self.close(objects, StreamEnd::Cancelled(code));
-                Ok(None)
             }
             (
                 Request::InitiateBlockUpload {
@@ -152,10 +162,12 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         &mut self,
         objects: &mut Objects<'_, D>,
         address: Address,
-        size: Option<u32>,
-        bytes: [u8; 4],
+        data: &[u8; 8],
         dlc: u8,
     ) -> Answer {
+        // Bytes 4 to 7 are the value; so many of them do not count, if the command says so.
+        let [command, _, _, _, bytes @ ..] = data;
+        let size = (command & 1 != 0).then_some(4 - (command >> 2 & 3));
         let had_begun = match self.transfer() {
             Transfer::Expedited(len) if D::STREAMS && address == self.address => {
                 Some(usize::from(*len))
@@ -166,10 +178,10 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
             self.replace(objects, address);
         }
         let row = objects.writable(address)?;
-        let len = expedited::len(&objects.profile().sdo, row, size, dlc)?;
+        let len = expedited::len(&objects.profile().sdo, row, size.map(u32::from), dlc)?;
         let bytes = bytes.get(..len).unwrap_or_default();
         if !objects.streams(row) {
-            objects.write(address, bytes)?;
+            objects.change(row, bytes)?;
             self.reset();
         } else {
             if had_begun != Some(len) {
