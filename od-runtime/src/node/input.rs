@@ -44,7 +44,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if !is_seldom && is_whole && id == node.ear.sdo {
             let quick = node.sdo.quick(frame).and_then(|address| {
                 let row = device.dictionary.plain_row(address)?;
-                let is_quick = address.index != 0x1003 && !self.outbox.is_live(address);
+                let is_log = Objects::<D>::HAS_LOG && address.index == 0x1003;
+                let is_quick = !is_log && !self.outbox.is_live(address);
                 let slot = row.plain();
                 let at = slot.offset as usize;
                 let value = device.values.get(at..at + usize::from(slot.len))?;

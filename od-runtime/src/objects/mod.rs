@@ -54,7 +54,7 @@ pub(crate) struct Objects<'c, D> {
 
 impl<'c, D: Device> Objects<'c, D> {
     /// The device may have a log of its errors.
-    const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
+    pub(crate) const HAS_LOG: bool = may_have::<D>(0x1003, 0x1003, None);
 
     /// Options of the device family: those that the compiler knows, or else those that were lent.
     #[inline(always)]

@@ -44,6 +44,12 @@ pub struct Outbox<Q: ?Sized = [Change]> {
     pub(crate) signals: Signals<Q>,
 }
 
+/// Whether a set of live values may name an address. A call, since most addresses need none.
+#[inline(never)]
+const fn names(live: u32, address: Address) -> bool {
+    live & live_bit(address) != 0
+}
+
 /// An address as one of 32 bits.
 #[inline(always)]
 pub(super) const fn live_bit(address: Address) -> u32 {
@@ -101,6 +107,6 @@ impl<Q: ?Sized> Outbox<Q> {
     /// Whether the application may have to bring the value at an address up to date.
     #[inline(always)]
     pub(crate) const fn is_live(&self, address: Address) -> bool {
-        self.live & live_bit(address) != 0 && address.index >= 0x2000
+        address.index >= 0x2000 && self.live != 0 && names(self.live, address)
     }
 }

@@ -113,7 +113,9 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
     #[inline]
     fn reset(&mut self) {
         self.set_transfer(Transfer::None);
-        self.deadline = Deadline::NEVER;
+        if D::BLOCK || D::STREAMS {
+            self.deadline = Deadline::NEVER;
+        }
     }
 
     /// A client's frame; `data` beyond `dlc` is 0.
