@@ -41,7 +41,7 @@ impl Instant {
 
     /// The moment `micros` microseconds later; the end of time at the latest.
     pub const fn plus_micros(self, micros: u64) -> Self {
-        Self(self.0.saturating_add(micros))
+        Self(later(self.0, micros))
     }
 
     /// Microseconds since `earlier`; 0 if that is later.
@@ -74,6 +74,12 @@ impl Instant {
         }
         now.plus_micros(micros - rest)
     }
+}
+
+/// The sum, or the end of time. On a microcontroller it is a call.
+#[cfg_attr(target_os = "none", inline(never))]
+const fn later(at: u64, micros: u64) -> u64 {
+    at.saturating_add(micros)
 }
 
 impl Add<Duration> for Instant {

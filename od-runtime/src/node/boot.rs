@@ -278,33 +278,26 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     pub(super) fn configure(&mut self, objects: &mut Objects<'_, D>) {
         self.wanted_changed = true;
         self.sync_id = CobId::new(objects.store.word(0x1005, 0, 0x80)).can_id();
-        let dictionary = objects.store.dictionary();
-        self.tpdo_count = dictionary.tpdos().min(PDO) as u16;
-        self.rpdo_count = dictionary.rpdos().min(Self::RPDOS) as u16;
-        for (number, tpdo) in self
-            .tpdo
-            .iter_mut()
-            .take(self.tpdo_count.into())
-            .enumerate()
-        {
-            if tpdo.configure(objects, number as u16) && self.state == State::Operational {
+        if Self::PDOS.is_none() {
+            let dictionary = objects.store.dictionary();
+            self.tpdo_count = dictionary.tpdos().min(PDO) as u16;
+            self.rpdo_count = dictionary.rpdos().min(Self::RPDOS) as u16;
+        }
+        let operates = self.state == State::Operational;
+        for (number, tpdo) in (0..).zip(self.tpdos_mut()) {
+            if tpdo.configure(objects, number) && operates {
                 tpdo.start(objects);
             }
         }
         if D::CHANGES && objects.profile().pdo.event_on_change {
-            let mut tpdos = self.tpdo.iter().take(self.tpdo_count.into());
-            self.watches_changes = tpdos.clone().any(pdo::Tpdo::watches_changes);
+            let mut tpdos = self.tpdos().iter();
+            let changes = tpdos.clone().any(pdo::Tpdo::watches_changes);
             self.watches_live = tpdos.any(pdo::Tpdo::watches_live);
+            self.watches_changes = changes;
         }
         if D::RPDOS {
-            for (number, rpdo) in self
-                .rpdo
-                .all_mut()
-                .iter_mut()
-                .take(self.rpdo_count.into())
-                .enumerate()
-            {
-                rpdo.configure(objects, number as u16);
+            for (number, rpdo) in (0..).zip(self.rpdos_mut()) {
+                rpdo.configure(objects, number);
             }
         }
         self.configure_servers(objects);

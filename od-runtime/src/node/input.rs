@@ -284,10 +284,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if self.state != State::Operational {
             return;
         }
-        let pdos = self
-            .tpdo
-            .get_mut(..self.tpdo_count.into())
-            .unwrap_or_default();
+        let count = self.tpdo_count();
+        let pdos = self.tpdo.get_mut(..count).unwrap_or_default();
         for pdo in pdos.iter_mut().filter(|pdo| pdo.answers(frame.id())) {
             if let Some(answer) = pdo.request(objects) {
                 Room::queue_mut(&mut self.out).push(answer);
@@ -299,16 +297,12 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// SYNC, where nothing has to be done for it now. Returns whether that is so.
     #[inline(always)]
     fn count_sync(&mut self, frame: &Frame) -> bool {
-        let (tpdos, rpdos) = (&self.tpdo, &self.rpdo);
         let only_counts = frame.dlc() <= 1
-            && tpdos
-                .iter()
-                .take(self.tpdo_count.into())
-                .all(pdo::Tpdo::only_counts::<D>)
-            && !(D::RPDOS && rpdos.all().iter().any(pdo::Rpdo::is_waiting));
+            && self.tpdos().iter().all(pdo::Tpdo::only_counts::<D>)
+            && !(D::RPDOS && self.rpdo.all().iter().any(pdo::Rpdo::is_waiting));
         if only_counts {
             let mut pending = false;
-            for pdo in self.tpdos() {
+            for pdo in self.tpdos_mut() {
                 pending |= pdo.count_sync();
             }
             self.pend_pdo(pending);
@@ -331,7 +325,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[inline]
     pub(super) fn sync(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
         if D::RPDOS {
-            for pdo in self.rpdos() {
+            for pdo in self.rpdos_mut() {
                 pdo.sync(objects);
             }
         }
@@ -340,7 +334,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 
     #[inline(never)]
     fn handle_rpdo(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
-        for pdo in self.rpdos().iter_mut().filter(|pdo| pdo.takes(frame.id())) {
+        for pdo in self
+            .rpdos_mut()
+            .iter_mut()
+            .filter(|pdo| pdo.takes(frame.id()))
+        {
             match pdo.receive(objects, frame) {
                 Received::Taken => objects.outbox.signals.clear(PDO_LENGTH, [0; 5]),
                 Received::TooShort => {

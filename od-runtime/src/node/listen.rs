@@ -7,7 +7,6 @@ use super::ear::{ERROR_CONTROL, Ear, LSS, NMT, NONE, code};
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::objects::Objects;
-use crate::rooms::Room;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// What the node listens for follows from its state and its objects, which have changed.
@@ -40,11 +39,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         if self.state == State::Operational {
             ear.sync = self.sync_id;
-            for pdo in self.tpdo.iter().take(self.tpdo_count.into()) {
+            for pdo in self.tpdos() {
                 ear.codes |= pdo.requested_by().map_or(0, code);
             }
             if D::RPDOS {
-                for pdo in self.rpdo.all().iter().take(self.rpdo_count.into()) {
+                for pdo in self.rpdos() {
                     ear.codes |= pdo.received_by().map_or(0, code);
                 }
             }

@@ -275,21 +275,53 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         self.unconfigured && !self.boot_at.is_set() && self.mute.is_none()
     }
 
+    /// The numbers of TPDOs and RPDOs, as far as the compiler knows them.
+    const PDOS: Option<[usize; 2]> = match &D::DICTIONARY {
+        Some(dictionary) if dictionary.tpdos() <= PDO && dictionary.rpdos() <= Self::RPDOS => {
+            Some([dictionary.tpdos(), dictionary.rpdos()])
+        }
+        _ => None,
+    };
+
+    #[inline(always)]
+    fn tpdo_count(&self) -> usize {
+        match Self::PDOS {
+            Some([tpdos, _]) => tpdos,
+            None => self.tpdo_count.into(),
+        }
+    }
+
+    #[inline(always)]
+    fn rpdo_count(&self) -> usize {
+        match Self::PDOS {
+            Some([_, rpdos]) => rpdos,
+            None => self.rpdo_count.into(),
+        }
+    }
+
     /// The TPDOs that the dictionary has.
-    #[inline]
-    fn tpdos(&mut self) -> &mut [pdo::Tpdo<X::Rooms>] {
-        self.tpdo
-            .get_mut(..self.tpdo_count.into())
-            .unwrap_or_default()
+    #[inline(always)]
+    fn tpdos(&self) -> &[pdo::Tpdo<X::Rooms>] {
+        self.tpdo.get(..self.tpdo_count()).unwrap_or_default()
     }
 
     /// The RPDOs that the dictionary has.
+    #[inline(always)]
+    fn rpdos(&self) -> &[pdo::Rpdo<X::Rooms>] {
+        let rpdos = self.rpdo.all();
+        rpdos.get(..self.rpdo_count()).unwrap_or_default()
+    }
+
     #[inline]
-    fn rpdos(&mut self) -> &mut [pdo::Rpdo<X::Rooms>] {
-        self.rpdo
-            .all_mut()
-            .get_mut(..self.rpdo_count.into())
-            .unwrap_or_default()
+    fn tpdos_mut(&mut self) -> &mut [pdo::Tpdo<X::Rooms>] {
+        let count = self.tpdo_count();
+        self.tpdo.get_mut(..count).unwrap_or_default()
+    }
+
+    #[inline]
+    fn rpdos_mut(&mut self) -> &mut [pdo::Rpdo<X::Rooms>] {
+        let count = self.rpdo_count();
+        self.rpdo.all_mut().get_mut(..count).unwrap_or_default()
     }
 
     fn enter(&mut self, objects: &mut Objects<'_, D>, state: State) {
@@ -325,11 +357,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     }
 
     fn stop_pdos(&mut self) {
-        for pdo in self.tpdos() {
+        for pdo in self.tpdos_mut() {
             pdo.stop();
         }
         if D::RPDOS {
-            for pdo in self.rpdos() {
+            for pdo in self.rpdos_mut() {
                 pdo.stop();
             }
         }
@@ -340,7 +372,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[inline]
     fn each_tpdo(&mut self, mut act: impl FnMut(&mut pdo::Tpdo<X::Rooms>)) {
         let mut pending = false;
-        for pdo in self.tpdos() {
+        for pdo in self.tpdos_mut() {
             act(pdo);
             pending |= pdo.is_pending();
         }

@@ -67,7 +67,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         let node = &mut self.machines;
         let now = now.max(node.now);
         let node_id = node.node_id;
-        let pdos = node.tpdo.get_mut(..node.tpdo_count.into())?;
+        let count = node.tpdo_count();
+        let pdos = node.tpdo.get_mut(..count)?;
         // One that the inhibit time holds back stays pending.
         let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready::<D>(now)) else {
             if !pdos.iter().any(pdo::Tpdo::is_pending) {
@@ -184,7 +185,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             first = first.or(self.emcy.deadline());
         }
         if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdo.get(..self.tpdo_count.into()).unwrap_or_default() {
+            for pdo in self.tpdos() {
                 first = first.or(pdo.ready_at());
             }
         }
@@ -218,7 +219,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             first = first.or(*at);
         }
         if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdo.get(..self.tpdo_count.into()).unwrap_or_default() {
+            for pdo in self.tpdos() {
                 first = first.or(pdo.deadline::<D>());
             }
         }

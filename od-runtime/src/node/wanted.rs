@@ -5,7 +5,6 @@ use od_wire::CanId;
 use super::{Machines, Node};
 use crate::device::Device;
 use crate::extras::Extras;
-use crate::rooms::Room;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
     /// Returns the CAN-IDs of all frames, data and remote, that mean anything to the node in any NMT
@@ -33,8 +32,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             D::GUARDING.then(|| self.node_id.plus(0x700)),
             Some(self.sync_id),
         ];
-        let tpdos = self.tpdo.iter().take(self.tpdo_count.into());
-        let rpdos = self.rpdo.all().iter().take(self.rpdo_count.into());
+        let tpdos = self.tpdos().iter();
+        let rpdos = self.rpdos().iter();
         let others = own
             .into_iter()
             .flatten()
