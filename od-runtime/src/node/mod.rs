@@ -54,68 +54,70 @@ pub use fits::Unfit;
 ///
 /// The node has no lifetime: each call borrows the device as a [`Lent`].
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: Extras<D, SDO> = ()>
 {
+    machines: Machines<D, PDO, SDO, X>,
     /// [`Objects`] holds both while a call has the device, so they are not among the machines.
     outbox: Outbox<<X::Rooms as Rooms>::Changes<Change>>,
     saves: <X::Rooms as Rooms>::Saves<Option<Saving>>,
-    machines: Machines<D, PDO, SDO, X>,
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.
 #[derive(Clone, Debug)]
+#[repr(C)] // What is small and used everywhere comes first: a Cortex-M reaches it by short instructions.
 struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
+    state: State,
+    powered: bool,
+    /// Kinds of frames that may wait to be sent, in the bits of [`pending`].
+    pending: u8,
     node_id: NodeId,
-    /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
-    made_with: NodeId,
-    /// It was made without a node ID.
-    made_unconfigured: bool,
     /// The node ID is FFh (CiA 305), and there is LSS alone. Not `configured`: a node without power is
     /// all zeros, so that a static one takes no flash.
     unconfigured: bool,
-    state: State,
-    powered: bool,
-    now: Instant,
-    /// Boot-up is due then; only while initialising.
-    boot_at: Deadline,
-    tick_at: Deadline,
-    /// The first of all deadlines but those of frames that wait; [`Instant::ZERO`]: not known, and
-    /// [`Instant::MAX`]: never.
-    next: Instant,
-    sync_id: CanId,
-    ear: ear::Ear,
-    out: Fifo<<X::Rooms as Rooms>::Frames<Frame>>,
-    /// The frame before those of `out`, if it is an SDO response: its data as words. Most
-    /// frames are, and this way they do not go through memory in pieces.
-    answer: [u32; 2],
-    /// Kinds of frames that may wait to be sent, in the bits of [`pending`].
-    pending: u8,
-    events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
-    sdo: sdo::Server<D, SDO, X::Rooms>,
-    heartbeat: error_control::Producer,
-    monitor: error_control::Monitor<X::Rooms>,
-    lss: <X::Rooms as Rooms>::Lss<lss::Slave>,
-    /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
-    mute: Option<controller::Mute>,
-    /// Last report of the CAN controller, except overruns.
-    bus: BusEvent,
     /// The error behaviour requests a reset when the call is over.
     reset_due: bool,
     /// Heartbeat or guarding failed in this call, and 1029h:01 has not acted on it yet.
     lost: bool,
-    /// A save is complete then.
-    save_at: <X::Rooms as Rooms>::Saves<Deadline>,
-    emcy: emcy::Producer<X::Rooms>,
-    tpdo: [pdo::Tpdo<X::Rooms>; PDO],
-    tpdo_count: u16,
-    rpdo: <X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO>,
-    rpdo_count: u16,
     /// There is a TPDO that is sent when a mapped value changes.
     watches_changes: bool,
     /// Such a value may change without a word to the node.
     watches_live: bool,
     /// The CAN-IDs that the node listens to may be others than those that the host knows.
     wanted_changed: bool,
+    /// Last report of the CAN controller, except overruns.
+    bus: BusEvent,
+    /// Node ID of the first start, where the image keeps it ([`LssProfile::is_own`](crate::LssProfile::is_own)).
+    made_with: NodeId,
+    /// It was made without a node ID.
+    made_unconfigured: bool,
+    tpdo_count: u16,
+    rpdo_count: u16,
+    ear: ear::Ear,
+    now: Instant,
+    /// The first of all deadlines but those of frames that wait; [`Instant::ZERO`]: not known, and
+    /// [`Instant::MAX`]: never.
+    next: Instant,
+    /// Boot-up is due then; only while initialising.
+    boot_at: Deadline,
+    tick_at: Deadline,
+    /// A save is complete then.
+    save_at: <X::Rooms as Rooms>::Saves<Deadline>,
+    heartbeat: error_control::Producer,
+    /// Nothing is sent or received: LSS activates a bit rate, or the CAN controller is bus-off.
+    mute: Option<controller::Mute>,
+    sync_id: CanId,
+    /// The frame before those of `out`, if it is an SDO response: its data as words. Most
+    /// frames are, and this way they do not go through memory in pieces.
+    answer: [u32; 2],
+    sdo: sdo::Server<D, SDO, X::Rooms>,
+    emcy: emcy::Producer<X::Rooms>,
+    monitor: error_control::Monitor<X::Rooms>,
+    lss: <X::Rooms as Rooms>::Lss<lss::Slave>,
+    out: Fifo<<X::Rooms as Rooms>::Frames<Frame>>,
+    events: Fifo<<X::Rooms as Rooms>::Events<Event>>,
+    tpdo: [pdo::Tpdo<X::Rooms>; PDO],
+    rpdo: <X::Rooms as Rooms>::Rpdos<pdo::Rpdo<X::Rooms>, PDO>,
     extras: X,
 }
 
