@@ -1,5 +1,7 @@
 //! The dictionary: one type for compiled tables and for files loaded at run time.
 
+mod text;
+
 use core::ops::Range as Span;
 
 use crate::address::Address;
@@ -7,7 +9,7 @@ use crate::entry::{Entry, Missing, Object, Slot};
 use crate::index;
 use crate::real::Reals;
 use crate::row::Row;
-use crate::value::{Literal, Range};
+use crate::value::Range;
 
 /// A view over sorted tables; the same for a compiled device and for a loaded file.
 ///
@@ -301,36 +303,6 @@ impl<'a> Dictionary<'a> {
     pub fn plain(&self, address: Address) -> Option<Slot> {
         let (_, row) = self.locate(address).ok()?;
         Some(row.plain()).filter(|slot| slot.len > 0)
-    }
-
-    /// The text of a range: a name or a VISIBLE_STRING.
-    pub fn text(&self, range: Range) -> &'a str {
-        #[cfg(feature = "names")]
-        let arena = if range.start & NAME != 0 {
-            self.names.text
-        } else {
-            self.text
-        };
-        #[cfg(not(feature = "names"))]
-        let arena = self.text;
-        let start = (range.start & !NAME) as usize;
-        arena
-            .get(start..start.saturating_add(range.len as usize))
-            .unwrap_or("")
-    }
-
-    /// The bytes of a range: an OCTET_STRING or a DOMAIN.
-    pub fn blob(&self, range: Range) -> &'a [u8] {
-        range.of(self.blob)
-    }
-
-    /// The bytes of a string-like literal; empty for numbers.
-    pub fn literal_bytes(&self, literal: Literal) -> &'a [u8] {
-        match literal {
-            Literal::Text(range) => self.text(range).as_bytes(),
-            Literal::Bytes(range) => self.blob(range),
-            _ => &[],
-        }
     }
 }
 
