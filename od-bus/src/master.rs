@@ -12,6 +12,9 @@ use crate::link::Link;
 /// 1 MiB, as a longer one is a device gone wild.
 const OPTIONS: Options = Options::DEFAULT;
 
+/// So often a read is begun if a response to something else comes.
+const TRIES: u8 = 3;
+
 /// Longest time to throw away what came before a request, in ms.
 const DRAIN: u64 = 20;
 
@@ -58,9 +61,17 @@ impl<L: Link> Master<L> {
     /// # Errors
     /// The link is lost, or the node says nothing, or what no server should.
     pub fn upload(&mut self, address: Address) -> Result<Result<Vec<u8>, u32>, Fault> {
-        let job = self.client.read(self.node, address);
+        let mut tries = TRIES;
         loop {
-            if let Event::Read(_, result) = self.event(job)? {
+            let job = self.client.read(self.node, address);
+            let result = loop {
+                if let Event::Read(_, result) = self.event(job)? {
+                    break result;
+                }
+            };
+            tries -= 1;
+            // A response to an earlier request, or to another program: the read can be repeated.
+            if !matches!(result, Err(SdoError::OutOfTurn { .. })) || tries == 0 {
                 return self.outcome(address, result);
             }
         }
@@ -132,9 +143,10 @@ impl<L: Link> Master<L> {
                  state (not Stopped) and its node ID",
                 self.timeout.as_secs_f32()
             ),
-            Err(SdoError::OutOfTurn { got, .. }) => {
-                format!("node {node}: unexpected SDO response for {address}: {got:?}")
-            }
+            Err(SdoError::OutOfTurn { expected, .. }) => format!(
+                "node {node}: {address}: {expected} was expected, and another SDO response came; does \
+                 another program read or write this node?"
+            ),
             Err(SdoError::TooLong) => {
                 let limit = OPTIONS.limit;
                 format!("node {node}: {address} is longer than {limit} bytes")

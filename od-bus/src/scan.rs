@@ -14,6 +14,10 @@ use crate::master::Master;
 
 /// Requests that are out at the same time.
 const AT_ONCE: usize = 16;
+/// So long a scan waits for nodes that answered before.
+const LATE: Duration = Duration::from_millis(800);
+/// So many frames are taken that came in time and were not looked at yet.
+const WAITING: usize = 4096;
 const DEVICE_TYPE: Address = Address::new(0x1000, 0);
 const SERIAL: Address = Address::new(0x1018, 4);
 
@@ -72,6 +76,8 @@ struct Heard {
     states: BTreeMap<NodeId, State>,
     boot_ups: BTreeSet<NodeId>,
     answers: BTreeMap<NodeId, Vec<[u8; 8]>>,
+    /// Index and sub-index of the requests, as in a frame: an answer to an earlier one does not count.
+    asked: [u8; 3],
     has_unconfigured: bool,
 }
 
@@ -98,12 +104,18 @@ pub fn scan(
         progress((done * 10) as u8);
         heard.ask(link, batch, DEVICE_TYPE, options.answer)?;
     }
+    // The last ones have as much time for a late answer as the others had.
+    heard.listen(link, options.answer)?;
     let mut types = core::mem::take(&mut heard.answers);
     let there: Vec<NodeId> = types.keys().copied().collect();
     for batch in there.chunks(AT_ONCE) {
         // Two nodes of one type give the same answer at the same time, which is one frame; their
         // serial numbers differ.
         heard.ask(link, batch, SERIAL, options.answer)?;
+    }
+    let until = link.now() + LATE;
+    while link.now() < until && heard.answers.len() < there.len() {
+        heard.listen(link, options.answer)?;
     }
     let mut serials = core::mem::take(&mut heard.answers);
     let mut found = BTreeMap::new();
@@ -192,6 +204,7 @@ impl Heard {
         wait: Duration,
     ) -> Result<(), Fault> {
         let request = Request::InitiateUpload { address }.emit();
+        self.asked = [request[1], request[2], request[3]];
         for node in nodes {
             let id = CanId::standard(0x600 + u16::from(node.raw()));
             link.send(&Frame::full(id, request))?;
@@ -206,6 +219,13 @@ impl Heard {
             // A bus that is full does not hold it up.
             if link.now() > until {
                 break;
+            }
+        }
+        // A program that had to wait for the processor finds what came in time.
+        for _ in 0..WAITING {
+            match link.receive(Instant::ZERO)? {
+                Some(heard) => self.frame(&heard.frame),
+                None => break,
             }
         }
         Ok(())
@@ -235,6 +255,7 @@ impl Heard {
         if let Some(node) = node.and_then(NodeId::new)
             && !frame.is_remote()
             && frame.dlc() == 8
+            && frame.bytes()[1..4] == self.asked
         {
             self.answers.entry(node).or_default().push(*frame.bytes());
         }

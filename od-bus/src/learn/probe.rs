@@ -250,7 +250,11 @@ impl<L: Link> Probe<L> {
         let until = link.now() + Duration::from_secs(1);
         loop {
             match link.receive(until) {
-                Ok(Some(heard)) if heard.frame.id() == id && heard.frame.dlc() == 8 => {
+                Ok(Some(heard))
+                    if heard.frame.id() == id
+                        && heard.frame.dlc() == 8
+                        && belongs(heard.frame.bytes(), &data) =>
+                {
                     return Ok(Some(*heard.frame.bytes()));
                 }
                 Ok(Some(_)) => {}
@@ -267,6 +271,12 @@ impl<L: Link> Probe<L> {
             }
         }
     }
+}
+
+/// Is it a response to this request, and not a late one to an earlier request? Who aborts because of a
+/// command may name any object.
+fn belongs(answer: &[u8; 8], request: &[u8; 8]) -> bool {
+    answer[1..4] == request[1..4] || code(answer) == Some(InvalidCommand.code())
 }
 
 fn is_fixed(code: u32) -> bool {

@@ -1,6 +1,7 @@
 //! What tools do on a bus, on the bench and in virtual time.
 
 mod configure;
+mod late;
 mod lss;
 mod master;
 mod objects;
