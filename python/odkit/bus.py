@@ -93,6 +93,7 @@ class OdkitBus(BusABC):
 
         :raises can.CanOperationError: The bus is closed, the controller is bus-off, or the message is
             not a frame of classical CAN.
+        :raises TypeError: It is not a ``can.Message``.
         """
         try:
             self._port.send(_parts(msg))
@@ -175,6 +176,8 @@ class CyclicTask(
 
 
 def _parts(msg):
+    if not isinstance(msg, Message):
+        raise TypeError(f"send a can.Message, not {type(msg).__name__}")
     if msg.is_fd:
         raise CanOperationError("odkit does not support CAN FD; send a message without `is_fd`")
     if msg.is_error_frame:

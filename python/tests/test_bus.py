@@ -197,6 +197,8 @@ def test_what_cannot_be_says_so():
     with open_bus("") as bus:
         with pytest.raises(can.CanOperationError, match="CAN FD"):
             bus.send(can.Message(is_fd=True))
+        with pytest.raises(TypeError, match="send a can.Message, not str"):
+            bus.send("123#")
         with pytest.raises(can.CanOperationError, match="error frame"):
             bus.send(can.Message(is_error_frame=True))
 
