@@ -17,13 +17,14 @@ test with its clause in the name. Without a file or folder on the command line t
 
 import os
 import re
+from typing import Any
 
 import pytest
 
 #: Frames that a failing test shows.
 SHOWN = 100
 
-_benches = pytest.StashKey()
+_benches: "pytest.StashKey[Any]" = pytest.StashKey()
 
 
 def pytest_addoption(parser):

@@ -36,7 +36,7 @@ def test_the_stubs_name_every_member_and_no_other():
 def test_mypy_finds_the_stubs_true(tmp_path):
     """Names, arguments and defaults are those that the compiled part has."""
     subprocess.run([sys.executable, "-m", "venv", tmp_path / "venv"], check=True)
-    python = next((tmp_path / "venv").glob("*/python*"))
+    python = next(path for path in (tmp_path / "venv").glob("*/python*") if path.is_file())
     packages = ["mypy", "python-can", "pytest"]
     subprocess.run([python, "-m", "pip", "install", "--quiet", *packages], check=True)
     site = os.path.dirname(os.path.dirname(odkit.__file__))
