@@ -4,7 +4,7 @@ import { inspect, isDeepStrictEqual } from 'node:util';
 import { opened } from './harness.mjs';
 
 /** Milliseconds that a machine with other work may take. */
-const PATIENCE = 20_000;
+const PATIENCE = 60_000;
 
 /** What the open pages complained of and what stands on them, for a test that waited in vain. */
 async function seen() {

@@ -18,6 +18,8 @@ export const opened = new Map();
 /** An empty page in a context of its own. Motion is reduced: nothing fades, so a look finds what stays. */
 export async function blank(browser, { width = 1280, height = 800, ...context } = {}) {
   const own = await browser.newContext({ viewport: { width, height }, acceptDownloads: true, reducedMotion: 'reduce', ...context });
+  // A machine with other work may take so many milliseconds.
+  own.setDefaultTimeout(60_000);
   const page = await own.newPage();
   const fault = (text) => opened.get(page)?.push(text);
   page.on('console', (message) => message.type() === 'error' && fault(message.text()));
