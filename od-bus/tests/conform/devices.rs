@@ -1,4 +1,4 @@
-//! The twelve devices pass, in virtual time.
+//! The twelve devices pass, in virtual time, with a node ID that is not their default one.
 
 use od_bench::VirtualDevice;
 use od_bus::bench::OnBench;
@@ -34,7 +34,8 @@ fn run(device: VirtualDevice, text: &str) -> Report {
 fn the_twelve_devices_pass() {
     let mut wrong = String::new();
     for kind in od_devices::DEVICES {
-        let device = VirtualDevice::new(kind, NodeId::ONE);
+        let node = NodeId::new(5).expect("a node ID");
+        let device = VirtualDevice::new(kind, node).with_node_switch();
         let report = run(device, &od_devices::text::eds(kind));
         if !report.is_pass() {
             wrong += &report.render(Format::Text);
