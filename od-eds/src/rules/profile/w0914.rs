@@ -10,7 +10,7 @@ pub(crate) static RULE: Rule = Rule {
     severity: Warning,
     title: "value of a profile object is reserved",
     why: "A device that follows the profile aborts a download of the value, and a master may give the bits another meaning.",
-    source: "CiA 401, objects 1000h and 6421h; CiA 402, 1000h, 605Ah to 605Eh, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
+    source: "CiA 401, 1000h and 6421h; CiA 402, 1000h, 605Ah to 605Eh, 6086h, 6098h, 60C2h, 6502h; CiA 406, 6000h, 6503h to 6506h",
     says: "{object} is {given}, but CiA {profile} reserves {reserved}",
     help: "write a value without {reserved}",
     check: Check::Entry(check),
