@@ -29,7 +29,9 @@ mod wire;
 use pyo3::prelude::*;
 
 /// The compiled part of `odkit`.
-#[pymodule(gil_used = false)]
+///
+/// It wants the interpreter's lock: who moves time looks at the frames of running threads.
+#[pymodule(gil_used = true)]
 mod _odkit {
     #[pymodule_export]
     use crate::bench::Bench;

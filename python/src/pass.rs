@@ -25,8 +25,9 @@ pub(crate) enum End {
     Late,
 }
 
-/// Steps between two looks at signals such as Ctrl-C.
-const STEPS: u32 = 1024;
+/// Changes of the wire between two looks at signals such as Ctrl-C, whoever makes them: each of the
+/// steps of a client is a wait of its own.
+const LOOK: u64 = 1024;
 /// The longest nap of a thread that waits for others.
 const NAP: Duration = Duration::from_millis(2);
 
@@ -68,7 +69,6 @@ struct Pass<'w> {
     wire: &'w Wire,
     began: Clock,
     patience: Option<Duration>,
-    steps: u32,
     idle: u32,
     /// No thread has started since it looked.
     knows_threads: bool,
@@ -82,7 +82,6 @@ impl<'w> Pass<'w> {
             wire,
             began: Clock::now(),
             patience,
-            steps: 0,
             idle: 0,
             knows_threads: false,
             in_turn: false,
@@ -265,6 +264,10 @@ impl<'w> Pass<'w> {
     ) -> PyResult<Step> {
         let step = state.step(to);
         state.wake();
+        let looks = state.changes - state.looked >= LOOK;
+        if looks {
+            state.looked = state.changes;
+        }
         if let Step::Call(task, place) = step {
             // Python runs in this thread now.
             state.leave(thread::current().id());
@@ -274,8 +277,7 @@ impl<'w> Pass<'w> {
         } else {
             drop(state);
         }
-        self.steps += 1;
-        if self.steps.is_multiple_of(STEPS) {
+        if looks {
             py.check_signals()?;
             py.detach(|| ());
         }

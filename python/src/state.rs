@@ -75,6 +75,8 @@ pub(crate) struct State {
     pub(crate) over: Vec<Py<PyAny>>,
     /// Counts all that is done to the wire.
     pub(crate) changes: u64,
+    /// What `changes` was at the last look at signals such as Ctrl-C.
+    pub(crate) looked: u64,
     ids: u32,
     /// The process that its threads are in.
     process: u32,

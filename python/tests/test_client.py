@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import signal
 import sys
 import threading
 
@@ -40,6 +41,22 @@ def test_objects_are_read_and_written(bench, client):
     node[0x1017] = 250
     client.download(1, "Producer heartbeat time", 251)
     assert node[0x1017] == bench["gxmm"][0x1017] == 251
+
+
+def test_ctrl_c_ends_a_wait_of_any_length(bench, client):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    bench["gxmm"][0x1017] = 10
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(KeyboardInterrupt):
+            client.run(50_000)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert bench.now < 50_000
+    assert client.upload(1, 0x1018, 1) == (0xEC).to_bytes(4, "little")
 
 
 @pytest.mark.parametrize("length", [5, 40, 500])

@@ -38,6 +38,9 @@ const WALL_CLOCK: u64 = 1_000_000_000_000;
 /// Lines in which a text has to show what it is.
 const HEAD: usize = 200;
 
+/// A file of Vector's binary logging format begins with it.
+const BLF: &[u8] = b"LOGG";
+
 /// Reads a log: candump, ASC, TRC (1.0 to 2.1), pcap or pcapng.
 ///
 /// # Errors
@@ -45,6 +48,13 @@ const HEAD: usize = 200;
 pub fn read(bytes: &[u8]) -> Result<Log, String> {
     if let Some(records) = pcapng::read(bytes).or_else(|| pcap::read(bytes)) {
         return records.map(|records| finish(records, Vec::new()));
+    }
+    if bytes.starts_with(BLF) {
+        return Err(
+            "it is a BLF log, which odkit does not read; `can_logconvert` of python-can turns it \
+             into a candump log (`can_logconvert FILE.blf FILE.log`)"
+                .into(),
+        );
     }
     let text = String::from_utf8_lossy(bytes);
     let lines: Vec<&str> = lines(text.trim_start_matches('\u{feff}')).collect();

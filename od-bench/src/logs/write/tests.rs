@@ -166,6 +166,7 @@ fn what_cannot_be_read_is_named() {
     let cut = &Format::Pcapng.write(&records())[..90];
     for (bytes, why) in [
         (&b"hello\nworld\n"[..], "it is not a candump log"),
+        (b"LOGG\x90\0\0\0", "it is a BLF log"),
         (b"(0.1) can0 zzz#00\n", "line 1: "),
         (cut, "it ends in the middle of a block"),
     ] {
