@@ -18,7 +18,8 @@ const program = path.join(tools, 'node/node_modules/binaryen/bin/wasm-opt');
 const run = () => spawnSync(process.execPath, [program, ...words], { stdio: 'inherit' }).status ?? 1;
 if (to === 0 || from < 0) process.exit(run());
 
-const options = words.filter((_, at) => at !== from && at !== to);
+// In any place: wasm-pack writes the names of the files first.
+const options = words.filter((_, at) => at !== from && at !== to && at !== to - 1);
 const version = fs.readFileSync(path.join(tools, 'node/package-lock.json'));
 const input = fs.readFileSync(words[from]);
 const hash = createHash('sha256').update(version).update(options.join(' ')).update('\0').update(input).digest('hex');
