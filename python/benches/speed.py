@@ -2,8 +2,8 @@
 
     python python/benches/speed.py [ODKIT]
 
-`pip install ./python[canopen]` before: a debug build says nothing. ODKIT is the program `odkit`, for SDO uploads
-over slcan TCP by python-canopen beside those in this process.
+`pip install ./python[canopen] pyserial` before: a debug build says nothing. ODKIT is the program `odkit`, for SDO
+uploads over slcan TCP by python-canopen beside those in this process.
 """
 
 import re
@@ -57,10 +57,12 @@ def over_slcan(program, count=2000):
                 break
         network = canopen.Network()
         channel = f"socket://127.0.0.1:{port[1]}"
-        network.connect(interface="slcan", channel=channel, bitrate=500000, sleep_after_open=0)
-        speed = by_canopen(network, count)
-        network.disconnect()
-        sim.kill()
+        try:
+            network.connect(interface="slcan", channel=channel, bitrate=500000, sleep_after_open=0)
+            speed = by_canopen(network, count)
+            network.disconnect()
+        finally:
+            sim.kill()
     return speed
 
 
