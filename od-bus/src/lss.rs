@@ -56,8 +56,8 @@ impl<L: Link> Lss<L> {
 
     /// Finds the slaves that have no node ID, by fastscan; `found` gets each at once.
     ///
-    /// Where a slave answers late, the search begins again and waits longer for each answer; where
-    /// none answers any more, it is asked once more with that patience.
+    /// Where the response of a slave is late, the search begins again and waits longer for each; where
+    /// none responds any more, it asks once more with that patience.
     ///
     /// # Errors
     /// The link is lost, or a slave answers and in no search confirms its LSS address.

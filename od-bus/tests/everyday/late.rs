@@ -12,14 +12,34 @@ use od_wire::{Duration, Frame, Instant, NodeId};
 
 use crate::bus;
 
-/// A link on which every SDO response comes later by a time.
-struct Late<L> {
+/// A link on which frames come later.
+pub(crate) struct Late<'f, L> {
     link: L,
-    by: Duration,
+    /// By how many ms this frame does.
+    by: Box<dyn FnMut(&Frame) -> u64 + 'f>,
     held: VecDeque<Heard>,
 }
 
-impl<L: Link> Link for Late<L> {
+impl<'f, L: Link> Late<'f, L> {
+    pub(crate) fn new(link: L, by: impl FnMut(&Frame) -> u64 + 'f) -> Self {
+        Self {
+            link,
+            by: Box::new(by),
+            held: VecDeque::new(),
+        }
+    }
+
+    /// Every SDO response comes later by so many ms.
+    fn responses(link: L, millis: u64) -> Self {
+        let is_response = |frame: &Frame| (0x581..0x600).contains(&frame.id().raw());
+        Self::new(link, move |frame| match is_response(frame) {
+            true => millis,
+            false => 0,
+        })
+    }
+}
+
+impl<L: Link> Link for Late<'_, L> {
     fn now(&self) -> Instant {
         self.link.now()
     }
@@ -36,11 +56,13 @@ impl<L: Link> Link for Late<L> {
             }
             let next = due.map_or(until, |at| at.min(until));
             match self.link.receive(next)? {
-                Some(Heard { at, frame }) if (0x581..0x600).contains(&frame.id().raw()) => {
-                    let at = at + self.by;
-                    self.held.push_back(Heard { at, frame });
-                }
-                Some(heard) => return Ok(Some(heard)),
+                Some(heard) => match (self.by)(&heard.frame) {
+                    0 => return Ok(Some(heard)),
+                    millis => {
+                        let at = heard.at.plus_millis(millis);
+                        self.held.push_back(Heard { at, ..heard });
+                    }
+                },
                 None if due.is_some_and(|at| at <= self.now()) => {}
                 None if self.now() >= until => return Ok(None),
                 None => {}
@@ -53,11 +75,7 @@ impl<L: Link> Link for Late<L> {
 fn a_scan_neither_misses_a_node_nor_sees_two() {
     for node in [1, 127] {
         let mut bus = bus(&[("gxmm", node)]);
-        let mut link = Late {
-            link: OnBench(&mut bus),
-            by: Duration::from_millis(250),
-            held: VecDeque::new(),
-        };
+        let mut link = Late::responses(OnBench(&mut bus), 250);
         let found = scan(&mut link, Options::default(), |_| {}).expect("a scan");
         let nodes = found.nodes.iter();
         let all: Vec<_> = nodes
@@ -71,11 +89,7 @@ fn a_scan_neither_misses_a_node_nor_sees_two() {
 #[test]
 fn an_answer_to_an_earlier_request_is_not_the_answer() {
     let mut bus = bus(&[("gxmm", 1)]);
-    let link = Late {
-        link: OnBench(&mut bus),
-        by: Duration::from_millis(600),
-        held: VecDeque::new(),
-    };
+    let link = Late::responses(OnBench(&mut bus), 600);
     let mut master = Master::patient(link, NodeId::ONE, Duration::from_millis(500));
     let late = master.upload(Address::new(0x1000, 0));
     assert!(matches!(late, Err(Fault::Node(_))), "{late:?}");

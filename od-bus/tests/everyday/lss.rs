@@ -13,6 +13,7 @@ use od_model::Address;
 use od_wire::{Frame, Instant, NodeId};
 
 use crate::id;
+use crate::late::Late;
 
 /// An encoder that supports LSS.
 fn encoder(serial: u32, node_id: Option<NodeId>) -> VirtualDevice {
@@ -159,57 +160,17 @@ fn an_interrupted_scan_leaves_no_slave_in_configuration_state() {
     }
 }
 
-/// A link over which one of the slaves' answers comes late.
-struct Late<'b> {
-    bench: OnBench<&'b mut Bus>,
-    answers: u32,
-    /// Which one, from 1, and by how many ms.
-    late: (u32, u64),
-    held: Option<Heard>,
-}
-
-impl Link for Late<'_> {
-    fn now(&self) -> Instant {
-        self.bench.now()
-    }
-
-    fn send(&mut self, frame: &Frame) -> Result<(), Fault> {
-        self.bench.send(frame)
-    }
-
-    fn receive(&mut self, until: Instant) -> Result<Option<Heard>, Fault> {
-        loop {
-            let first = self.held.map_or(until, |held| held.at.min(until));
-            match self.bench.receive(first)? {
-                Some(heard) => {
-                    self.answers += 1;
-                    if self.answers != self.late.0 {
-                        return Ok(Some(heard));
-                    }
-                    let at = heard.at.plus_millis(self.late.1);
-                    self.held = Some(Heard { at, ..heard });
-                }
-                None if self.held.is_some_and(|held| held.at <= until) => {
-                    return Ok(self.held.take());
-                }
-                None => return Ok(None),
-            }
-        }
-    }
-}
-
 #[test]
 fn a_late_answer_begins_the_search_again() {
     // The first question, a bit, the end of a number, the end of the last, and the next slave's.
     for which in [1, 2, 20, 118, 119, 140] {
         for millis in [49, 60, 190] {
             let mut bus = new(&[4711, 4712]);
-            let late = Late {
-                bench: OnBench(&mut bus),
-                answers: 0,
-                late: (which, millis),
-                held: None,
-            };
+            let mut answers = 0;
+            let late = Late::new(OnBench(&mut bus), |_| {
+                answers += 1;
+                if answers == which { millis } else { 0 }
+            });
             let mut found = Lss::new(late).scan(|_| {}).expect("a scan");
             found.sort();
             let serials: Vec<_> = found.iter().map(|one| one.serial).collect();

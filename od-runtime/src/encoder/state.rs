@@ -138,7 +138,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         }
     }
 
-    /// What the family may have.
+    /// The properties that the family may have.
     pub(super) const PARTS: Parts = Parts::of::<F>();
 
     /// With this serial number in 1018h:04 and 650Bh from the next reset on.
