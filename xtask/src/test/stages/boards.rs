@@ -8,7 +8,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use super::rust::ALL;
+use super::rust::odkit;
 use crate::console::{cargo, which};
 use crate::error::{Error, Result};
 use crate::packages::CLI;
@@ -39,9 +39,7 @@ const DIALOGUE: [(&str, &str); 4] = [
 /// `generic` runs in an emulator and answers.
 pub(super) fn boards(context: &Context<'_>) -> Result<()> {
     let (repo, console) = (context.repo, context.console);
-    let mut build = cargo(&repo.root, &["build", "--bin", CLI.1]);
-    console.run("the command line", build.args(ALL))?;
-    let odkit = repo.target.join("debug").join(program(CLI.1));
+    let odkit = odkit(context)?.join(program(CLI.1));
     let folder = repo.cache().join("boards");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).map_err(|e| Error::io("create", &folder, &e))?;

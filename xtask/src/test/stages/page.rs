@@ -1,11 +1,10 @@
 //! Stages that need Node.js, a browser or Python.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
-use std::sync::{Mutex, PoisonError};
 
-use super::rust::{ALL, long};
+use super::rust::{long, odkit};
 use crate::bundle;
 use crate::console::cargo;
 use crate::error::{Error, Result};
@@ -51,22 +50,6 @@ pub(super) fn browser(context: &Context<'_>) -> Result<()> {
         .env("ODKIT", built.join(program(CLI.1)))
         .env("CHROMIUM", chromium);
     context.console.run("browser tests", &mut command)
-}
-
-/// The folder with `odkit` and the examples that the tests of other languages run. Who comes second
-/// does not ask cargo again, which may be at work on something longer.
-fn odkit(context: &Context<'_>) -> Result<PathBuf> {
-    static BUILT: Mutex<bool> = Mutex::new(false);
-    let mut is_built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
-    if !*is_built {
-        let mut build = cargo(&context.repo.root, &["build"]);
-        build
-            .args(ALL)
-            .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
-        context.console.run("building odkit", &mut build)?;
-        *is_built = true;
-    }
-    Ok(context.repo.target.join("debug"))
 }
 
 /// The module as the page uses it, and the package's tests on it.

@@ -1,11 +1,13 @@
 //! Stages that are cargo commands.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use crate::console::cargo;
 use crate::error::{Error, Result};
-use crate::packages::{BENCHES, CLI, COMPILE, NO_STD, PEER, TESTS};
+use crate::packages::{BENCHES, CLI, NO_STD, PEER};
 use crate::setup::target;
 use crate::size::{self, measure};
 use crate::test::context::Context;
@@ -15,6 +17,9 @@ use crate::test::context::Context;
 #[rustfmt::skip]
 pub(super) const ALL: [&str; 6] =
     ["--workspace", "--exclude", BENCHES, "--exclude", PEER, "--all-features"];
+
+/// Folders of packages whose tests are not those of [`unit`].
+const OUTSIDE: [&str; 5] = ["tests", "tests/compile", "tests/bench", "python", "target"];
 
 pub(super) fn fmt(context: &Context<'_>) -> Result<()> {
     let check = ["--check", "--", "--color=never"];
@@ -54,19 +59,40 @@ pub(super) fn clippy(context: &Context<'_>) -> Result<()> {
     run(context, "clippy", &args)
 }
 
-/// The tests of all packages but those with the tests from outside.
+/// The folder with `odkit` and the examples that the tests of other languages run. Who comes second
+/// does not ask cargo again, which may be at work on something longer.
+pub(super) fn odkit(context: &Context<'_>) -> Result<PathBuf> {
+    static BUILT: Mutex<bool> = Mutex::new(false);
+    let mut is_built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    if !*is_built {
+        let mut build = cargo(&context.repo.root, &["build"]);
+        build
+            .args(ALL)
+            .args(["--bin", CLI.1, "--example", "corpus", "--example", "tools"]);
+        context.console.run("building odkit", &mut build)?;
+        *is_built = true;
+    }
+    Ok(context.repo.target.join("debug"))
+}
+
+/// The tests of all packages but those from outside. Without the packages of these, others would have
+/// fewer features, and be built once more for that.
 pub(super) fn unit(context: &Context<'_>) -> Result<()> {
-    let what = [
-        "--exclude",
-        TESTS,
-        "--exclude",
-        COMPILE,
-        "--lib",
-        "--bins",
-        "--tests",
-        "--no-fail-fast",
-    ];
-    test(context, "unit tests", &[&ALL[..], &what].concat(), &[])
+    let mut names = Vec::new();
+    for parent in [&context.repo.root, &context.repo.root.join("tests")] {
+        for member in folder(parent)? {
+            let dir = member.join("tests");
+            if !OUTSIDE
+                .map(|it| context.repo.root.join(it))
+                .contains(&member)
+                && dir.is_dir()
+            {
+                names.extend(targets(&dir)?);
+            }
+        }
+    }
+    let what = ["--lib", "--bins", "--examples", "--no-fail-fast"];
+    test(context, "unit tests", &[&ALL[..], &what].concat(), &names)
 }
 
 /// Some of the test targets from outside.
@@ -75,23 +101,30 @@ pub(super) fn outside(context: &Context<'_>, names: &[&str]) -> Result<()> {
     test(context, &names.join(", "), &ALL, &names)
 }
 
-/// The test targets from outside that have no stage of their own: files, and folders with a
-/// `main.rs`.
+/// The test targets from outside that have no stage of their own.
 pub(super) fn other_outside(context: &Context<'_>) -> Result<()> {
-    let dir = context.repo.root.join("tests/tests");
-    let files = fs::read_dir(&dir).map_err(|e| Error::io("read", &dir, &e))?;
-    let names = files.filter_map(|file| {
-        let path = file.ok()?.path();
-        let is_test =
-            path.extension().is_some_and(|it| it == "rs") || path.join("main.rs").is_file();
-        let name = path.file_stem().filter(|_| is_test)?;
-        Some(name.to_string_lossy().into_owned())
-    });
-    let others = |name: &String| !["conformance", "mutations"].contains(&name.as_str());
-    let mut names: Vec<String> = names.filter(others).collect();
-    names.sort();
+    let mut names = targets(&context.repo.root.join("tests/tests"))?;
+    names.retain(|name| !["conformance", "mutations"].contains(&name.as_str()));
     let args = [&ALL[..], &["--no-fail-fast"]].concat();
     test(context, "tests from outside", &args, &names)
+}
+
+/// The test targets of a folder: files, and folders with a `main.rs`.
+fn targets(dir: &Path) -> Result<Vec<String>> {
+    let is_test = |path: &PathBuf| {
+        path.extension().is_some_and(|it| it == "rs") || path.join("main.rs").is_file()
+    };
+    let paths = folder(dir)?.into_iter().filter(is_test);
+    let names = paths.filter_map(|path| Some(path.file_stem()?.to_string_lossy().into_owned()));
+    Ok(names.collect())
+}
+
+/// What is in a folder, sorted.
+fn folder(dir: &Path) -> Result<Vec<PathBuf>> {
+    let files = fs::read_dir(dir).map_err(|e| Error::io("read", dir, &e))?;
+    let mut paths: Vec<PathBuf> = files.flatten().map(|file| file.path()).collect();
+    paths.sort();
+    Ok(paths)
 }
 
 /// Mutated input: about a second for each target, a minute with `--long`, and then in a build
