@@ -26,7 +26,8 @@ check('statistics: period, jitter and last change of a CAN-ID; time to answer an
   const [low, middle, high] = [least, mean, most].map(milliseconds);
   assert.ok(low <= middle && middle <= high && Math.abs(low - 100) < 5, `${least} ${mean} ${most}`);
   // The way from the boot-up message to the first heartbeat is a period, too.
-  assert.ok(milliseconds(jitter) <= high - low + 0.1, `${jitter} of ${least} to ${most}`);
+  // The three have three or four digits each: 1.06 s may be 5 ms more.
+  assert.ok(milliseconds(jitter) <= high - low + 0.1 + high / 200, `${jitter} of ${least} to ${most}`);
   assert.ok(Number(changed) > 0 && Number(count) > 10, changed);
   assert.match((await cells('601'))[8], /^\d+\.\d{3}$/);
   const client = await page.getByRole('table', { name: 'SDO clients' }).getByRole('row').nth(1).getByRole('cell').allTextContents();
