@@ -122,7 +122,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if node.now < node.next && !node.watches_live {
             return;
         }
-        self.handle_due(device, now);
+        let may_tick = D::DICTIONARY.is_none() && Room::outbox(&mut self.outbox).is_empty();
+        if !(may_tick && self.machines.tick_pdos()) {
+            self.handle_due(device, now);
+        }
     }
 
     #[inline(never)]

@@ -23,6 +23,7 @@ mod output;
 mod own;
 mod pending;
 mod servers;
+mod ticks;
 mod wanted;
 
 use od_wire::nmt::State;

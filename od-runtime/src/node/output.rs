@@ -127,7 +127,15 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// frame or a change can give the node something to do.
     #[inline]
     pub fn poll_timeout(&self) -> Option<Instant> {
-        self.machines.deadline()
+        let node = &self.machines;
+        match node.pending {
+            // Nothing waits, so there are no deadlines but these.
+            0 if node.next != Instant::ZERO => {
+                let next = Deadline::at(node.next);
+                next.is_set().then(|| next.moment())
+            }
+            _ => node.deadline(),
+        }
     }
 
     /// Returns the oldest pending event. The queue holds 16; while it is full, new events are
@@ -196,6 +204,18 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     /// The first deadline of all that is not a frame that waits.
     #[inline(never)]
     pub(super) fn timers(&self) -> Deadline {
+        let mut first = self.timers_but_pdos();
+        if self.state == State::Operational && self.mute.is_none() {
+            for pdo in self.tpdos() {
+                first = first.or(pdo.deadline::<D>());
+            }
+        }
+        first
+    }
+
+    /// The same without the event timers of TPDOs.
+    #[inline(always)]
+    pub(super) fn timers_but_pdos(&self) -> Deadline {
         let mut first = self.tick_at.or(self.heartbeat.deadline());
         if Self::BOOTS_LATE {
             first = first.or(self.boot_at);
@@ -217,11 +237,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
         for at in self.save_at.all() {
             first = first.or(*at);
-        }
-        if self.state == State::Operational && self.mute.is_none() {
-            for pdo in self.tpdos() {
-                first = first.or(pdo.deadline::<D>());
-            }
         }
         first
     }

@@ -284,6 +284,22 @@ impl<R: Rooms> Tpdo<R> {
         }
     }
 
+    /// Whether all that the event timer does is to [tick](Self::tick).
+    #[inline(always)]
+    pub(crate) fn only_ticks<D: Device>(&self) -> bool {
+        !(D::REPEATED && self.config.repeat != 0)
+    }
+
+    /// As [`handle_timeout`](Self::handle_timeout), if [that is all](Self::only_ticks); returns the next tick.
+    #[inline(always)]
+    pub(crate) fn tick<D: Device>(&mut self, now: Instant) -> Deadline {
+        if D::TIMED && self.event_at.is_due(now) {
+            self.event_at = self.event_at.next_period(self.config.event, now);
+            self.pending = true;
+        }
+        self.deadline::<D>()
+    }
+
     /// Whether it is sent when a mapped value changes, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
         self.config.valid && self.is_event_driven()
