@@ -239,8 +239,8 @@ impl VirtualDevice {
 
     /// When [`handle_timeout`](Self::handle_timeout) is due.
     pub fn poll_timeout(&self) -> Option<Instant> {
-        let is_operational = self.node.state() == State::Operational;
-        let look_at = self.look_at.filter(|_| is_operational);
+        let is_operational = |_: &Instant| self.node.state() == State::Operational;
+        let look_at = self.look_at.filter(is_operational);
         #[cfg(feature = "serve")]
         let recorded = self.recorded.as_ref().and_then(|playing| playing.due());
         #[cfg(not(feature = "serve"))]
