@@ -252,7 +252,7 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[inline(always)] // into the one read that masters ask for all day
     pub fn locate(&self, address: Address) -> Result<(usize, &'a Row), Missing> {
-        match index::position(self.buckets, self.rows, address) {
+        match index::position(self.buckets, self.rows, address.key()) {
             Some(both) => Ok(both),
             None => Err(self.missing(address)),
         }
@@ -273,14 +273,15 @@ impl<'a> Dictionary<'a> {
     #[doc(hidden)]
     #[inline(never)]
     pub fn row_at(&self, address: Address) -> Option<&'a Row> {
-        index::position(self.buckets, self.rows, address).map(|(_, row)| row)
+        index::position(self.buckets, self.rows, address.key()).map(|(_, row)| row)
     }
 
-    /// The row of a number in the store that a master may read and one frame carries.
+    /// The row of a number in the store that a master may read and one frame carries, by the
+    /// [key](Address::key) of its address; none where [`search`](index::search) has to find it.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn plain_row(&self, address: Address) -> Option<&'a Row> {
-        let (_, row) = index::position(self.buckets, self.rows, address)?;
+    pub fn plain_row(&self, key: u32) -> Option<&'a Row> {
+        let (_, row) = index::hashed(self.buckets, self.rows, key)?;
         matches!(row.plain().len, 1..=4).then_some(row)
     }
 

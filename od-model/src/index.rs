@@ -3,7 +3,6 @@
 //! A hash table leads to a row: reading a value takes as long in a large dictionary as in a small
 //! one, and most of a dictionary stays out of the cache.
 
-use crate::address::Address;
 use crate::row::Row;
 
 /// Content of an empty bucket: not the position of an entry.
@@ -48,17 +47,19 @@ pub const fn fill(buckets: &mut [u16], rows: &[Row]) {
     }
 }
 
-/// The row with this address, and its position.
+/// The row with the address of this key, and its position.
 #[inline(always)]
-pub(crate) fn position<'a>(
-    buckets: &[u16],
-    rows: &'a [Row],
-    address: Address,
-) -> Option<(usize, &'a Row)> {
-    let key = address.key();
-    let Some(mask) = buckets.len().checked_sub(1) else {
-        return search(rows, key);
-    };
+pub(crate) fn position<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(usize, &'a Row)> {
+    match buckets {
+        [] => search(rows, key),
+        _ => hashed(buckets, rows, key),
+    }
+}
+
+/// As [`position`], by the buckets alone.
+#[inline(always)]
+pub(crate) fn hashed<'a>(buckets: &[u16], rows: &'a [Row], key: u32) -> Option<(usize, &'a Row)> {
+    let mask = buckets.len().checked_sub(1)?;
     let mut at = own_bucket(key);
     loop {
         let position = usize::from(*buckets.get(at & mask)?);
@@ -95,10 +96,6 @@ mod tests {
         Row([key << 8, 0, 0, 0])
     }
 
-    fn address(key: u32) -> Address {
-        Address::new((key >> 8) as u16, key as u8)
-    }
-
     #[test]
     fn every_row_is_found_and_no_other() {
         for count in [0, 1, 2, 3, 128, 300, 5_000] {
@@ -106,10 +103,9 @@ mod tests {
             let mut buckets = vec![EMPTY; bucket_count(rows.len())];
             fill(&mut buckets, &rows);
             for (at, row) in rows.iter().enumerate() {
-                let found = position(&buckets, &rows, address(row.key()));
+                let found = position(&buckets, &rows, row.key());
                 assert_eq!(found, Some((at, row)));
-                let next = address(row.key() + 1);
-                assert_eq!(position(&buckets, &rows, next), None);
+                assert_eq!(position(&buckets, &rows, row.key() + 1), None);
             }
         }
     }
@@ -118,8 +114,8 @@ mod tests {
     fn more_rows_than_buckets_can_name_are_searched() {
         let rows: Vec<Row> = (0..70_000).map(|i| keyed(3 * i)).collect();
         assert_eq!(bucket_count(rows.len()), 0);
-        let found = position(&[], &rows, address(3 * 69_999));
+        let found = position(&[], &rows, 3 * 69_999);
         assert_eq!(found.map(|(at, _)| at), Some(69_999));
-        assert_eq!(position(&[], &rows, address(3 * 69_999 + 1)), None);
+        assert_eq!(position(&[], &rows, 3 * 69_999 + 1), None);
     }
 }

@@ -1,5 +1,8 @@
 //! Numbers as the bus and the store have them: little-endian, in as many bytes as their type.
 
+use od_model::Slot;
+use od_model::row::Row;
+
 /// The number that up to eight bytes are. The usual lengths are one load each.
 #[inline(always)]
 pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
@@ -10,6 +13,18 @@ pub(crate) fn little_endian(bytes: &[u8]) -> u64 {
         [a, b, c, d, e, f, g, h] => u64::from_le_bytes([a, b, c, d, e, f, g, h]),
         _ => odd(bytes),
     }
+}
+
+/// The value of a [plain](Row::plain) row that one frame carries, and its length, 1 to 4. Without bytes
+/// enough behind it for one load it has to be read byte by byte: `None`.
+#[inline(always)]
+pub(crate) fn word(values: &[u8], row: &Row) -> Option<(u32, u8)> {
+    let Slot { offset, len } = row.plain();
+    let at = offset as usize;
+    let bytes = *values.get(at..at + 4)?.first_chunk()?;
+    let unused = u32::from(len).wrapping_neg() & 3;
+    let word = u32::from_le_bytes(bytes);
+    Some((word << (8 * unused) >> (8 * unused), len as u8))
 }
 
 /// As [`little_endian`], where a call is better than its code.

@@ -140,6 +140,15 @@ impl Frame {
         Self::data_frame(id, data, dlc)
     }
 
+    /// As [`with_dlc`](Self::with_dlc), where nothing has to be cut: `dlc` is 8 at most, and the bytes of
+    /// `data` behind it are 0.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub const fn padded(id: CanId, data: [u8; 8], dlc: u8) -> Self {
+        debug_assert!(dlc == 8 || dlc < 8 && u64::from_le_bytes(data) >> (8 * dlc as u32) == 0);
+        Self::data_frame(id, data, dlc)
+    }
+
     /// A remote frame that requests `dlc` bytes; `None` for more than eight.
     pub const fn remote(id: CanId, dlc: u8) -> Option<Self> {
         if dlc > 8 {

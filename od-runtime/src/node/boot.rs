@@ -4,7 +4,7 @@ use od_model::row::Row;
 use od_wire::nmt::State;
 use od_wire::{CobId, Instant, NodeId};
 
-use super::ear::Ear;
+use super::ear::{Ear, Quick};
 use super::{BusEvent, Event, Machines, Node, Unfit, pending};
 use crate::application::Reset;
 use crate::deadline::Deadline;
@@ -85,6 +85,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         node.save_at = Room::BLANK;
         node.next = Instant::ZERO;
         node.ear = Ear::DEAF;
+        node.quick = Quick::NONE;
         node.discard_frames();
         node.emcy.reset();
         node.forget_transfers();

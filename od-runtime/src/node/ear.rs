@@ -44,3 +44,23 @@ pub(super) const fn code(id: CanId) -> u32 {
 pub(super) const NMT: u32 = 1 << 0;
 pub(super) const ERROR_CONTROL: u32 = 1 << 14;
 pub(super) const LSS: u32 = 1 << 15;
+
+/// Frames that need no more than a glance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Quick {
+    /// Requests of SDO clients: nothing but the request itself is to be looked at.
+    pub(super) requests: bool,
+    /// SYNC: it is to be counted.
+    pub(super) syncs: bool,
+    /// SYNC: the TPDOs that each one marks in `pending`, and no more. 0: it does something else.
+    pub(super) marks: u8,
+}
+
+impl Quick {
+    /// All frames are to be looked at.
+    pub(super) const NONE: Self = Self {
+        requests: false,
+        syncs: false,
+        marks: 0,
+    };
+}

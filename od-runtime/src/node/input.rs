@@ -2,21 +2,18 @@
 
 use od_wire::emcy::Emcy;
 use od_wire::nmt::{self, Command, State};
-use od_wire::sdo::expedited_upload;
 use od_wire::{CanId, Frame, Instant};
 
 use super::controller::Mute;
-use super::ear::Ear;
 use super::{Machines, Node, pending};
 use crate::application::Reset;
-use crate::device::Device;
+use crate::device::{Device, ROOMY};
 use crate::emcy::PDO_LENGTH;
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::lss::{self, Action};
-use crate::number::little_endian;
 use crate::objects::Objects;
-use crate::pdo::{self, Received};
+use crate::pdo::Received;
 use crate::rooms::Room;
 
 /// The CAN-ID of NMT commands.
@@ -27,7 +24,14 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     #[inline]
     pub fn handle_frame(&mut self, device: &mut Lent<'_>, now: Instant, frame: &Frame) {
         let node = &mut self.machines;
-        if node.ear.hears(frame.id()) {
+        let id = frame.id();
+        if ROOMY && id == node.ear.sdo {
+            node.now = node.now.max(now);
+            self.handle_request(device, frame);
+        } else if ROOMY && id == node.ear.sync {
+            node.now = node.now.max(now);
+            self.handle_count(device, frame);
+        } else if node.ear.hears(id) {
             node.now = node.now.max(now);
             self.receive(device, frame);
         }
@@ -36,34 +40,19 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     /// A frame that is for this node: what comes all day, or any other.
     #[inline(never)]
     fn receive(&mut self, device: &mut Lent<'_>, frame: &Frame) {
-        let node = &mut self.machines;
-        let id = frame.id();
-        // Some devices have to look at more than the frame.
-        let is_seldom = frame.is_remote() || id == NMT || node.ear.codes == Ear::EVERYTHING;
-        let is_whole = device.values.len() >= device.dictionary.store_len();
-        if !is_seldom && is_whole && id == node.ear.sdo {
-            let quick = node.sdo.quick(frame).and_then(|address| {
-                let row = device.dictionary.plain_row(address)?;
-                let is_log = Objects::<D>::HAS_LOG && address.index == 0x1003;
-                let is_quick = !is_log && !self.outbox.is_live(address);
-                let slot = row.plain();
-                let at = slot.offset as usize;
-                let value = device.values.get(at..at + usize::from(slot.len))?;
-                is_quick.then_some((address, little_endian(value) as u32, slot.len))
-            });
-            if let Some((address, value, len)) = quick {
-                node.sdo.begin(address);
-                return node.answer(expedited_upload(address, len as u8, value));
-            }
-        } else if !is_seldom && id == node.ear.sync && node.count_sync(frame) {
-            return;
+        let ear = &self.machines.ear;
+        if !ROOMY && frame.id() == ear.sdo {
+            self.handle_request(device, frame);
+        } else if !ROOMY && frame.id() == ear.sync {
+            self.handle_count(device, frame);
+        } else {
+            self.handle_seldom(device, frame);
         }
-        self.handle_seldom(device, frame);
     }
 
     /// Any frame.
     #[inline(never)]
-    fn handle_seldom(&mut self, device: &mut Lent<'_>, frame: &Frame) {
+    pub(super) fn handle_seldom(&mut self, device: &mut Lent<'_>, frame: &Frame) {
         let now = self.machines.now;
         let mut open = self.open(device, now);
         let Some((node, objects)) = &mut open else {
@@ -297,22 +286,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// SYNC, where nothing has to be done for it now. Returns whether that is so.
-    #[inline(always)]
-    fn count_sync(&mut self, frame: &Frame) -> bool {
-        let only_counts = frame.dlc() <= 1
-            && self.tpdos().iter().all(pdo::Tpdo::only_counts::<D>)
-            && !(D::RPDOS && self.rpdo.all().iter().any(pdo::Rpdo::is_waiting));
-        if only_counts {
-            let mut pending = false;
-            for pdo in self.tpdos_mut() {
-                pending |= pdo.count_sync();
-            }
-            self.pend_pdo(pending);
-        }
-        only_counts
-    }
-
     /// SYNC: with a counter of one byte or without.
     #[inline(never)]
     fn handle_sync(&mut self, objects: &mut Objects<'_, D>, frame: &Frame) {
@@ -333,6 +306,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         self.each_tpdo(|pdo| pdo.sync(objects, counter));
+        self.expect_sync();
     }
 
     #[inline(never)]
@@ -353,5 +327,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 }
             }
         }
+        self.expect_sync();
     }
 }

@@ -3,7 +3,7 @@
 use od_wire::nmt::State;
 
 use super::Machines;
-use super::ear::{ERROR_CONTROL, Ear, LSS, NMT, NONE, code};
+use super::ear::{ERROR_CONTROL, Ear, LSS, NMT, NONE, Quick, code};
 use crate::device::Device;
 use crate::extras::Extras;
 use crate::objects::Objects;
@@ -13,6 +13,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
     #[inline(never)]
     pub(super) fn listen(&mut self, objects: &Objects<'_, D>) {
         self.ear = Ear::DEAF;
+        self.quick = Quick::NONE;
         if self.state == State::Initialising || self.mute.is_some() {
             if D::LSS && self.is_unconfigured() {
                 self.ear.codes = LSS;
@@ -52,5 +53,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
         }
         self.ear = ear;
+        self.quick.requests = ear.sdo != NONE && ear.codes != Ear::EVERYTHING;
+        self.expect_sync();
     }
 }

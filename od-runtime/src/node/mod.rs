@@ -22,6 +22,7 @@ mod listen;
 mod output;
 mod own;
 mod pending;
+mod quick;
 mod servers;
 mod ticks;
 mod wanted;
@@ -31,7 +32,7 @@ use od_wire::{CanId, Frame, Instant, NodeId};
 
 use crate::change::Change;
 use crate::deadline::Deadline;
-use crate::device::{AnyDevice, Device};
+use crate::device::{AnyDevice, Device, ROOMY};
 use crate::extras::Extras;
 use crate::fifo::Fifo;
 use crate::lent::Lent;
@@ -92,6 +93,7 @@ struct Machines<D, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> {
     made_with: NodeId,
     /// It was made without a node ID.
     made_unconfigured: bool,
+    quick: ear::Quick,
     tpdo_count: u16,
     rpdo_count: u16,
     ear: ear::Ear,
@@ -195,6 +197,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if !machines.powered {
             return None;
         }
+        if ROOMY && machines.pending & pending::MARKS != 0 {
+            machines.pend_marked();
+        }
         machines.now = machines.now.max(now);
         machines.next = Instant::ZERO;
         machines.pending |= pending::OTHER;
@@ -240,6 +245,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             tpdo_count: 0,
             rpdo: Room::BLANK,
             rpdo_count: 0,
+            quick: ear::Quick::NONE,
             watches_changes: false,
             watches_live: false,
             wanted_changed: false,
@@ -368,7 +374,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 pdo.stop();
             }
         }
-        self.pending &= !pending::PDO;
+        self.pending &= !(pending::PDO | pending::MARKS);
     }
 
     /// Does something with each TPDO, after which it may be waiting to be sent.

@@ -3,10 +3,11 @@
 use od_wire::nmt::State;
 use od_wire::{Frame, Instant, NodeId};
 
-use super::ear::Ear;
+use super::ear::{Ear, Quick};
 use super::{Event, Machines, Node, pending};
+use crate::application::Context;
 use crate::deadline::Deadline;
-use crate::device::Device;
+use crate::device::{Device, ROOMY};
 use crate::extras::Extras;
 use crate::lent::Lent;
 use crate::objects::Objects;
@@ -24,23 +25,38 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if node.pending == 0 {
             return None;
         }
-        if node.pending & pending::ANSWER != 0 && node.mute.is_none() {
+        // While the node is mute, something else waits, too.
+        let is_answer = match ROOMY {
+            true => node.pending == pending::ANSWER,
+            false => node.pending & pending::ANSWER != 0 && node.mute.is_none(),
+        };
+        if is_answer {
             node.pending &= !pending::ANSWER;
             return Some(node.response(bytes(node.answer)));
         }
-        self.poll_seldom(device, now)
+        match ROOMY {
+            true => self.poll_waiting(device, now),
+            false => self.poll_seldom(device, now),
+        }
     }
 
-    /// Returns the next frame that is no SDO response.
+    /// As [`poll_waiting`](Self::poll_waiting), where several kinds of frames may wait.
     #[inline(never)]
-    fn poll_seldom(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
+    pub(super) fn poll_seldom(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         if node.mute.is_some() {
             node.discard_frames();
             return None;
         }
+        if ROOMY && node.pending & pending::ANSWER != 0 {
+            node.pending &= !pending::ANSWER;
+            return Some(node.response(bytes(node.answer)));
+        }
         if let Some(frame) = Room::queue_mut(&mut node.out).pop() {
             return Some(frame);
+        }
+        if ROOMY && node.pending & pending::MARKS != 0 {
+            node.pend_marked();
         }
         if node.pending & pending::PDO != 0
             && let Some(frame) = self.poll_pdo(device, now)
@@ -66,32 +82,47 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
     fn poll_pdo(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {
         let node = &mut self.machines;
         let now = now.max(node.now);
-        let node_id = node.node_id;
-        let count = node.tpdo_count();
-        let pdos = node.tpdo.get_mut(..count)?;
-        // One that the inhibit time holds back stays pending.
-        let Some(pdo) = pdos.iter_mut().find(|pdo| pdo.is_ready::<D>(now)) else {
-            if !pdos.iter().any(pdo::Tpdo::is_pending) {
-                node.pending &= !pending::PDO;
-            }
+        if device.values.len() < device.dictionary.store_len() {
             return None;
-        };
+        }
+        // One that the inhibit time holds back stays pending.
+        let (mut ready, mut others) = (None, false);
+        for (at, pdo) in node.tpdos().iter().enumerate() {
+            if pdo.is_pending() {
+                match ready {
+                    None if pdo.is_ready::<D>(now) => ready = Some(at),
+                    _ => others = true,
+                }
+            }
+        }
+        if !others {
+            node.pending &= !pending::PDO;
+        }
+        self.send_pdo(device, now, ready?)
+    }
+
+    /// Returns the frame of the TPDO at a position. `now` is not before the time of the node.
+    #[cfg_attr(not(target_os = "none"), inline(never))]
+    pub(super) fn send_pdo(
+        &mut self,
+        device: &mut Lent<'_>,
+        now: Instant,
+        at: usize,
+    ) -> Option<Frame> {
+        let node = &mut self.machines;
+        let pdo = node.tpdo.get_mut(at)?;
         if pdo.is_live() {
             let outbox = Room::outbox(&mut self.outbox);
-            refresh::<D, _>(pdo, device, node_id, now, outbox);
+            refresh(pdo, device, node.node_id, now, outbox);
             if !outbox.is_empty() {
                 // What the application has to say of the values comes with the next call.
                 node.next = Instant::ZERO;
                 node.pending |= pending::OTHER;
                 node.ear.codes = Ear::EVERYTHING;
+                node.quick = Quick::NONE;
             }
         }
-        let store = Store::new(&device.dictionary, device.values, node_id).ok()?;
-        let frame = pdo.send::<D>(&store, now);
-        if !pdos.iter().any(pdo::Tpdo::is_pending) {
-            node.pending &= !pending::PDO;
-        }
-        Some(frame)
+        pdo.send::<D>(&device.dictionary, device.values, node.node_id, now)
     }
 
     /// Returns the next frame that no request asked for but a PDO: EMCY message, block segment.
@@ -193,8 +224,10 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             first = first.or(self.emcy.deadline());
         }
         if self.state == State::Operational && self.mute.is_none() {
+            let mut marks = self.pending & pending::MARKS;
             for pdo in self.tpdos() {
-                first = first.or(pdo.ready_at());
+                first = first.or(pdo.ready_at(ROOMY && marks & pending::FIRST_MARK != 0));
+                marks >>= 1;
             }
         }
         // A host that came to the end of time would be called back there for ever.
@@ -243,22 +276,27 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
 }
 
 /// Has the application bring the live values of a PDO up to date.
-#[inline(never)]
-fn refresh<D: Device, R: Rooms>(
+#[cfg_attr(target_os = "none", inline(never))]
+fn refresh<R: Rooms>(
     pdo: &pdo::Tpdo<R>,
     device: &mut Lent<'_>,
     node_id: NodeId,
     now: Instant,
     outbox: &mut Outbox,
 ) {
-    if let Some(objects) = &mut device.objects::<D>(node_id, now, outbox, None) {
-        pdo.refresh(objects);
+    if let Ok(mut store) = Store::new(&device.dictionary, device.values, node_id) {
+        let mut context = Context {
+            store: &mut store,
+            now,
+            signals: &mut outbox.signals,
+        };
+        pdo.refresh(device.application, &mut context, outbox.live);
     }
 }
 
 /// The data of a frame as two words, and back.
 #[inline(always)]
-fn words(data: [u8; 8]) -> [u32; 2] {
+pub(super) fn words(data: [u8; 8]) -> [u32; 2] {
     let data = u64::from_le_bytes(data);
     [data as u32, (data >> 32) as u32]
 }

@@ -6,3 +6,7 @@ pub(super) const ANSWER: u8 = 1;
 pub(super) const PDO: u8 = 2;
 /// Anything else: a call had the device. Then the next deadline is not known either.
 pub(super) const OTHER: u8 = 4;
+/// The first TPDO, by a SYNC that had nothing else to do. The bits above it are those of the others.
+pub(super) const FIRST_MARK: u8 = 8;
+/// All of them.
+pub(super) const MARKS: u8 = 0xF8;

@@ -39,15 +39,23 @@ pub struct Outbox<Q: ?Sized = [Change]> {
     /// The request that began it is answered when it is complete.
     pub(crate) answer_later: bool,
     /// A set of live values that may name a few others, too: bits by [`live_bit`].
-    pub(super) live: u32,
+    pub(crate) live: u32,
     /// The application's requests.
     pub(crate) signals: Signals<Q>,
 }
 
-/// Whether a set of live values may name an address. A call, since most addresses need none.
-#[inline(never)]
+/// Whether a set of live values may name an address. On a microcontroller it is a call, since most
+/// addresses need none.
+#[cfg_attr(target_os = "none", inline(never))]
 const fn names(live: u32, address: Address) -> bool {
     live & live_bit(address) != 0
+}
+
+/// Whether the application may have to bring the value at an address up to date, by the set of live
+/// values.
+#[inline(always)]
+pub(crate) const fn is_live(live: u32, address: Address) -> bool {
+    address.index >= 0x2000 && live != 0 && names(live, address)
 }
 
 /// An address as one of 32 bits.
@@ -104,9 +112,16 @@ impl Outbox {
 }
 
 impl<Q: ?Sized> Outbox<Q> {
+    /// Whether the set of live values may name the address with this key, which may be one of the
+    /// services' own, too.
+    #[inline(always)]
+    pub(crate) const fn is_marked(&self, key: u32) -> bool {
+        self.live >> (key.wrapping_mul(0x9E37_79B1) >> 27) & 1 != 0
+    }
+
     /// Whether the application may have to bring the value at an address up to date.
     #[inline(always)]
     pub(crate) const fn is_live(&self, address: Address) -> bool {
-        address.index >= 0x2000 && self.live != 0 && names(self.live, address)
+        is_live(self.live, address)
     }
 }

@@ -1,9 +1,12 @@
 //! Mapping of a PDO: read from its object once, and kept.
 
+use od_model::Dictionary;
 use od_model::row::Row;
 use od_model::typed::MapEntry;
 
-use crate::device::Device;
+use crate::application::{Application, Context};
+use crate::device::{Device, ROOMY};
+use crate::objects::outbox::is_live;
 use crate::objects::{Objects, check_mapped};
 use crate::rooms::{Room, Rooms};
 use crate::store::Store;
@@ -22,6 +25,8 @@ pub(super) struct Mapping<R: Rooms> {
     kept: R::Kept<Mapped>,
     /// The application brings one of the values up to date.
     is_live: bool,
+    /// All values are kept, and numbers of up to four bytes in the store, which a master may read.
+    is_plain: bool,
 }
 
 impl<R: Rooms> Mapping<R> {
@@ -32,6 +37,7 @@ impl<R: Rooms> Mapping<R> {
         len: 0,
         kept: Room::BLANK,
         is_live: false,
+        is_plain: false,
     };
 
     /// Reads the mapping object at `object`. Answers whether it is another one than before. One
@@ -42,6 +48,7 @@ impl<R: Rooms> Mapping<R> {
         let count = store.word(object, 0, 0).min(64) as u8;
         let mut changed = self.object != object || self.count != count;
         (self.object, self.count, self.is_live) = (object, count, false);
+        self.is_plain = usize::from(count) <= self.kept.all().len();
         let mut bits = 0u32;
         for sub in 1..=count {
             let raw = store.word(object, sub, 0);
@@ -53,6 +60,7 @@ impl<R: Rooms> Mapping<R> {
             bits += raw & 0xFF;
             if let Some(kept) = self.kept.all_mut().get_mut(usize::from(sub) - 1) {
                 let mapped = mapped(store, raw);
+                self.is_plain &= ROOMY && is_plain(store, mapped);
                 changed |= *kept != mapped;
                 *kept = mapped;
             } else {
@@ -92,15 +100,42 @@ impl<R: Rooms> Mapping<R> {
         (store.dictionary().row(position), mapped >> 24)
     }
 
-    /// Has the application bring the live values up to date.
-    #[inline(never)]
-    pub(super) fn refresh<D: Device>(&self, objects: &mut Objects<'_, D>) {
+    /// Has the application bring the live values up to date, by the set of them.
+    #[cfg_attr(target_os = "none", inline(never))]
+    pub(super) fn refresh(
+        &self,
+        application: &mut dyn Application,
+        context: &mut Context<'_, '_>,
+        live: u32,
+    ) {
         for at in 0..self.count {
-            if let (Some(row), _) = self.value(&objects.store, at) {
-                // A PDO has no way to say that a value could not be had; it takes the last one.
-                let _ = objects.refresh(row.address());
+            if let (Some(row), _) = self.value(context.store, at) {
+                let address = row.address();
+                if is_live(live, address) {
+                    // A PDO has no way to say that a value could not be had; it takes the last one.
+                    let _ = application.refresh(context, address);
+                }
             }
         }
+    }
+
+    /// Returns the frame's bytes with the values of the store, as a number.
+    #[inline(always)]
+    pub(super) fn gather(&self, dictionary: &Dictionary<'_>, values: &[u8]) -> Option<u64> {
+        if !ROOMY || !self.is_plain {
+            return None;
+        }
+        let (mut data, mut first) = (0u64, 0);
+        for mapped in self.kept.all().get(..usize::from(self.count))? {
+            let row = dictionary.row((*mapped as usize & 0xFF_FFFF).wrapping_sub(1))?;
+            let at = row.plain().offset as usize;
+            let word = u32::from_le_bytes(*values.get(at..at + 4)?.first_chunk()?);
+            let bits = *mapped >> 24;
+            let unused = bits.wrapping_neg() & 31;
+            data |= u64::from(word << unused >> unused) << (first & 63);
+            first += bits;
+        }
+        Some(data)
     }
 
     /// Returns the frame's bytes with the values of the store.
@@ -120,7 +155,8 @@ impl<R: Rooms> Mapping<R> {
     /// Returns the frame's bytes with the current values, live ones updated.
     pub(super) fn sample<D: Device>(&self, objects: &mut Objects<'_, D>) -> [u8; 8] {
         if self.is_live {
-            self.refresh(objects);
+            let live = objects.outbox.live;
+            objects.application(|application, context| self.refresh(application, context, live));
         }
         self.read(&objects.store)
     }
@@ -150,6 +186,14 @@ fn mapped(store: &Store<'_>, raw: u32) -> Mapped {
         Err(_) => 0,
     };
     u32::from(bits) << 24 | row & 0xFF_FFFF
+}
+
+/// Whether a mapped value is a number of up to four bytes in the store, which a master may read.
+fn is_plain(store: &Store<'_>, mapped: Mapped) -> bool {
+    let row = store
+        .dictionary()
+        .row((mapped as usize & 0xFF_FFFF).wrapping_sub(1));
+    row.is_some_and(|row| matches!(row.plain().len, 1..=4))
 }
 
 /// The bits that are mapped; only a BOOLEAN is no whole number of bytes.

@@ -1,5 +1,6 @@
 //! Process data (CiA 301, chapter 7.2.2): TPDOs, RPDOs and their mapping.
 
+mod config;
 mod mapping;
 mod rpdo;
 mod tpdo;

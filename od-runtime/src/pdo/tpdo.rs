@@ -1,49 +1,15 @@
 //! One TPDO: when it is sent, and with what.
 
+use super::config::{Config, Parameters, Validity, kind};
 use super::mapping::Mapping;
+use crate::application::{Application, Context};
 use crate::deadline::Deadline;
-use crate::device::{Device, may_have};
+use crate::device::Device;
 use crate::objects::Objects;
 use crate::rooms::Rooms;
 use crate::store::Store;
-use od_wire::{CanId, CobId, Frame, Instant};
-
-/// Transmission types of CiA 301 (table 72).
-mod kind {
-    pub(super) const ACYCLIC: u8 = 0;
-    pub(super) const LAST_CYCLIC: u8 = 240;
-    pub(super) const SYNC_RTR: u8 = 252;
-    pub(super) const RTR: u8 = 253;
-    pub(super) const EVENT_FIRST: u8 = 254;
-}
-
-/// Parameters that a TPDO of the device may have.
-trait Parameters: Device + Sized {
-    const INHIBITED: bool = may_have::<Self>(0x1800, 0x19FF, Some(3));
-    const TIMED: bool = may_have::<Self>(0x1800, 0x19FF, Some(5));
-    const STARTED: bool = may_have::<Self>(0x1800, 0x19FF, Some(6));
-    /// The repeat counter of a family.
-    const REPEATED: bool = match Self::PROFILE {
-        Some(profile) => profile.pdo.repeat_counter.is_some(),
-        None => true,
-    };
-}
-
-impl<D: Device> Parameters for D {}
-
-/// Configuration of a TPDO, from its objects.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Config {
-    valid: bool,
-    kind: u8,
-    repeat: u8,
-    sync_start: u8,
-    cob_id: CobId,
-    /// In milliseconds.
-    event: u32,
-    /// In units of 100 µs.
-    inhibit: u32,
-}
+use od_model::Dictionary;
+use od_wire::{CanId, Frame, Instant, NodeId};
 
 /// TPDO: its configuration and its state.
 #[derive(Clone, Debug)]
@@ -66,47 +32,6 @@ pub(crate) struct Tpdo<R: Rooms> {
     sampled: bool,
 }
 
-impl Config {
-    const NONE: Self = Self {
-        valid: false,
-        kind: 0,
-        repeat: 0,
-        sync_start: 0,
-        cob_id: CobId::new(0),
-        event: 0,
-        inhibit: 0,
-    };
-
-    /// Reads the objects of TPDO `number`, but for its mapping.
-    #[inline(never)]
-    fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
-        let parameter = 0x1800 + number;
-        let store = &objects.store;
-        let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
-        let repeat = objects
-            .profile()
-            .pdo
-            .repeat_counter
-            .map(|first| first + number);
-        let kind = store.word(parameter, 2, 0) as u8;
-        let sync_only = objects
-            .profile()
-            .pdo
-            .sync_only
-            .is_some_and(|(index, bits)| store.word(index, 0, 0) & bits == bits);
-        let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
-        Self {
-            valid: cob_id.is_valid() && allowed,
-            kind,
-            repeat: repeat.map_or(0, |index| store.word(index, 0, 0) as u8),
-            sync_start: store.word(parameter, 6, 0) as u8,
-            cob_id,
-            event: store.word(parameter, 5, 0),
-            inhibit: store.word(parameter, 3, 0),
-        }
-    }
-}
-
 impl<R: Rooms> Tpdo<R> {
     /// One that does not exist.
     pub(crate) const NONE: Self = Self {
@@ -127,7 +52,9 @@ impl<R: Rooms> Tpdo<R> {
     pub(crate) fn configure<D: Device>(&mut self, objects: &Objects<'_, D>, number: u16) -> bool {
         let mut config = Config::load(objects, number);
         let mut changed = self.mapping.load(objects, 0x1A00 + number);
-        config.valid &= self.mapping.len() > 0;
+        if self.mapping.len() == 0 {
+            config.validity = Validity::Off;
+        }
         changed |= config != self.config;
         if changed {
             self.config = config;
@@ -140,6 +67,11 @@ impl<R: Rooms> Tpdo<R> {
             self.sampled = false;
         }
         changed
+    }
+
+    #[inline(always)]
+    fn is_valid(&self) -> bool {
+        self.config.validity != Validity::Off
     }
 
     fn is_cyclic(&self) -> bool {
@@ -159,10 +91,10 @@ impl<R: Rooms> Tpdo<R> {
         self.sampled = false;
         self.inhibited_until = objects.now;
         self.event_at = Deadline::NEVER;
-        if D::TIMED && self.config.valid && self.is_event_driven() && self.config.event > 0 {
+        if D::TIMED && self.is_valid() && self.is_event_driven() && self.config.event > 0 {
             self.event_at = Deadline::at(objects.now.plus_millis(self.config.event.into()));
         }
-        if self.config.valid {
+        if self.is_valid() {
             self.last = self.mapping.sample(objects);
         }
     }
@@ -170,7 +102,7 @@ impl<R: Rooms> Tpdo<R> {
     /// Operational begins: a family that sends changes says first what there is to change.
     pub(crate) fn announce<D: Device>(&mut self, objects: &Objects<'_, D>) {
         let sends_changes = objects.profile().pdo.event_on_change;
-        self.pending |= sends_changes && self.config.valid && self.is_event_driven();
+        self.pending |= sends_changes && self.is_valid() && self.is_event_driven();
     }
 
     /// Operational ends.
@@ -181,13 +113,12 @@ impl<R: Rooms> Tpdo<R> {
 
     /// Whether a remote frame with this CAN-ID requests it.
     pub(crate) fn answers(&self, id: CanId) -> bool {
-        self.config.valid && self.config.cob_id.allows_rtr() && self.config.cob_id.can_id() == id
+        self.requested_by() == Some(id)
     }
 
     /// CAN-ID of the remote frame that requests it.
     pub(crate) fn requested_by(&self) -> Option<CanId> {
-        let cob_id = self.config.cob_id;
-        (self.config.valid && cob_id.allows_rtr()).then(|| cob_id.can_id())
+        (self.config.validity == Validity::Requested).then_some(self.config.id)
     }
 
     /// A remote frame asks for it: synchronous types answer with what the last SYNC saw.
@@ -206,16 +137,29 @@ impl<R: Rooms> Tpdo<R> {
     #[inline(always)]
     pub(crate) fn only_counts<D: Device>(&self) -> bool {
         match self.config.kind {
-            _ if !self.config.valid => true,
+            _ if !self.is_valid() => true,
             kind::ACYCLIC | kind::SYNC_RTR => false,
             _ => !(D::REPEATED && self.config.repeat != 0 || D::STARTED && self.waits_for_start),
         }
     }
 
+    /// The number of SYNCs that it is sent after; 0 where it does not count them.
+    pub(crate) fn cycle(&self) -> u8 {
+        match self.is_valid() && self.is_cyclic() {
+            true => self.config.kind,
+            false => 0,
+        }
+    }
+
+    /// To be sent, if it is marked.
+    pub(crate) fn pend_if(&mut self, is_marked: bool) {
+        self.pending |= is_marked;
+    }
+
     /// SYNC came. Returns whether the PDO is due.
     #[inline(always)]
     pub(crate) fn count_sync(&mut self) -> bool {
-        if self.config.valid && self.is_cyclic() {
+        if self.is_valid() && self.is_cyclic() {
             self.syncs += 1;
             if self.syncs >= self.config.kind {
                 self.syncs = 0;
@@ -227,7 +171,7 @@ impl<R: Rooms> Tpdo<R> {
 
     /// SYNC came, with its counter if it had one.
     pub(crate) fn sync<D: Device>(&mut self, objects: &mut Objects<'_, D>, counter: Option<u8>) {
-        if !self.config.valid {
+        if !self.is_valid() {
             return;
         }
         if D::STARTED && self.waits_for_start {
@@ -302,7 +246,7 @@ impl<R: Rooms> Tpdo<R> {
 
     /// Whether it is sent when a mapped value changes, in a family that sends changes.
     pub(crate) fn watches_changes(&self) -> bool {
-        self.config.valid && self.is_event_driven()
+        self.is_valid() && self.is_event_driven()
     }
 
     /// Whether a mapped value changes without a word to the node.
@@ -326,9 +270,9 @@ impl<R: Rooms> Tpdo<R> {
         self.event_at
     }
 
-    /// When what is pending can be sent.
-    pub(crate) fn ready_at(&self) -> Deadline {
-        match self.pending {
+    /// When what is pending can be sent; so is what SYNC marked.
+    pub(crate) fn ready_at(&self, is_marked: bool) -> Deadline {
+        match self.pending || is_marked {
             true => Deadline::at(self.inhibited_until),
             false => Deadline::NEVER,
         }
@@ -340,24 +284,58 @@ impl<R: Rooms> Tpdo<R> {
         self.mapping.is_live()
     }
 
-    /// Has the application bring the live values up to date.
-    pub(crate) fn refresh<D: Device>(&self, objects: &mut Objects<'_, D>) {
-        self.mapping.refresh(objects);
+    /// Has the application bring the live values up to date, by the set of them.
+    #[inline(always)]
+    pub(crate) fn refresh(
+        &self,
+        application: &mut dyn Application,
+        context: &mut Context<'_, '_>,
+        live: u32,
+    ) {
+        self.mapping.refresh(application, context, live);
+    }
+
+    /// The frame of a cyclic one, if all its values are plain numbers of the store.
+    #[inline(always)]
+    pub(crate) fn send_plain(
+        &mut self,
+        dictionary: &Dictionary<'_>,
+        values: &[u8],
+    ) -> Option<Frame> {
+        if self.is_live() {
+            return None;
+        }
+        self.last = self.mapping.gather(dictionary, values)?.to_le_bytes();
+        self.sampled = true;
+        Some(self.frame(self.last))
     }
 
     /// The frame, with the values of the store. It is to be [ready](Self::is_ready).
-    #[inline]
-    pub(crate) fn send<D: Device>(&mut self, store: &Store<'_>, now: Instant) -> Frame {
+    #[inline(always)]
+    pub(crate) fn send<D: Device>(
+        &mut self,
+        dictionary: &Dictionary<'_>,
+        values: &mut [u8],
+        node_id: NodeId,
+        now: Instant,
+    ) -> Option<Frame> {
+        let data = match self.mapping.gather(dictionary, values) {
+            Some(data) => data.to_le_bytes(),
+            None => {
+                let store = Store::new(dictionary, values, node_id).ok()?;
+                self.mapping.read(&store)
+            }
+        };
         self.pending = false;
-        self.last = self.mapping.read(store);
+        self.last = data;
         self.sampled = true;
-        if self.is_event_driven() || self.config.kind == kind::RTR {
+        if self.config.kind >= kind::RTR {
             self.inhibited_until = match D::INHIBITED {
                 true => now.plus_micros(u64::from(self.config.inhibit) * 100),
                 false => now,
             };
         }
-        self.frame(self.last)
+        Some(self.frame(data))
     }
 
     /// Something waits to be sent, now or later.
@@ -373,6 +351,6 @@ impl<R: Rooms> Tpdo<R> {
     }
 
     fn frame(&self, data: [u8; 8]) -> Frame {
-        Frame::with_dlc(self.config.cob_id.can_id(), data, self.mapping.len())
+        Frame::padded(self.config.id, data, self.mapping.len())
     }
 }

@@ -111,7 +111,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
 
     /// The transfer is over.
     #[inline]
-    fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.set_transfer(Transfer::None);
         if D::BLOCK || D::STREAMS {
             self.deadline = Deadline::NEVER;
@@ -137,12 +137,12 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         data[0] >> 5 == 2 && !self.is_busy
     }
 
-    /// The address of such a request that is a whole frame.
+    /// The first four bytes of such a request that is a whole frame, as a number.
     #[inline(always)]
-    pub(crate) fn quick(&self, frame: &Frame) -> Option<Address> {
-        let data = frame.bytes();
-        let address = Address::new(u16::from_le_bytes([data[1], data[2]]), data[3]);
-        (self.is_quick(data) && frame.dlc() == 8).then_some(address)
+    pub(crate) fn quick(&self, frame: &Frame) -> Option<u32> {
+        let head = u64::from_le_bytes(*frame.bytes()) as u32;
+        let is_whole = u16::from_le_bytes([frame.dlc(), frame.is_remote().into()]) == 8;
+        (is_whole && head & 0xE0 == 0x40 && !self.is_busy).then_some(head)
     }
 
     /// A request for an upload.
@@ -256,7 +256,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
 
     /// A new transfer takes the place of one that was not finished.
     #[inline]
-    pub(crate) fn begin(&mut self, address: Address) {
+    fn begin(&mut self, address: Address) {
         self.reset();
         self.address = address;
     }

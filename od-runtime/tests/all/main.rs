@@ -14,6 +14,7 @@ mod nor;
 mod own;
 mod pdo;
 mod program;
+mod quick;
 mod random;
 mod save;
 mod sdo;

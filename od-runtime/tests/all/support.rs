@@ -191,7 +191,7 @@ impl<A: Application> Bench<A> {
         self.drain()
     }
 
-    fn drain(&mut self) -> Vec<String> {
+    pub fn drain(&mut self) -> Vec<String> {
         let mut out = Vec::new();
         while let Some(frame) = self.node.poll_transmit(&mut device!(self), self.now) {
             out.push(frame.to_string());
@@ -201,6 +201,12 @@ impl<A: Application> Bench<A> {
 
     /// A frame comes in, `601#40…` or `181#R`; what goes out.
     pub fn send(&mut self, text: &str) -> Vec<String> {
+        self.hear(text);
+        self.drain()
+    }
+
+    /// As [`send`](Self::send), of a host that is slow: nothing goes out.
+    pub fn hear(&mut self, text: &str) {
         let (id, data) = text.split_once('#').expect("id#data");
         let raw = u32::from_str_radix(id, 16).expect("hex");
         let id = match id.len() {
@@ -217,7 +223,6 @@ impl<A: Application> Bench<A> {
             }
         };
         self.node.handle_frame(&mut device!(self), self.now, &frame);
-        self.drain()
     }
 
     /// The one frame that answers.

@@ -8,7 +8,7 @@ mod segment;
 
 pub use crc::{crc16, crc16_after};
 pub use request::Request;
-pub use response::{Response, expedited_upload};
+pub use response::{Response, expedited_upload, upload_command};
 pub use segment::{Segment, block_segment, block_segments, unused};
 
 #[cfg(test)]

@@ -1,0 +1,97 @@
+//! Configuration of a TPDO: what its communication parameter says.
+
+use crate::device::{Device, may_have};
+use crate::objects::Objects;
+use od_wire::{CanId, CobId};
+
+/// Transmission types of CiA 301 (table 72).
+pub(super) mod kind {
+    pub(in crate::pdo) const ACYCLIC: u8 = 0;
+    pub(in crate::pdo) const LAST_CYCLIC: u8 = 240;
+    pub(in crate::pdo) const SYNC_RTR: u8 = 252;
+    pub(in crate::pdo) const RTR: u8 = 253;
+    pub(in crate::pdo) const EVENT_FIRST: u8 = 254;
+}
+
+/// Parameters that a TPDO of the device may have.
+pub(super) trait Parameters: Device + Sized {
+    const INHIBITED: bool = may_have::<Self>(0x1800, 0x19FF, Some(3));
+    const TIMED: bool = may_have::<Self>(0x1800, 0x19FF, Some(5));
+    const STARTED: bool = may_have::<Self>(0x1800, 0x19FF, Some(6));
+    /// The repeat counter of a family.
+    const REPEATED: bool = match Self::PROFILE {
+        Some(profile) => profile.pdo.repeat_counter.is_some(),
+        None => true,
+    };
+}
+
+impl<D: Device> Parameters for D {}
+
+/// Whether a TPDO is sent.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Validity {
+    /// Never.
+    Off,
+    On,
+    /// A remote frame requests it, too.
+    Requested,
+}
+
+/// Configuration of a TPDO, from its objects.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Config {
+    pub(super) validity: Validity,
+    pub(super) kind: u8,
+    pub(super) repeat: u8,
+    pub(super) sync_start: u8,
+    pub(super) id: CanId,
+    /// In milliseconds.
+    pub(super) event: u32,
+    /// In units of 100 µs.
+    pub(super) inhibit: u32,
+}
+
+impl Config {
+    pub(super) const NONE: Self = Self {
+        validity: Validity::Off,
+        kind: 0,
+        repeat: 0,
+        sync_start: 0,
+        id: CanId::standard(0),
+        event: 0,
+        inhibit: 0,
+    };
+
+    /// Reads the objects of TPDO `number`, but for its mapping.
+    #[inline(never)]
+    pub(super) fn load<D: Device>(objects: &Objects<'_, D>, number: u16) -> Self {
+        let parameter = 0x1800 + number;
+        let store = &objects.store;
+        let cob_id = CobId::new(store.word(parameter, 1, 1 << 31));
+        let repeat = objects
+            .profile()
+            .pdo
+            .repeat_counter
+            .map(|first| first + number);
+        let kind = store.word(parameter, 2, 0) as u8;
+        let sync_only = objects
+            .profile()
+            .pdo
+            .sync_only
+            .is_some_and(|(index, bits)| store.word(index, 0, 0) & bits == bits);
+        let allowed = kind <= kind::LAST_CYCLIC || !sync_only;
+        Self {
+            validity: match cob_id.is_valid() && allowed {
+                false => Validity::Off,
+                true if cob_id.allows_rtr() => Validity::Requested,
+                true => Validity::On,
+            },
+            kind,
+            repeat: repeat.map_or(0, |index| store.word(index, 0, 0) as u8),
+            sync_start: store.word(parameter, 6, 0) as u8,
+            id: cob_id.can_id(),
+            event: store.word(parameter, 5, 0),
+            inhibit: store.word(parameter, 3, 0),
+        }
+    }
+}
