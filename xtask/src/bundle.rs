@@ -19,7 +19,7 @@ use crate::setup::{binaryen, bindgen, node, target};
 use crate::stamp::{Fingerprint, Stamp};
 
 /// The size of the download counts more than the last bit of speed. One crate for all is worth
-/// its time for what the page begins with (profile `page`), not for what it fetches later.
+/// its time for what the page begins with, not for what it fetches later.
 pub(crate) const RELEASE: [(&str, &str); 2] = [
     ("CARGO_PROFILE_RELEASE_OPT_LEVEL", "s"),
     ("CARGO_PROFILE_RELEASE_LTO", "off"),
@@ -29,8 +29,9 @@ pub(crate) const RELEASE: [(&str, &str); 2] = [
 struct Module {
     /// Its folder under the bindings.
     folder: &'static str,
-    /// Cargo's profile, which keeps the outputs of the modules apart.
-    profile: &'static str,
+    /// Whether it is compiled as one crate. Both are of one profile, so that they share what runs
+    /// while they are compiled.
+    lto: &'static str,
     features: &'static [&'static str],
     /// How hard wasm-opt tries: `-Os` takes three times as long as `-O1` and saves 4 % more.
     level: &'static str,
@@ -39,7 +40,7 @@ struct Module {
 
 const WHOLE: Module = Module {
     folder: "",
-    profile: "release",
+    lto: RELEASE[1].1,
     features: &[],
     level: "-O1",
     what: "compiling the virtual encoder to WebAssembly",
@@ -47,7 +48,7 @@ const WHOLE: Module = Module {
 
 const CORE: Module = Module {
     folder: "core",
-    profile: "page",
+    lto: "fat",
     features: &["--no-default-features"],
     level: "-Os",
     what: "compiling what the page begins with",
@@ -83,17 +84,17 @@ pub(crate) fn bindings(repo: &Repo, console: &Console) -> Result<PathBuf> {
 /// Steps 1 and 2, for a caller that holds the lock.
 fn generate(repo: &Repo, console: &Console, module: &Module) -> Result<PathBuf> {
     target::add(repo, console, target::WASM)?;
-    let mut build = cargo(&repo.root, &["build", "--lib", "--profile", module.profile]);
+    let mut build = cargo(&repo.root, &["build", "--lib", "--release"]);
     build.args(["--package", PAGE.0, "--target", target::WASM]);
     build.args(module.features);
-    build.envs(RELEASE);
+    build.envs(RELEASE).env(RELEASE[1].0, module.lto);
     // A page for others does not name the folders of this computer, and is the same from any.
     build.env("CARGO_ENCODED_RUSTFLAGS", without_paths(&repo.root));
     console.run(module.what, &mut build)?;
     let wasm = repo
         .target
         .join(target::WASM)
-        .join(module.profile)
+        .join("release")
         .join(format!("{}.wasm", PAGE.1));
 
     let out = repo.bindings().join(module.folder);
