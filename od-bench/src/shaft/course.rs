@@ -148,6 +148,14 @@ impl Course {
         way
     }
 
+    /// The speed, if it was the same since `from`.
+    #[inline]
+    pub(super) fn even_since(&self, from: Instant) -> Option<i32> {
+        let newest = &self.pieces[usize::from(self.newest) % PIECES];
+        let is_even = newest.ramp.micros == 0 && newest.since <= from;
+        is_even.then_some(newest.milli_rpm)
+    }
+
     /// The speed at a moment, times [`FINE`]; with a change at that moment, the new one.
     pub(super) fn fine_speed(&self, at: Instant) -> i128 {
         let piece = self.pieces().find(|piece| piece.since <= at);

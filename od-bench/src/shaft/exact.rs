@@ -22,6 +22,19 @@ pub(super) fn exact(amount: i128, by: i128, gain: Gain) -> i64 {
     value.clamp(i64::MIN.into(), i64::MAX.into()) as i64
 }
 
+/// The speed of a shaft that turns evenly, as [`exact`] has it.
+pub(super) fn even(milli_rpm: i32, gain: Gain) -> i64 {
+    const BY: u64 = 60_000;
+    let is_plain = gain.revolutions <= 1 && gain.multiplier == 1 && gain.divider <= 1;
+    let steps = u64::from(milli_rpm.unsigned_abs()).checked_mul(gain.steps);
+    let Some(steps) = steps.filter(|_| is_plain) else {
+        return exact(milli_rpm.into(), BY.into(), gain);
+    };
+    let fraction = (((steps % BY) << 32) + BY / 2) / BY;
+    let value = (steps / BY + ((fraction + NEARLY) >> 32)) as i64;
+    if milli_rpm < 0 { -value } else { value }
+}
+
 /// A division to the nearest, halves away from zero; `by` is more than 0.
 const fn nearest(number: i128, by: i128) -> i128 {
     if number < 0 {
@@ -31,13 +44,43 @@ const fn nearest(number: i128, by: i128) -> i128 {
     }
 }
 
-/// Whole steps of 2⁻³² steps, towards zero. What lies less than 2⁻¹³ below a whole step is
-/// that step: the fractions were rounded on the way.
+/// 2⁻¹³ steps. What lies less than that below a whole step is that step: the fractions were
+/// rounded on the way.
+const NEARLY: u64 = 1 << 19;
+
+/// Whole steps of 2⁻³² steps, towards zero.
 const fn whole(fractions: i128) -> i128 {
-    const NEARLY: i128 = 1 << 19;
     if fractions < 0 {
-        -((NEARLY - fractions) >> 32)
+        -((NEARLY as i128 - fractions) >> 32)
     } else {
-        (fractions + NEARLY) >> 32
+        (fractions + NEARLY as i128) >> 32
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_even_speed_is_the_exact_one() {
+        let mut seed = 1u64;
+        let mut random = |bits: u32| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            seed >> (64 - bits)
+        };
+        for round in 0..20_000 {
+            let bits = 1 + random(5) as u32;
+            let gain = Gain {
+                multiplier: 1 + (round % 16 == 0) as u32,
+                divider: (round % 3) as u32,
+                ..Gain::ratio(random(bits), 1 + (round % 7 == 0) as u64)
+            };
+            let interval = i128::from(1 + random(26));
+            for milli_rpm in [random(bits) as i32, -(random(bits) as i32), i32::MIN, 60] {
+                let way = i128::from(milli_rpm) * interval;
+                let exact = exact(way, 60_000 * interval, gain);
+                assert_eq!(even(milli_rpm, gain), exact, "{milli_rpm} {gain:?}");
+            }
+        }
     }
 }

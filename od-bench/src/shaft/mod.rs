@@ -11,7 +11,7 @@ use od_runtime::{DeviceKind, Instant};
 
 use counter::Unseen;
 use course::{Course, FINE, PER_REVOLUTION, Ramp};
-use exact::exact;
+use exact::{even, exact};
 use placed::Placed;
 
 /// A shaft that turns evenly, or speeds up and slows down evenly, between two changes of its
@@ -167,6 +167,13 @@ impl Shaft {
         self.set_angle(now, angle);
     }
 
+    /// The speed, if the shaft turned evenly since `from`, and nobody placed it.
+    #[inline]
+    fn even_since(&self, from: Instant) -> Option<i32> {
+        let even = self.course.even_since(from);
+        even.filter(|_| self.placed.is_empty())
+    }
+
     /// The last change is `now`: angle, speed and what is left of the ramp are those of now.
     fn rebase(&mut self, now: Instant) {
         let micros = now.micros_since(self.since);
@@ -198,12 +205,18 @@ impl Motion for Shaft {
 
     fn speed(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
         let from = before(now, interval);
+        if let Some(milli_rpm) = self.even_since(from) {
+            return Some(even(milli_rpm, gain));
+        }
         let way = self.course.way(from, now) + self.placed.way(from, now);
         Some(exact(way, 60_000 * i128::from(interval), gain))
     }
 
     fn acceleration(&self, now: Instant, interval: u32, gain: Gain) -> Option<i64> {
         let (from, middle) = (before(now, interval), before(now, interval / 2));
+        if self.even_since(from).is_some() {
+            return Some(0);
+        }
         let interval = i128::from(interval);
         let speed = |at| self.course.fine_speed(at);
         let placed = self.placed.way(middle, now) - self.placed.way(from, middle);

@@ -48,6 +48,12 @@ impl Placed {
         }
     }
 
+    /// Whether no position was set.
+    #[inline]
+    pub(super) fn is_empty(&self) -> bool {
+        self.ways.is_empty()
+    }
+
     /// The way from one moment to another in thousandths of a revolution per minute, times
     /// microseconds. Between two positions the shaft turned evenly.
     pub(super) fn way(&self, from: Instant, to: Instant) -> i128 {

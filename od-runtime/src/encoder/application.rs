@@ -64,7 +64,8 @@ impl<M: Motion, F: Family> Application for Encoder<M, F> {
                 let count = self.count(angle);
                 cx.store.set(handle, self.scale.shown(count));
             }
-        } else if let Some(role) = self.profile().role(address)
+        } else if !self.show_kept_movement(cx, address)
+            && let Some(role) = self.profile().role(address)
             && role.is_live()
         {
             self.show(cx, address, role);
@@ -204,7 +205,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
                 })
             }
             Role::Movement(movement) if Self::PARTS.movement => {
-                self.shown_movement(cx, address, movement) as u64
+                return self.show_movement(cx, address, movement);
             }
             _ => return,
         };

@@ -9,6 +9,7 @@ use super::object::Role;
 use super::position::Scale;
 use super::position::ratio::at_least_1;
 use super::profile::{Counter, Gear, GearKind, RangeRule, Total};
+use super::rate::KEPT;
 use super::state::Encoder;
 use crate::store::Store;
 use od_wire::AbortCode;
@@ -113,6 +114,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
     pub(super) fn configure(&mut self, store: &mut Store<'_>) {
         let number = |index| store.try_unsigned(index, 0);
         self.sensor = self.profile().sensor_by(number);
+        self.rates = [None; KEPT];
         let operating = store.try_unsigned(0x6000, 0).unwrap_or(SCALING);
         let range = self.range(store.try_unsigned(0x6002, 0));
         let output = self.output_gear(store);

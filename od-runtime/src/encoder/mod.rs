@@ -16,6 +16,7 @@ mod object;
 mod position;
 mod power;
 mod profile;
+mod rate;
 mod sampled;
 mod state;
 mod timer;

@@ -4,11 +4,11 @@ use od_model::Address;
 
 use super::family::Family;
 use super::motion::{Gain, Motion};
-use super::object::{Movement, Quantity, Source};
+use super::object::{Movement, Source};
+use super::rate::{KEPT, Rate, Shown};
 use super::state::Encoder;
 use crate::application::Context;
 use crate::store::Store;
-use od_wire::Instant;
 
 impl<M: Motion, F: Family> Encoder<M, F> {
     /// The movements of the family.
@@ -27,6 +27,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         cx: &Context<'_, '_>,
         which: impl Fn(&Movement) -> bool,
     ) {
+        self.rates = [None; KEPT];
         let mut longest = 0;
         let movements = self.movements();
         for (since, (_, movement)) in self.measured_since.iter_mut().zip(movements) {
@@ -43,59 +44,58 @@ impl<M: Motion, F: Family> Encoder<M, F> {
         movement.selector == Some(address) || movement.interval == address
     }
 
-    /// Returns the movement at an address, within the limits of its object; 0 while it is not
-    /// known.
-    pub(super) fn shown_movement(
-        &self,
-        cx: &Context<'_, '_>,
-        address: Address,
-        movement: &Movement,
-    ) -> i64 {
-        let mut known = self.measured_since.iter().zip(self.movements());
-        let since = known.find(|(_, (at, _))| *at == address);
-        let bits = match cx.store.dictionary().row_at(address) {
-            Some(row) if row.is_variable() => 32,
-            Some(row) => row.bits().clamp(8, 32),
-            None => return 0,
+    /// Brings a movement whose rate is kept up to date, if there is one at this address.
+    #[inline]
+    pub(super) fn show_kept_movement(&self, cx: &mut Context<'_, '_>, address: Address) -> bool {
+        let mut kept = self.rates.iter().flatten();
+        let Some(rate) = kept.find(|rate| rate.value.address() == address) else {
+            return false;
         };
-        let most = (1i64 << (bits - 1)) - 1;
-        let value = since.and_then(|(since, _)| self.movement(cx.store, cx.now, movement, *since));
-        value.unwrap_or(0).clamp(-most - 1, most)
+        let value = rate.of(&self.shaft, cx.now);
+        rate.value.show(cx.store, value.unwrap_or(0));
+        true
     }
 
-    /// Returns a movement in the units of its object; `None` while it is not known.
-    fn movement(
-        &self,
-        store: &Store<'_>,
-        now: Instant,
+    /// Brings the movement at an address up to date; it is 0 while it is not known.
+    pub(super) fn show_movement(
+        &mut self,
+        cx: &mut Context<'_, '_>,
+        address: Address,
         movement: &Movement,
-        since: Instant,
-    ) -> Option<i64> {
-        let number = |at: Address| store.unsigned(at.index, at.sub);
-        let interval = interval(movement, store);
-        if now.micros_since(since) < interval.into() {
-            return None;
+    ) {
+        let Some(rate) = self.rate(cx.store, address, movement) else {
+            return;
+        };
+        let value = rate.of(&self.shaft, cx.now);
+        rate.value.show(cx.store, value.unwrap_or(0));
+        if let Some(room) = self.rates.iter_mut().find(|rate| rate.is_none()) {
+            *room = Some(rate);
         }
-        let (gain, has_sense) = self.source(movement, movement.selector.map(number))?;
-        let gain = match movement.factor {
+    }
+
+    /// Reads the objects of a movement.
+    fn rate(&self, store: &Store<'_>, address: Address, movement: &Movement) -> Option<Rate> {
+        let mut known = self.measured_since.iter().zip(self.movements());
+        let (since, _) = known.find(|(_, (at, _))| *at == address)?;
+        let number = |at: Address| store.unsigned(at.index, at.sub);
+        let source = self.source(movement, movement.selector.map(number));
+        let gain = source.map(|(gain, _)| match movement.factor {
             Some((multiplier, divider)) => Gain {
                 multiplier: number(multiplier) as u32,
                 divider: number(divider) as u32,
                 ..gain
             },
             None => gain,
-        };
-        let value = match movement.quantity {
-            Quantity::Speed => self.shaft.speed(now, interval, gain)?,
-            Quantity::Acceleration => self.shaft.acceleration(now, interval, gain)?,
-        };
-        let is_turned = has_sense
-            && self.scale.is_reversed()
-            && !self.has_option(store, |options| options.ignore_sense);
-        Some(if is_turned {
-            value.saturating_neg()
-        } else {
-            value
+        });
+        Some(Rate {
+            quantity: movement.quantity,
+            interval: interval(movement, store),
+            since: *since,
+            gain,
+            is_turned: source.is_some_and(|(_, has_sense)| has_sense)
+                && self.scale.is_reversed()
+                && !self.has_option(store, |options| options.ignore_sense),
+            value: Shown::find(store, address)?,
         })
     }
 

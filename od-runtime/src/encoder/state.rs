@@ -13,6 +13,7 @@ use super::motion::{Gain, Motion};
 use super::object::Role;
 use super::position::{Scale, Sensor};
 use super::profile::{EncoderProfile, MOVEMENTS, Total};
+use super::rate::{KEPT, Rate};
 use od_wire::Instant;
 
 /// Rotary and DIP switches in the cover.
@@ -66,6 +67,8 @@ pub struct Encoder<M, F = AnyFamily> {
     pub(super) cycles: u32,
     /// Since when a movement of the profile can be measured.
     pub(super) measured_since: [Instant; MOVEMENTS],
+    /// Movements that were read since an object changed.
+    pub(super) rates: [Option<Rate>; KEPT],
     /// 6200h as it was when it last agreed with 1800h:05.
     pub(super) timer: u64,
     pub(super) bit_rate: Option<u16>,
@@ -116,6 +119,7 @@ impl<M: Motion, F: Family> Encoder<M, F> {
             seconds: 0,
             cycles: 0,
             measured_since: [Instant::ZERO; MOVEMENTS],
+            rates: [None; KEPT],
             timer: 0,
             bit_rate: None,
         }

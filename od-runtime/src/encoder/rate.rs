@@ -1,0 +1,80 @@
+//! A speed or an acceleration with what its objects say, as a reading needs it.
+
+use od_model::Kind;
+use od_model::typed::{Ro, Var};
+
+use super::motion::{Gain, Motion};
+use super::object::Quantity;
+use super::profile::MOVEMENTS;
+use crate::device::ROOMY;
+use crate::store::Store;
+use od_model::Address;
+use od_wire::Instant;
+
+/// Rates that an encoder keeps until an object changes. A microcontroller reads the objects each time,
+/// and saves their memory.
+pub(super) const KEPT: usize = if ROOMY { MOVEMENTS } else { 0 };
+
+/// A movement as it is computed now.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rate {
+    pub(super) quantity: Quantity,
+    /// Mean over this time, in microseconds.
+    pub(super) interval: u32,
+    /// Since when it can be measured.
+    pub(super) since: Instant,
+    /// `None`: the selector has a value without a source.
+    pub(super) gain: Option<Gain>,
+    /// Counts the other way round.
+    pub(super) is_turned: bool,
+    pub(super) value: Shown,
+}
+
+impl Rate {
+    /// Returns the movement in the units of its object; `None` while it is not known.
+    #[inline]
+    pub(super) fn of(&self, shaft: &impl Motion, now: Instant) -> Option<i64> {
+        if now.micros_since(self.since) < self.interval.into() {
+            return None;
+        }
+        let value = match self.quantity {
+            Quantity::Speed => shaft.speed(now, self.interval, self.gain?)?,
+            Quantity::Acceleration => shaft.acceleration(now, self.interval, self.gain?)?,
+        };
+        Some(if self.is_turned {
+            value.saturating_neg()
+        } else {
+            value
+        })
+    }
+}
+
+/// The object that shows a movement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    var: Var<i64, Ro>,
+    most: i64,
+}
+
+impl Shown {
+    /// Looks the object up; `None` where it is no integer.
+    pub(super) fn find(store: &Store<'_>, address: Address) -> Option<Self> {
+        let row = store.dictionary().row_at(address)?;
+        let is_integer = matches!(row.data_type().kind(), Kind::Unsigned | Kind::Signed);
+        is_integer.then(|| Self {
+            var: Var::new(address, row.slot(&[]), row.bits()),
+            most: (1 << (row.bits().clamp(8, 32) - 1)) - 1,
+        })
+    }
+
+    #[inline]
+    pub(super) const fn address(&self) -> Address {
+        self.var.address()
+    }
+
+    /// Shows a number, within the limits of the object.
+    #[inline]
+    pub(super) fn show(&self, store: &mut Store<'_>, number: i64) {
+        store.set(self.var, number.clamp(-self.most - 1, self.most));
+    }
+}
