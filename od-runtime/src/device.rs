@@ -116,3 +116,101 @@ impl Device for AnyDevice {}
 /// There are the quickest ways, too: together they take 1 kB, which a microcontroller does not have for
 /// them.
 pub(crate) const ROOMY: bool = cfg!(not(target_os = "none"));
+
+#[cfg(test)]
+mod tests {
+    use od_model::row::Row;
+    use od_model::{
+        Access, Address, DataType, Entry, Group, Literal, Names, ObjectCode, Range, Slot,
+    };
+
+    use super::*;
+
+    /// A number at an address, with a place in the store or without.
+    const fn row(index: u16, sub: u8, len: u16) -> Row {
+        let entry = Entry {
+            address: Address::new(index, sub),
+            data_type: DataType::Unsigned32,
+            access: if len > 0 { Access::Rw } else { Access::Const },
+            mappable: false,
+            group: Group::None,
+            name: Range::new(0, 0),
+            default: Literal::None,
+            low: Literal::None,
+            high: Literal::None,
+            slot: Slot { offset: 0, len },
+        };
+        Row::new(&entry, ObjectCode::Record, 0, 0)
+    }
+
+    struct Known;
+
+    impl Device for Known {
+        const DICTIONARY: Option<Dictionary<'static>> = {
+            static ROWS: &[Row] = &[row(0x1003, 0, 4), row(0x1600, 2, 0), row(0x1A00, 1, 4)];
+            Some(dictionary(ROWS))
+        };
+    }
+
+    struct Rich;
+
+    impl Device for Rich {
+        const DICTIONARY: Option<Dictionary<'static>> = {
+            static ROWS: &[Row] = &[row(0x1006, 0, 4), row(0x1012, 0, 4), row(0x1201, 1, 4)];
+            Some(dictionary(ROWS))
+        };
+    }
+
+    const fn dictionary(rows: &'static [Row]) -> Dictionary<'static> {
+        let names = Names {
+            rows: &[],
+            text: "",
+        };
+        Dictionary::trusted(&[], rows, &[], "", &[], 4, None, names)
+    }
+
+    #[test]
+    fn a_device_has_what_its_dictionary_has() {
+        for (first, last, sub, there) in [
+            (0x1003, 0x1003, None, true),
+            (0x1002, 0x1003, Some(0), true),
+            (0x1003, 0x1004, Some(0), true),
+            (0x1003, 0x1003, Some(2), false),
+            (0x1000, 0x1002, None, false),
+            (0x1601, 0x19FF, None, false),
+            (0x1601, 0x19FF, Some(1), false),
+            (0x1600, 0x17FF, Some(2), true),
+            (0x1A00, 0x1BFF, Some(1), true),
+            (0x1A01, 0x1BFF, Some(1), false),
+        ] {
+            assert_eq!(may_have::<Known>(first, last, sub), there, "{first:X}");
+            assert!(may_have::<AnyDevice>(first, last, sub));
+        }
+    }
+
+    #[test]
+    fn what_is_not_in_the_store_cannot_change() {
+        for (first, last, can_change) in [
+            (0x1003, 0x1003, true),
+            (0x1000, 0x1002, false),
+            (0x1004, 0x19FF, false),
+            (0x1600, 0x17FF, false),
+            (0x1A00, 0x1BFF, true),
+            (0x1A01, 0x1BFF, false),
+        ] {
+            assert_eq!(may_change::<Known>(first, last), can_change, "{first:X}");
+            assert!(may_change::<AnyDevice>(first, last));
+        }
+    }
+
+    #[test]
+    fn services_of_few_devices_are_on_by_their_objects() {
+        const NONE: [bool; 4] = [false, false, false, false];
+        fn services<D: Device>() -> [bool; 4] {
+            [D::SERVERS, D::SYNC_PRODUCER, D::TIME, D::STREAMS]
+        }
+        assert_eq!(services::<Known>(), NONE);
+        assert_eq!(services::<Rich>(), [true, true, true, false]);
+        assert_eq!(services::<AnyDevice>(), [false, false, false, true]);
+    }
+}

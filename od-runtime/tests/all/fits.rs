@@ -1,11 +1,12 @@
 //! A node that does not fit its dictionary says so, and stays without power.
 
 use crate::support::{Row, rows, tables, unsigned};
+use crate::table::{Unknown, With, on};
 use od_model::{Access, DataType, Dictionary};
 use od_runtime::storage::NoStorage;
 use od_runtime::{
-    AbortCode, AnyDevice, Device, Frame, Instant, Lent, NoApplication, Node, NodeId, Profile,
-    StoreTooSmall, Unfit,
+    AbortCode, AnyDevice, Device, Extra, Extras, Frame, Instant, Lent, NoApplication, Node, NodeId,
+    Profile, StoreTooSmall, Unfit,
 };
 
 const U32: DataType = DataType::Unsigned32;
@@ -223,4 +224,92 @@ fn a_streamed_value_needs_a_segment() {
         start::<0, 6>(dictionary, 0),
         (Err(Unfit::SdoBuffer { needed, room }), false)
     );
+}
+
+/// What a node without one of the services says to a dictionary of this object alone.
+fn alone<D: Device, X: Extras<D, 64>>(index: u16) -> Result<(), Unfit> {
+    let tables = tables(vec![(index, 1, U32, Access::Rw, false, unsigned(0))]);
+    Node::<D, 2, 64, X>::fits(&tables.dictionary())
+}
+
+#[test]
+fn services_that_are_switched_off_are_named() {
+    const ALL: u16 = u16::MAX;
+    type Without<const SERVICE: u16> = With<Unknown, SERVICE>;
+    for (index, answer) in [
+        (0x100B, Ok(())),
+        (0x100C, Err(Unfit::Service(0x100C))),
+        (0x100D, Err(Unfit::Service(0x100D))),
+        (0x1010, Ok(())),
+    ] {
+        assert_eq!(alone::<Without<{ ALL ^ on::GUARDING }>, ()>(index), answer);
+        assert_eq!(alone::<Without<ALL>, ()>(index), Ok(()));
+    }
+    for (index, answer) in [
+        (0x100F, Ok(())),
+        (0x1010, Err(Unfit::Service(0x1010))),
+        (0x1011, Err(Unfit::Service(0x1011))),
+        (0x1012, Ok(())),
+    ] {
+        assert_eq!(alone::<Without<{ ALL ^ on::STORAGE }>, ()>(index), answer);
+    }
+    for (index, answer) in [
+        (0x1016, Err(Unfit::Service(0x1016))),
+        (0x1017, Ok(())),
+        (0x1029, Ok(())),
+    ] {
+        assert_eq!(alone::<Without<{ ALL ^ on::CONSUMER }>, ()>(index), answer);
+    }
+    for (index, answer) in [
+        (0x1016, Ok(())),
+        (0x1028, Ok(())),
+        (0x1029, Err(Unfit::Service(0x1029))),
+    ] {
+        assert_eq!(alone::<Without<{ ALL ^ on::BEHAVIOUR }>, ()>(index), answer);
+    }
+    for (index, answer) in [
+        (0x13FF, Ok(())),
+        (0x1400, Err(Unfit::Service(0x1400))),
+        (0x17FF, Err(Unfit::Service(0x17FF))),
+        (0x1800, Ok(())),
+    ] {
+        assert_eq!(alone::<Without<{ ALL ^ on::RPDOS }>, ()>(index), answer);
+        assert_eq!(alone::<Without<ALL>, ()>(index), Ok(()));
+    }
+    assert_eq!(alone::<AnyDevice, ()>(0x1012), Ok(()), "as a value");
+    assert_eq!(alone::<Empty, ()>(0x1012), Err(Unfit::Service(0x1012)));
+    assert_eq!(alone::<Empty, ()>(0x1013), Ok(()));
+}
+
+#[test]
+fn further_servers_need_room_and_the_service() {
+    type Room<const SERVICES: u16> = Extra<With<Unknown, SERVICES>, 64, 3>;
+    const ON: u16 = on::SERVERS;
+    for (index, answer) in [
+        (0x1200, Ok(())),
+        (0x1201, Ok(())),
+        (0x1203, Ok(())),
+        (0x1204, Err(Unfit::SdoServer(0x1204))),
+    ] {
+        assert_eq!(alone::<With<Unknown, ON>, Room<ON>>(index), answer);
+    }
+    let answer = alone::<With<Unknown, 0>, Room<0>>(0x1201);
+    assert_eq!(answer, Err(Unfit::SdoServer(0x1201)));
+}
+
+#[test]
+fn a_sync_producer_needs_its_period_its_room_and_the_service() {
+    fn fits<D: Device, X: Extras<D, 64>>(with_period: bool) -> Result<(), Unfit> {
+        let mut rows = vec![(0x1005, 0, U32, Access::Rw, false, unsigned(0x4000_0080))];
+        if with_period {
+            rows.push((0x1006, 0, U32, Access::Rw, false, unsigned(0)));
+        }
+        Node::<D, 2, 64, X>::fits(&tables(rows).dictionary())
+    }
+    use crate::support::Full;
+    const NO: Result<(), Unfit> = Err(Unfit::SyncProducer);
+    assert_eq!(fits::<Full, Extra<Full, 64, 0>>(true), Ok(()));
+    assert_eq!(fits::<Full, Extra<Full, 64, 0>>(false), NO);
+    assert_eq!(fits::<Full, ()>(true), NO);
+    assert_eq!(fits::<AnyDevice, Extra<AnyDevice, 64, 0>>(true), NO);
 }
