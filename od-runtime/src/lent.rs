@@ -8,7 +8,8 @@ use od_wire::{Instant, NodeId};
 use crate::application::Application;
 use crate::device::Device;
 use crate::objects::Objects;
-use crate::objects::outbox::{Outbox, Saving};
+use crate::objects::command::Saving;
+use crate::objects::outbox::Outbox;
 use crate::profile::Profile;
 use crate::storage::Storage;
 use crate::store::Store;
@@ -39,7 +40,7 @@ impl Lent<'_> {
         node_id: NodeId,
         now: Instant,
         outbox: &'c mut Outbox,
-        saving: Option<&'c mut Option<Saving>>,
+        saving: Option<&'c mut Saving>,
     ) -> Option<Objects<'c, D>> {
         Some(Objects {
             store: Store::new(&self.dictionary, self.values, node_id).ok()?,

@@ -14,10 +14,6 @@ use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::objects::outbox::Effect;
 use crate::rooms::Room;
-use crate::storage::image;
-
-/// Sub-index of 1010h, were it one, under which the device saves its own record.
-const LIFE_RECORD: u8 = 0;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
@@ -57,14 +53,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::TIME && send_time {
             self.produce_time(objects);
         }
-        // A save that goes on has the record in it.
         let keep = objects.outbox.signals.take(Signals::KEEP);
-        if D::STORAGE && keep && !objects.is_saving() {
-            objects.refresh_life_record();
-            let profile = &objects.profile().store;
-            if image::save(objects.storage, &objects.store, profile, LIFE_RECORD).is_err() {
-                self.event(Event::NotSaved);
-            }
+        if D::STORAGE && keep && objects.keep() {
+            self.event(Event::NotSaved);
         }
         self.take_errors(objects);
         // A frame that filled it made the node listen to everything.
@@ -80,17 +71,16 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let Some(done) = objects.complete_save() else {
             return;
         };
-        let failed = (!done).then_some(objects.profile().store.failed);
-        self.end_save_of_servers(objects, failed);
+        self.end_save_of_servers(objects, done);
         if D::SERVERS && !self.sdo.awaits_save() {
             return;
         }
-        let (answer, held) = self.sdo.finish(objects, failed);
+        let (answer, held) = self.sdo.finish(objects, done);
         if let Some(answer) = answer {
             self.answer(answer);
         }
         if let Some((data, dlc)) = held
-            && let Some(answer) = self.sdo.handle(objects, &data, dlc)
+            && let Some(answer) = self.sdo.ask(objects, &data, dlc)
         {
             self.answer(answer);
         }

@@ -85,7 +85,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.handle_remote(objects, frame);
         } else if id == node.node_id.plus(0x600) {
             if D::SERVERS && node.refuses(objects, frame) {
-            } else if let Some(answer) = node.sdo.handle(objects, frame.bytes(), frame.dlc()) {
+            } else if let Some(answer) = node.sdo.ask(objects, frame.bytes(), frame.dlc()) {
                 node.answer(answer);
             }
         } else if D::SERVERS && node.handle_server(objects, frame) {

@@ -37,7 +37,8 @@ use crate::extras::Extras;
 use crate::fifo::Fifo;
 use crate::lent::Lent;
 use crate::objects::Objects;
-use crate::objects::outbox::{Outbox, Saving};
+use crate::objects::command::Saving;
+use crate::objects::outbox::Outbox;
 use crate::rooms::{Room, Rooms};
 use crate::{emcy, error_control, lss, pdo, sdo};
 
@@ -62,7 +63,7 @@ pub struct Node<D = AnyDevice, const PDO: usize = 4, const SDO: usize = 128, X: 
     machines: Machines<D, PDO, SDO, X>,
     /// [`Objects`] holds both while a call has the device, so they are not among the machines.
     outbox: Outbox<<X::Rooms as Rooms>::Changes<Change>>,
-    saves: <X::Rooms as Rooms>::Saves<Option<Saving>>,
+    saves: <X::Rooms as Rooms>::Saves<Saving>,
 }
 
 /// The state of the node: NMT, queues, and one machine for each service.

@@ -61,7 +61,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         };
         let answer = match is_taken {
             true => Some(one.server.refuse(objects, address(data), TAKEN)),
-            false => one.server.handle(objects, data, frame.dlc()),
+            false => one.server.ask(objects, data, frame.dlc()),
         };
         let response = answer.and_then(|answer| one.frame(answer));
         self.send(response);
@@ -142,13 +142,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
-    /// A save is complete, or failed with this code: whoever asked for it gets an answer, and the
+    /// A save is complete (`done`), or failed: whoever asked for it gets an answer, and the
     /// request behind it is handled.
-    pub(super) fn end_save_of_servers(
-        &mut self,
-        objects: &mut Objects<'_, D>,
-        failed: Option<AbortCode>,
-    ) {
+    pub(super) fn end_save_of_servers(&mut self, objects: &mut Objects<'_, D>, done: bool) {
         if !D::SERVERS {
             return;
         }
@@ -159,9 +155,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             if !one.server.awaits_save() {
                 continue;
             }
-            let (answer, held) = one.server.finish(objects, failed);
+            let (answer, held) = one.server.finish(objects, done);
             let first = answer.and_then(|answer| one.frame(answer));
-            let next = held.and_then(|(data, dlc)| one.server.handle(objects, &data, dlc));
+            let next = held.and_then(|(data, dlc)| one.server.ask(objects, &data, dlc));
             let next = next.and_then(|answer| one.frame(answer));
             self.send(first);
             self.send(next);

@@ -1,28 +1,27 @@
 //! The one way to read and write an object: SDO server and RPDOs come through here.
 
+pub(crate) mod command;
 mod communication;
 pub(crate) mod outbox;
+mod saving;
 
 use core::marker::PhantomData;
 
 use od_model::Address;
 use od_model::row::Row;
 
-use crate::application::{Application, Context, Halt, Reset, Stream};
-use crate::deadline::Deadline;
+use crate::application::{Application, Context, Halt, Stream};
 use crate::device::{Device, may_have};
 use crate::limits::{self, Outside};
-use crate::profile::{Profile, SaveAnswer};
-use crate::storage::{Storage, image};
+use crate::profile::Profile;
+use crate::storage::Storage;
 use crate::store::Store;
 use od_wire::{AbortCode, Instant};
 
-use outbox::{Effect, Outbox, RESTORE, Saving, live_bit};
+use command::Saving;
+use outbox::{Outbox, live_bit};
 
 pub(crate) use communication::check_mapped;
-
-/// Time until a memory that is still writing is asked again, in microseconds.
-const ASK_AGAIN_US: u64 = 2_000;
 
 /// Reason why [`Objects::read`] has no bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,8 +47,8 @@ pub(crate) struct Objects<'c, D> {
     pub(crate) lent_profile: &'c Profile,
     pub(crate) now: Instant,
     pub(crate) outbox: &'c mut Outbox,
-    /// A save that is not complete, which outlasts the call; a device without storage has no room for one.
-    pub(crate) saving: Option<&'c mut Option<Saving>>,
+    /// A save; a device without storage has no room for one.
+    pub(crate) saving: Option<&'c mut Saving>,
 }
 
 impl<'c, D: Device> Objects<'c, D> {
@@ -202,7 +201,8 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Writes an object with everything that belongs to it: access, length, limits, the
-    /// services' and the application's rules, then the value, then what follows from it.
+    /// services' and the application's rules, then the value, then what follows from it. A save or
+    /// restore is only [commanded](Self::carry_out).
     pub(crate) fn write(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let row = self.writable(address)?;
         self.change(row, bytes)
@@ -211,10 +211,14 @@ impl<'c, D: Device> Objects<'c, D> {
     /// Writes an object from the side of the device: as [`write`](Self::write), but for the access.
     pub(crate) fn set(&mut self, address: Address, bytes: &[u8]) -> Result<(), AbortCode> {
         let row = self.row(address)?;
-        self.change(row, bytes)
+        self.change(row, bytes)?;
+        match self.carry_out() {
+            Some(false) => Err(self.profile().store.failed),
+            _ => Ok(()),
+        }
     }
 
-    /// Writes a value of which it is known that it may be written.
+    /// Writes a value of which it is known that it may be written, as [`write`](Self::write) does.
     #[inline(never)]
     pub(crate) fn change(&mut self, row: &Row, bytes: &[u8]) -> Result<(), AbortCode> {
         let address = row.address();
@@ -248,144 +252,6 @@ impl<'c, D: Device> Objects<'c, D> {
             Outside::Below => self.profile().sdo.below_limit,
             Outside::NotAllowed => AbortCode::ValueRange,
             Outside::Length => AbortCode::Length,
-        }
-    }
-
-    /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
-    #[inline(never)]
-    fn command(
-        &mut self,
-        address: Address,
-        signature: [u8; 4],
-        bytes: &[u8],
-    ) -> Result<(), AbortCode> {
-        if bytes != signature {
-            return Err(AbortCode::NotStored);
-        }
-        let sub = address.sub;
-        // What a save writes in the background is there before anything follows.
-        self.complete_save();
-        if address.index == 0x1010 {
-            return self.save(sub);
-        }
-        let profile = &self.profile().store;
-        image::erase(self.storage, &self.store, profile, sub).map_err(|_| profile.failed)?;
-        self.storage_is_sound();
-        if profile.restore == crate::profile::Restore::AtOnce {
-            let which = |row: &Row| image::restores(profile, row, sub);
-            profile.reset(&mut self.store, &which);
-            self.application(|application, context| application.reset(context, Reset::Defaults));
-        }
-        self.outbox.effect(Effect::Restored(sub));
-        if self.storage.is_writing() {
-            self.await_memory(RESTORE);
-            self.outbox.answer_later = true;
-        }
-        Ok(())
-    }
-
-    /// 1010h: the values of this moment, complete at once or in a while.
-    #[inline(never)]
-    fn save(&mut self, sub: u8) -> Result<(), AbortCode> {
-        let profile = &self.profile().store;
-        self.refresh_life_record();
-        self.application(|application, context| application.saving(context, true));
-        let mut saving = Saving {
-            pending: image::Pending::NONE,
-            sub,
-            due: self.now.plus_micros(profile.duration_us.into()),
-        };
-        let pending = &mut saving.pending;
-        let begun = image::begin(self.storage, &self.store, profile, sub, pending);
-        self.application(|application, context| application.saving(context, false));
-        if begun.is_err() {
-            self.outbox.effect(Effect::NotSaved);
-            return Err(profile.failed);
-        }
-        self.begin_save(saving);
-        if profile.duration_us > 0 {
-            self.outbox.answer_later = profile.answer == SaveAnswer::AfterStoring;
-            self.outbox.effect(Effect::Saving);
-            return Ok(());
-        }
-        let done = self.complete_save();
-        self.outbox.answer_later = done.is_none();
-        match done {
-            Some(false) => Err(profile.failed),
-            _ => Ok(()),
-        }
-    }
-
-    /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
-    /// memory is still writing.
-    pub(crate) fn complete_save(&mut self) -> Option<bool> {
-        let Some(Saving { pending, sub, .. }) = self.forget_save() else {
-            return Some(true);
-        };
-        let is_written = !pending.is_some() || image::commit(self.storage, &pending).is_ok();
-        if is_written && self.storage.is_writing() {
-            self.await_memory(sub);
-            return None;
-        }
-        let done = is_written && (pending.is_some() || self.storage.flush().is_ok());
-        if done {
-            self.storage_is_sound();
-        }
-        match sub {
-            _ if !done => self.outbox.effect(Effect::NotSaved),
-            RESTORE => {}
-            sub => self.outbox.effect(Effect::Saved(sub)),
-        }
-        Some(done)
-    }
-
-    /// All is written, and on its way to the memory that keeps it.
-    fn await_memory(&mut self, sub: u8) {
-        self.begin_save(Saving {
-            pending: image::Pending::NONE,
-            sub,
-            due: self.now.plus_micros(ASK_AGAIN_US),
-        });
-        self.outbox.effect(Effect::Saving);
-    }
-
-    fn begin_save(&mut self, saving: Saving) {
-        if let Some(room) = &mut self.saving {
-            **room = Some(saving);
-        }
-    }
-
-    /// Whether a save goes on.
-    pub(crate) fn is_saving(&self) -> bool {
-        matches!(&self.saving, Some(Some(_)))
-    }
-
-    /// When the save that goes on is complete.
-    pub(crate) fn save_due(&self) -> Deadline {
-        match &self.saving {
-            Some(Some(saving)) => Deadline::at(saving.due),
-            _ => Deadline::NEVER,
-        }
-    }
-
-    /// The save that is not complete is no more.
-    pub(crate) fn forget_save(&mut self) -> Option<Saving> {
-        self.saving.as_mut().and_then(|saving| saving.take())
-    }
-
-    /// The application may report the end of an error that it found at the start.
-    fn storage_is_sound(&mut self) {
-        self.application.storage_is(true);
-        self.outbox.signals.wake();
-    }
-
-    /// Updates the operating records before they are saved.
-    pub(crate) fn refresh_life_record(&mut self) {
-        for row in self.store.dictionary().rows() {
-            if image::is_life_record(row) {
-                // A value that cannot be updated is saved as it is.
-                let _ = self.refresh(row.address());
-            }
         }
     }
 

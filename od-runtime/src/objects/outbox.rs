@@ -1,12 +1,10 @@
 //! Work that a call leaves for its end.
 
 use od_model::Address;
-use od_wire::Instant;
 
 use crate::application::Signals;
 use crate::change::Change;
 use crate::fifo::Fifo;
-use crate::storage::image;
 
 /// Effect of a write on the services.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -36,8 +34,6 @@ pub struct Outbox<Q: ?Sized = [Change]> {
     pub(crate) effects: Fifo<[Effect; 8]>,
     /// More was written than `effects` could hold.
     pub(crate) overflow: bool,
-    /// The request that began it is answered when it is complete.
-    pub(crate) answer_later: bool,
     /// A set of live values that may name a few others, too: bits by [`live_bit`].
     pub(crate) live: u32,
     /// The application's requests.
@@ -64,27 +60,11 @@ pub(super) const fn live_bit(address: Address) -> u32 {
     1 << (address.key().wrapping_mul(0x9E37_79B1) >> 27)
 }
 
-/// A save that takes its time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Saving {
-    /// None: it is written, and on its way to the memory that keeps it. No `Option` here or below: its
-    /// niche would keep a node without power from being all zeros.
-    pub(super) pending: image::Pending,
-    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was told.
-    pub(super) sub: u8,
-    /// It is complete then.
-    pub(crate) due: Instant,
-}
-
-/// No sub-index of 1010h that saves.
-pub(super) const RESTORE: u8 = u8::MAX;
-
 impl<Q> Outbox<Q> {
     pub(crate) const fn new(room: Q) -> Self {
         Self {
             effects: Fifo::new([Effect::Written { index: 0, sub: 0 }; 8]),
             overflow: false,
-            answer_later: false,
             live: 0,
             signals: Signals::with_room(room),
         }

@@ -172,6 +172,7 @@ impl<R: Rooms> Mapping<R> {
                 let value = cut(data, bits).to_le_bytes();
                 let value = value.get(..row.size()).unwrap_or_default();
                 let _ = objects.write(row.address(), value);
+                let _ = objects.carry_out();
             }
             data = data.checked_shr(bits).unwrap_or(0);
         }

@@ -118,13 +118,23 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         }
     }
 
-    /// A client's frame; `data` beyond `dlc` is 0.
-    pub(crate) fn handle(
+    /// A client's frame; `data` beyond `dlc` is 0. What it commands is carried out.
+    #[inline(never)]
+    pub(crate) fn ask(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
+        let answer = self.handle(objects, data, dlc);
+        match objects.carry_out() {
+            Some(done) => self.finish(objects, done).0,
+            None => answer,
+        }
+    }
+
+    /// As [`ask`](Self::ask), and a response to a command waits.
+    fn handle(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8], dlc: u8) -> Option<[u8; 8]> {
         match self.is_quick(data) {
             true => self.handle_upload(objects, data, dlc),
             false => self.handle_other(objects, data, dlc),
@@ -212,7 +222,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         dlc: u8,
     ) -> Option<[u8; 8]> {
         self.await_client(objects.now);
-        let is_late = D::STORAGE && core::mem::take(&mut objects.outbox.answer_later);
+        let is_late = objects.is_commanded();
         let answer = match answer {
             Ok(Some(response)) if is_late => {
                 self.set_late(Late::new(response));
@@ -353,18 +363,18 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         answer
     }
 
-    /// Everything is stored, or could not be: the answer that waited, and the request behind it.
+    /// Everything is stored (`done`), or could not be: the answer that waited, and the request behind it.
     pub(crate) fn finish(
         &mut self,
         objects: &mut Objects<'_, D>,
-        failed: Option<AbortCode>,
+        done: bool,
     ) -> (Option<[u8; 8]>, Option<Held>) {
         let Late { answer, held, .. } = *self.late();
         self.set_late(Late::BLANK);
         self.look();
-        let answer = match (answer, failed) {
-            (Some(_), Some(code)) => Some(self.abort(objects, code)),
-            (answer, _) => answer,
+        let answer = match answer {
+            Some(_) if !done => Some(self.abort(objects, objects.profile().store.failed)),
+            answer => answer,
         };
         (answer, held)
     }

@@ -35,12 +35,12 @@
 
 use core::ops::Range;
 
+use od_model::Dictionary;
 use od_model::row::Row;
-use od_model::{Dictionary, Group};
 
 use super::{Storage, StorageError};
 use crate::limits;
-use crate::profile::{CutSave, StoreProfile};
+use crate::profile::StoreProfile;
 use crate::store::Store;
 
 mod bank;
@@ -50,16 +50,16 @@ mod layout;
 mod loaded;
 mod merge;
 
-use bank::{Banks, Record};
-use covered::{is_covered, is_saved};
+use bank::Record;
+use covered::is_saved;
 use layout::{OWN, RECORD};
-use merge::{Fate, Next};
 
+pub(crate) use bank::Banks;
 pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
 pub use loaded::Loaded;
-pub(crate) use merge::{Pending, commit};
+pub(crate) use merge::{Plan, begin, commit};
 
 /// Bytes of an EEPROM that `dictionary` needs to save every value at its longest, twice.
 pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
@@ -93,8 +93,8 @@ pub fn device(dictionary: &Dictionary<'_>) -> u32 {
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
 pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
-    let mut banks = Banks::of(0);
-    banks.survey(storage)?;
+    let mut banks = Banks::NONE;
+    banks.survey(storage, 0)?;
     Ok(banks.newest.map(|set| set.device))
 }
 
@@ -104,8 +104,8 @@ pub fn writer(storage: &mut dyn Storage) -> Result<Option<u32>, StorageError> {
 /// # Errors
 /// [`StorageError`] if the storage cannot be read.
 pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, StorageError> {
-    let mut banks = Banks::of(0);
-    banks.survey(storage)?;
+    let mut banks = Banks::NONE;
+    banks.survey(storage, 0)?;
     let header = banks.layout.header();
     let place = |set: bank::Set| banks.stays..banks.stays + header + set.len;
     Ok(banks.newest.map(place))
@@ -129,8 +129,8 @@ pub fn load(
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
-    let mut banks = Banks::of(device(store.dictionary()));
-    banks.survey(storage)?;
+    let mut banks = Banks::NONE;
+    banks.survey(storage, device(store.dictionary()))?;
     let mut skipped = 0u16;
     let mut records = banks.records();
     while records.next(storage)? {
@@ -199,43 +199,7 @@ pub fn save(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    let mut pending = Pending::NONE;
-    begin(storage, store, profile, sub, &mut pending)?;
-    commit(storage, &pending)
-}
-
-/// The first part of [`save`], for a device that takes its time: everything is written, but
-/// counts only after [`commit`].
-pub(crate) fn begin(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-    profile: &StoreProfile,
-    sub: u8,
-    pending: &mut Pending,
-) -> Result<(), StorageError> {
-    let next = Next {
-        // The device itself writes nothing over the set of another one.
-        unless: Some(Loaded::Foreign).filter(|_| sub == 0),
-        plan: &|_, entry| match entry {
-            Some(row) if is_covered(profile, row, sub) || is_life_record(row) => {
-                let follows = row.follows_node_id() && store.has_default(row);
-                if follows { Fate::Drop } else { Fate::Store }
-            }
-            _ => Fate::Keep,
-        },
-        own: [None; 2],
-        cut: match sub {
-            // The device's own saves take nothing away when they are cut.
-            0 => CutSave::LastSet,
-            _ => profile.cut,
-        },
-        cob_ids: profile.cob_ids,
-    };
-    merge::begin(storage, store, &next, pending)?;
-    match pending.is_some() {
-        true => Ok(()),
-        false => Err(StorageError::Foreign),
-    }
+    merge::save(storage, store, profile, Plan::Save(sub))
 }
 
 /// Saves the values that `which` names, whatever their group; all others stay as they
@@ -249,17 +213,7 @@ pub fn save_only(
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<(), StorageError> {
-    let next = Next {
-        unless: None,
-        plan: &|_, entry| match entry {
-            Some(entry) if which(entry) => Fate::Store,
-            _ => Fate::Keep,
-        },
-        own: [None; 2],
-        cut: profile.cut,
-        cob_ids: profile.cob_ids,
-    };
-    merge::save(storage, store, &next)
+    merge::save(storage, store, profile, Plan::Only(which))
 }
 
 /// Saves node ID and bit rate of a device without objects for them, [`OWN_CAPACITY`]; the values
@@ -273,17 +227,7 @@ pub(crate) fn save_own(
     profile: &StoreProfile,
     own: [Option<u8>; 2],
 ) -> Result<(), StorageError> {
-    let next = Next {
-        unless: None,
-        plan: &|address, _| match address.index {
-            OWN => Fate::Drop,
-            _ => Fate::Keep,
-        },
-        own,
-        cut: profile.cut,
-        cob_ids: profile.cob_ids,
-    };
-    merge::save(storage, store, &next)
+    merge::save(storage, store, profile, Plan::Own(own))
 }
 
 /// Returns the node ID and the bit rate that [`save_own`] saved.
@@ -294,8 +238,8 @@ pub(crate) fn own(
     storage: &mut dyn Storage,
     store: &Store<'_>,
 ) -> Result<[Option<u8>; 2], StorageError> {
-    let mut banks = Banks::of(device(store.dictionary()));
-    banks.survey(storage)?;
+    let mut banks = Banks::NONE;
+    banks.survey(storage, device(store.dictionary()))?;
     let mut own = [None; 2];
     let mut records = banks.records();
     while records.next(storage)? {
@@ -326,21 +270,7 @@ pub fn erase(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    let next = Next {
-        unless: Some(Loaded::Blank),
-        plan: &|address, entry| {
-            let goes = match entry {
-                Some(row) => restores(profile, row, sub),
-                None => Group::of_index(address.index).covered_by(sub),
-            };
-            if goes { Fate::Drop } else { Fate::Keep }
-        },
-        own: [None; 2],
-        // A restore that is cut leaves what it was to take away.
-        cut: CutSave::LastSet,
-        cob_ids: profile.cob_ids,
-    };
-    merge::save(storage, store, &next)
+    merge::save(storage, store, profile, Plan::Restore(sub))
 }
 
 #[cfg(test)]

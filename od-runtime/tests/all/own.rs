@@ -38,6 +38,24 @@ macro_rules! own {
 }
 
 #[test]
+fn a_save_of_the_device_itself_keeps_no_client_waiting() {
+    let mut bench = bench();
+    bench.profile.store.duration_us = 50_000;
+    bench.power_on();
+    bench.ask("601#2300200007000000");
+    let save = Address::new(0x1010, 1);
+    assert_eq!(own!(bench, set_value(save, b"save")), Ok(()));
+    assert_eq!(
+        own!(bench, set_value(save, b"load")),
+        Err(AbortCode::NotStored)
+    );
+    assert_eq!(bench.ask("601#2300200008000000"), "581#6000200000000000");
+    assert!(bench.wait(50).is_empty());
+    bench.power_cycle();
+    assert_eq!(bench.value(0x2000, 0), 7);
+}
+
+#[test]
 fn a_value_that_masters_may_only_read_is_set_by_the_device() {
     let mut bench = bench();
     bench.power_on();

@@ -26,7 +26,7 @@ struct Bank {
 }
 
 /// A whole set.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Set {
     /// [`device`] that wrote it.
     pub(super) device: u32,
@@ -35,12 +35,11 @@ pub(super) struct Set {
 }
 
 /// State of both banks.
-pub(super) struct Banks {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Banks {
     pub(super) layout: Layout,
     /// The bank that stays with the next save: that of the newest set, if there is one.
     pub(super) stays: usize,
-    /// Bytes of records in it; none if it is another device's.
-    len: usize,
     /// The bank of the next set.
     pub(super) target: usize,
     /// The commit word of the next set.
@@ -57,24 +56,30 @@ pub(super) struct Banks {
 }
 
 impl Banks {
-    /// Banks that nobody has looked at, for this device.
-    pub(super) const fn of(device: u32) -> Self {
-        Self {
-            layout: Layout::NONE,
-            stays: 0,
-            len: 0,
-            target: 0,
-            next: Code::FIRST,
-            device,
-            newest: None,
-            state: Loaded::Blank,
-            is_withdrawn: false,
-        }
+    /// Banks that nobody has looked at: all zeros.
+    pub(crate) const NONE: Self = Self {
+        layout: Layout::NONE,
+        stays: 0,
+        target: 0,
+        next: Code::ERASED,
+        device: 0,
+        newest: None,
+        state: Loaded::Blank,
+        is_withdrawn: false,
+    };
+
+    /// Whether there is a next set, which is written but for its commit word.
+    pub(crate) const fn is_some(&self) -> bool {
+        self.layout.size > 0
     }
 
-    /// Reads both banks to their end. In place: these are many bytes for a small stack.
+    /// Reads both banks to their end, for this device. In place: these are many bytes for a small stack.
     #[inline(never)]
-    pub(super) fn survey(&mut self, storage: &mut dyn Storage) -> Result<(), StorageError> {
+    pub(super) fn survey(
+        &mut self,
+        storage: &mut dyn Storage,
+        device: u32,
+    ) -> Result<(), StorageError> {
         let layout = Layout::of(storage);
         let (mut first, mut second) = (Bank::at(0), Bank::at(layout.size));
         first.look(storage, &layout)?;
@@ -105,7 +110,7 @@ impl Banks {
             };
         let is_clean = stays.is_clean && target.is_clean;
         let state = match stays.set {
-            Some(set) if set.device != self.device => Loaded::Foreign,
+            Some(set) if set.device != device => Loaded::Foreign,
             Some(_) if lost > 0 && is_withdrawn => Loaded::Damaged,
             Some(_) if lost > 0 => Loaded::Older,
             Some(_) if is_interrupted => Loaded::Cut {
@@ -119,14 +124,13 @@ impl Banks {
             None if is_clean => Loaded::Blank,
             None => Loaded::Damaged,
         };
-        let own = stays.set.filter(|set| set.device == self.device);
         self.next = match stays.code.is_complete() {
             true => stays.code.plus(if is_withdrawn { 2 } else { 1 }),
             false => Code::FIRST,
         };
         self.layout = layout;
         self.stays = stays.start;
-        self.len = own.map_or(0, |set| set.len);
+        self.device = device;
         self.target = target.start;
         self.newest = stays.set;
         self.state = state;
@@ -134,16 +138,17 @@ impl Banks {
         Ok(())
     }
 
-    /// The records of the newest set.
+    /// The records of the newest set; none if it is another device's.
     pub(super) fn records(&self) -> Records {
         let start = self.stays + self.layout.header();
+        let own = self.newest.filter(|set| set.device == self.device);
         Records {
             record: Record {
                 address: Address::new(0, 0),
                 at: start,
                 len: 0,
             },
-            end: start + self.len,
+            end: start + own.map_or(0, |set| set.len),
         }
     }
 }

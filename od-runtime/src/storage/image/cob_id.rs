@@ -7,20 +7,16 @@ use crate::profile::SavedCobIds;
 use crate::store::Store;
 use od_wire::CobId;
 
-/// Makes the bytes that are saved instead of those of the value. Returns whether there are any.
+/// The number that is saved instead of the value, if there is one.
 #[inline(never)]
 pub(super) fn difference(
     store: &Store<'_>,
     row: &Row,
     rule: SavedCobIds,
     value: &[u8],
-    to: &mut [u8; 8],
-) -> bool {
-    let default = default(store, row, rule);
-    if let Some(default) = default {
-        *to = number_in(value).wrapping_sub(default).to_le_bytes();
-    }
-    default.is_some()
+) -> Option<u64> {
+    let default = default(store, row, rule)?;
+    Some(number_in(value).wrapping_sub(default))
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID

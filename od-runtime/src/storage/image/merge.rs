@@ -1,24 +1,22 @@
 //! Writing: the newest set and the store make the next set.
 
-use od_model::Address;
 use od_model::row::Row;
+use od_model::{Address, Group};
 
 use super::bank::{Banks, Record, content, device};
 use super::cob_id;
-use super::covered::{is_life_record, is_saved};
-use super::layout::{
-    Code, ERASED, Layout, MAX_VALUE, MAX_WORD, OWN, RECORD, is_blank, whole_words,
-};
+use super::covered::{is_covered, is_life_record, is_saved, restores};
+use super::layout::{Code, ERASED, Layout, MAX_VALUE, OWN, RECORD, is_blank, whole_words};
 use super::loaded::Loaded;
 use crate::number::copy;
-use crate::profile::{CutSave, SavedCobIds};
+use crate::profile::{CutSave, StoreProfile};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
 use crate::store::Store;
 
 /// Part of an address in the next set.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Fate {
+enum Fate {
     /// The store's value goes in.
     Store,
     /// The record of the newest set stays, if there is one.
@@ -28,67 +26,49 @@ pub(super) enum Fate {
 }
 
 /// Recipe of the next set.
-pub(super) struct Next<'n> {
-    /// Nothing is written where this is what is there.
-    pub(super) unless: Option<Loaded>,
-    /// Decides for an address; without an entry where no object of the dictionary saves it.
-    pub(super) plan: &'n dyn Fn(Address, Option<&Row>) -> Fate,
-    /// Node ID and bit rate of LSS, in records of their own. `plan` drops the old ones.
-    pub(super) own: [Option<u8>; 2],
-    /// Values after an interrupted save.
-    pub(super) cut: CutSave,
-    pub(super) cob_ids: SavedCobIds,
-}
-
-/// A set that is written but for its commit word.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Pending {
-    layout: Layout,
-    target: usize,
-    code: Code,
-}
-
-impl Pending {
-    /// No set.
-    pub(crate) const NONE: Self = Self {
-        layout: Layout::NONE,
-        target: 0,
-        code: Code::ERASED,
-    };
-
-    /// Whether there is a set.
-    pub(crate) const fn is_some(&self) -> bool {
-        self.layout.size > 0
-    }
+#[derive(Clone, Copy)]
+pub(crate) enum Plan<'p> {
+    /// The values that this sub-index of 1010h covers, and the operating records; 0: these alone.
+    Save(u8),
+    /// Without the values that this sub-index of 1011h covers.
+    Restore(u8),
+    /// The values that it names.
+    Only(&'p dyn Fn(&Row) -> bool),
+    /// Node ID and bit rate of LSS, in records of their own.
+    Own([Option<u8>; 2]),
 }
 
 /// Writes the next set, if there is to be one.
 pub(super) fn save(
     storage: &mut dyn Storage,
     store: &Store<'_>,
-    next: &Next<'_>,
+    profile: &StoreProfile,
+    plan: Plan<'_>,
 ) -> Result<(), StorageError> {
-    let mut pending = Pending::NONE;
-    begin(storage, store, next, &mut pending)?;
-    match pending.is_some() {
-        true => commit(storage, &pending),
-        false => Ok(()),
-    }
+    let mut banks = Banks::NONE;
+    begin(storage, store, profile, plan, &mut banks)?;
+    commit(storage, &mut banks)
 }
 
-/// Writes the next set into the older bank, all but the commit word.
+/// Writes the next set into the older bank, all but the commit word. Without a next set `banks` are
+/// [none](Banks::is_some).
 #[inline(never)]
-pub(super) fn begin(
+pub(crate) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
-    next: &Next<'_>,
-    pending: &mut Pending,
+    profile: &StoreProfile,
+    plan: Plan<'_>,
+    banks: &mut Banks,
 ) -> Result<(), StorageError> {
-    let mut banks = Banks::of(device(store.dictionary()));
-    banks.survey(storage)?;
-    let banks = &banks;
-    if next.unless == Some(banks.state) {
-        return Ok(());
+    banks.survey(storage, device(store.dictionary()))?;
+    match (plan, banks.state) {
+        // The device itself writes nothing over the set of another one.
+        (Plan::Save(0), Loaded::Foreign) => return Err(StorageError::Foreign),
+        (Plan::Restore(_), Loaded::Blank) => {
+            banks.layout = Layout::NONE;
+            return Ok(());
+        }
+        _ => {}
     }
     let layout = &banks.layout;
     let room = layout.size.checked_sub(layout.header());
@@ -96,25 +76,28 @@ pub(super) fn begin(
     // Records without an object stay as long as there is room.
     let mut set = Set {
         store,
+        profile,
+        plan,
         banks,
-        next,
         has_orphans: true,
     };
-    let mut len = set.len(storage)?;
-    if len > room {
+    let mut writer = Writer::NEW;
+    set.records(storage, &mut writer)?;
+    if writer.at > room {
         set.has_orphans = false;
-        len = set.len(storage)?;
+        writer.at = 0;
+        set.records(storage, &mut writer)?;
     }
-    if len > room {
+    if writer.at > room {
         return Err(StorageError::Full);
     }
-    *pending = Pending {
-        layout: banks.layout,
-        target: banks.target,
-        code: banks.next,
+    // The device's own saves, and a restore, take nothing away when they are cut. Once the set does not
+    // count, only a complete one ends that.
+    let cut = match plan {
+        Plan::Save(0) | Plan::Restore(_) => CutSave::LastSet,
+        _ => profile.cut,
     };
-    // Once it does not count, only a complete set ends that.
-    let mark = match next.cut {
+    let mark = match cut {
         CutSave::LastSet if !banks.is_withdrawn => Code::REPLACED,
         _ => Code::WITHDRAWN,
     };
@@ -123,75 +106,56 @@ pub(super) fn begin(
         Err(StorageError::NotWritten) if layout.page > 0 => {}
         result => result?,
     }
-    let written = set.write(storage, len);
-    written.map_err(|error| give_up(storage, pending, error))
+    let written = set.write(storage, &mut writer);
+    written.map_err(|error| give_up(storage, layout, banks.target, error))
 }
 
-/// The commit word: from now on the next set is the newest.
-pub(crate) fn commit(storage: &mut dyn Storage, pending: &Pending) -> Result<(), StorageError> {
-    let layout = &pending.layout;
-    let written = layout.stamp(storage, pending.target, pending.code);
+/// The commit word, if there is a next set: from now on it is the newest.
+pub(crate) fn commit(storage: &mut dyn Storage, banks: &mut Banks) -> Result<(), StorageError> {
+    if !banks.is_some() {
+        return Ok(());
+    }
+    let layout = core::mem::replace(&mut banks.layout, Layout::NONE);
+    let written = layout.stamp(storage, banks.target, banks.next);
     match layout.page {
-        0 => written.map_err(|error| give_up(storage, pending, error)),
+        0 => written.map_err(|error| give_up(storage, &layout, banks.target, error)),
         // A word of flash is written once.
         _ => written,
     }
 }
 
 /// Power did not go, so the set before the next one counts, if the storage still works.
-fn give_up(storage: &mut dyn Storage, pending: &Pending, error: StorageError) -> StorageError {
-    let _ = pending
-        .layout
-        .stamp(storage, pending.target, Code::GIVEN_UP);
+fn give_up(
+    storage: &mut dyn Storage,
+    layout: &Layout,
+    target: usize,
+    error: StorageError,
+) -> StorageError {
+    let _ = layout.stamp(storage, target, Code::GIVEN_UP);
     error
 }
 
 /// The next set.
 struct Set<'s> {
     store: &'s Store<'s>,
+    profile: &'s StoreProfile,
+    plan: Plan<'s>,
     banks: &'s Banks,
-    next: &'s Next<'s>,
     /// With the records whose objects the dictionary does not have.
     has_orphans: bool,
 }
 
 impl Set<'_> {
-    /// Bytes of its records.
-    #[inline(never)]
-    fn len(&self, storage: &mut dyn Storage) -> Result<usize, StorageError> {
-        let mut writer = Writer::new(0, true);
-        self.records(storage, &mut writer)?;
-        Ok(writer.at)
-    }
-
-    /// Writes records and fields, and reads them back. Its parts are apart for the sake of the stack.
-    #[inline(always)]
-    fn write(&self, storage: &mut dyn Storage, len: usize) -> Result<(), StorageError> {
+    /// Writes records and fields, and reads them back. The writer has counted the bytes of the records.
+    fn write(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
         let (layout, target) = (&self.banks.layout, self.banks.target);
+        let len = writer.at;
         layout.clear(storage, target, layout.header() + len)?;
         // The length is less than a bank, which a header can describe.
-        let [mut fields @ .., _] = [self.banks.device, len as u32, 0, 0].map(u32::to_le_bytes);
-        fields[2] = self.write_records(storage, &fields)?;
-        self.write_fields(storage, &fields)?;
-        let whole = content(storage, layout, target)?;
-        match whole.is_some_and(|set| set.len == len) {
-            true => Ok(()),
-            false => Err(StorageError::NotWritten),
-        }
-    }
-
-    /// Writes the records, and clears what is behind them. Returns the sum of the fields and them.
-    #[inline(never)]
-    fn write_records(
-        &self,
-        storage: &mut dyn Storage,
-        fields: &[[u8; 4]; 3],
-    ) -> Result<[u8; 4], StorageError> {
-        let (layout, target) = (&self.banks.layout, self.banks.target);
-        let mut writer = Writer::new(target + layout.header(), false);
-        writer.crc.update(&fields[0]);
-        writer.crc.update(&fields[1]);
-        self.records(storage, &mut writer)?;
+        let known = [self.banks.device, len as u32].map(u32::to_le_bytes);
+        writer.begin(target + layout.header());
+        writer.crc.update(known.as_flattened());
+        self.records(storage, writer)?;
         writer.write_out(storage, layout.word)?;
         // Behind the records nothing stays of older sets; flash is erased there.
         let end = target + layout.size;
@@ -203,32 +167,29 @@ impl Set<'_> {
             }
             writer.at += part;
         }
-        Ok(writer.crc.finish().to_le_bytes())
-    }
-
-    /// Writes the fields of the header.
-    #[inline(never)]
-    fn write_fields(
-        &self,
-        storage: &mut dyn Storage,
-        known: &[[u8; 4]; 3],
-    ) -> Result<(), StorageError> {
-        let (layout, target) = (&self.banks.layout, self.banks.target);
-        let mut fields = [ERASED; MAX_WORD];
-        copy(&mut fields, known.as_flattened());
-        let len = layout.header() - 2 * layout.word;
-        let fields = fields.get(..len).unwrap_or_default();
+        let [device, len_bytes] = known;
+        let fields = [device, len_bytes, writer.crc.finish().to_le_bytes()];
+        copy(&mut writer.buffer, fields.as_flattened());
+        let fields = layout.header() - 2 * layout.word;
+        let fields = writer.buffer.get(..fields).unwrap_or_default();
         storage.write(target + 2 * layout.word, fields)?;
-        storage.flush()
+        storage.flush()?;
+        let whole = content(storage, layout, target)?;
+        match whole.is_some_and(|set| set.len == len) {
+            true => Ok(()),
+            false => Err(StorageError::NotWritten),
+        }
     }
 
     /// Goes through the newest set and the dictionary side by side, both by address.
     #[inline(never)]
     fn records(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
-        for (sub, value) in (1..).zip(self.next.own) {
-            if let Some(value) = value {
-                writer.head(storage, Address::new(OWN, sub), 1)?;
-                writer.put(storage, &[value])?;
+        if let Plan::Own(own) = self.plan {
+            for (sub, value) in (1..).zip(own) {
+                if let Some(value) = value {
+                    writer.head(storage, Address::new(OWN, sub), 1)?;
+                    writer.put(storage, &[value])?;
+                }
             }
         }
         let mut old = self.banks.records();
@@ -261,13 +222,30 @@ impl Set<'_> {
         }
     }
 
-    /// Decides about the value of an address.
+    /// Decides about the value of an address; without a row where no object of the dictionary saves it.
     #[inline(never)]
     fn fate(&self, address: Address, new: Option<&Row>) -> Fate {
-        match (self.next.plan)(address, new) {
+        let (profile, is_own) = (self.profile, address.index == OWN);
+        let fate = match (self.plan, new) {
+            (Plan::Save(sub), Some(row))
+                if is_covered(profile, row, sub) || is_life_record(row) =>
+            {
+                // One that was not changed follows the node ID.
+                let follows = row.follows_node_id() && self.store.has_default(row);
+                return if follows { Fate::Drop } else { Fate::Store };
+            }
+            (Plan::Restore(sub), Some(row)) if restores(profile, row, sub) => Fate::Drop,
+            (Plan::Restore(sub), None) if Group::of_index(address.index).covered_by(sub) => {
+                Fate::Drop
+            }
+            (Plan::Only(which), Some(row)) if which(row) => Fate::Store,
+            (Plan::Own(_), _) if is_own => Fate::Drop,
+            _ => Fate::Keep,
+        };
+        match fate {
             // After a save that was cut the factory values hold, and they stay.
             Fate::Keep if self.banks.is_withdrawn && !new.is_some_and(is_life_record) => Fate::Drop,
-            Fate::Keep if new.is_none() && address.index != OWN && !self.has_orphans => Fate::Drop,
+            Fate::Keep if new.is_none() && !is_own && !self.has_orphans => Fate::Drop,
             fate => fate,
         }
     }
@@ -282,13 +260,14 @@ impl Set<'_> {
     ) -> Result<(), StorageError> {
         let mut number = [0; 8];
         let mut bytes = self.store.value(row, &mut number);
-        if bytes.len() > MAX_VALUE {
+        let len = bytes.len();
+        if len > MAX_VALUE {
             return Err(StorageError::Full);
         }
-        writer.head(storage, row.address(), bytes.len())?;
-        let (mut difference, len) = ([0; 8], bytes.len());
-        if cob_id::difference(self.store, row, self.next.cob_ids, bytes, &mut difference) {
-            bytes = difference.get(..len).unwrap_or(bytes);
+        writer.head(storage, row.address(), len)?;
+        if let Some(difference) = cob_id::difference(self.store, row, self.profile.cob_ids, bytes) {
+            number = difference.to_le_bytes();
+            bytes = number.get(..len).unwrap_or_default();
         }
         writer.put(storage, bytes)
     }
@@ -312,14 +291,18 @@ struct Writer {
 }
 
 impl Writer {
-    fn new(at: usize, only_counts: bool) -> Self {
-        Self {
-            at,
-            only_counts,
-            buffer: [0; BUFFER],
-            filled: 0,
-            crc: Crc32::new(),
-        }
+    /// One that only counts.
+    const NEW: Self = Self {
+        at: 0,
+        only_counts: true,
+        buffer: [0; BUFFER],
+        filled: 0,
+        crc: Crc32::new(),
+    };
+
+    /// Writes from here on.
+    fn begin(&mut self, at: usize) {
+        (self.at, self.only_counts) = (at, false);
     }
 
     /// Begins a record.

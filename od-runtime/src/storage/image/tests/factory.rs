@@ -2,7 +2,7 @@
 //! chapter 5.1.3.1; DECISIONS U-33).
 
 use super::*;
-use crate::profile::{SavedCobIds, StoreProfile};
+use crate::profile::{CutSave, SavedCobIds, StoreProfile};
 use od_model::Address;
 
 const FACTORY: &StoreProfile = &StoreProfile {
@@ -102,8 +102,15 @@ fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
     let (mut bench, mut memory) = (Bench::new(device()), storage());
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
-    let mut pending = Pending::NONE;
-    begin(&mut memory, &bench.store(), FACTORY, 1, &mut pending).unwrap();
+    let mut banks = Banks::NONE;
+    begin(
+        &mut memory,
+        &bench.store(),
+        FACTORY,
+        Plan::Save(1),
+        &mut banks,
+    )
+    .unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     bench.fill(6);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
@@ -120,11 +127,18 @@ fn a_save_counts_after_its_end_alone() {
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
     bench.fill(6);
-    let mut pending = Pending::NONE;
-    begin(&mut memory, &bench.store(), FACTORY, 1, &mut pending).unwrap();
+    let mut banks = Banks::NONE;
+    begin(
+        &mut memory,
+        &bench.store(),
+        FACTORY,
+        Plan::Save(1),
+        &mut banks,
+    )
+    .unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     assert_eq!(bench.store().unsigned(0x6003, 0), 0);
-    commit(&mut memory, &pending).unwrap();
+    commit(&mut memory, &mut banks).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Complete);
     assert_eq!(bench.store().unsigned(0x6003, 0), 6);
 }
@@ -180,8 +194,14 @@ fn a_save_that_fails_with_power_on_leaves_the_set_before_it() {
         let before = bench.values();
         bench.fill(200);
         let mut flaky = Flaky { memory, fails };
-        let mut pending = Pending::NONE;
-        let result = begin(&mut flaky, &bench.store(), FACTORY, 1, &mut pending);
+        let mut banks = Banks::NONE;
+        let result = begin(
+            &mut flaky,
+            &bench.store(),
+            FACTORY,
+            Plan::Save(1),
+            &mut banks,
+        );
         if result.is_ok() {
             assert!(fails > 3, "mark, magic, records and header were written");
             break;

@@ -1,0 +1,39 @@
+//! What a download of 1010h or 1011h commands, and a save that goes on.
+
+use crate::deadline::Deadline;
+use crate::rooms::Blank;
+use crate::storage::image::Banks;
+
+/// No sub-index of 1010h that saves.
+pub(super) const RESTORE: u8 = u8::MAX;
+
+/// What a download commands, with the sub-index of 1010h or 1011h. Nothing is all zeros.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(u8)]
+pub(super) enum Command {
+    #[default]
+    None,
+    Save(u8),
+    Restore(u8),
+}
+
+/// A save, which outlasts the call if it takes its time. A node without power has none, which is all zeros.
+#[derive(Clone, Debug)]
+pub(crate) struct Saving {
+    pub(super) command: Command,
+    /// Without a set it is written, and on its way to the memory that keeps it.
+    pub(super) banks: Banks,
+    /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was told.
+    pub(super) sub: u8,
+    /// It is complete then; never without one.
+    pub(super) due: Deadline,
+}
+
+impl Blank for Saving {
+    const BLANK: Self = Self {
+        command: Command::None,
+        banks: Banks::NONE,
+        sub: 0,
+        due: Deadline::NEVER,
+    };
+}

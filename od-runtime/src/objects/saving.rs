@@ -1,0 +1,210 @@
+//! Saving and restoring (1010h, 1011h). A download is a command, which is carried out when the service that
+//! received it is done: that is as deep as the stack gets.
+
+use od_model::Address;
+use od_model::row::Row;
+use od_wire::AbortCode;
+
+use super::Objects;
+use super::command::{Command, RESTORE};
+use super::outbox::Effect;
+use crate::application::Reset;
+use crate::deadline::Deadline;
+use crate::device::Device;
+use crate::profile::{Restore, SaveAnswer};
+use crate::storage::image::{self, Banks, Plan};
+
+/// Time until a memory that is still writing is asked again, in microseconds.
+const ASK_AGAIN_US: u32 = 2_000;
+
+impl<D: Device> Objects<'_, D> {
+    /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
+    pub(super) fn command(
+        &mut self,
+        address: Address,
+        signature: [u8; 4],
+        bytes: &[u8],
+    ) -> Result<(), AbortCode> {
+        if bytes != signature {
+            return Err(AbortCode::NotStored);
+        }
+        if let Some(saving) = &mut self.saving {
+            saving.command = match address.index {
+                0x1010 => Command::Save(address.sub),
+                _ => Command::Restore(address.sub),
+            };
+        }
+        Ok(())
+    }
+
+    /// Whether there is something to [carry out](Self::carry_out).
+    pub(crate) fn is_commanded(&self) -> bool {
+        let saving = self.saving.as_ref();
+        D::STORAGE && saving.is_some_and(|saving| saving.command != Command::None)
+    }
+
+    /// Carries out what was commanded: `Some(false)` where it failed, `None` if nothing was, or its end
+    /// is to be waited for.
+    #[inline]
+    pub(crate) fn carry_out(&mut self) -> Option<bool> {
+        let saving = self.saving.as_mut().filter(|_| D::STORAGE)?;
+        match core::mem::take(&mut saving.command) {
+            Command::None => None,
+            Command::Save(sub) => self.save(sub),
+            Command::Restore(sub) => self.restore(sub),
+        }
+    }
+
+    /// 1011h.
+    #[inline(never)]
+    fn restore(&mut self, sub: u8) -> Option<bool> {
+        self.complete_save();
+        if !(self.begin(Plan::Restore(sub)) && self.commit()) {
+            return Some(false);
+        }
+        self.storage_is_sound();
+        let profile = &self.profile().store;
+        if profile.restore == Restore::AtOnce {
+            let which = |row: &Row| image::restores(profile, row, sub);
+            profile.reset(&mut self.store, &which);
+            self.application(|application, context| application.reset(context, Reset::Defaults));
+        }
+        self.outbox.effect(Effect::Restored(sub));
+        if self.storage.is_writing() {
+            self.await_memory(RESTORE);
+            return None;
+        }
+        Some(true)
+    }
+
+    /// 1010h: the values of this moment, complete at once or in a while.
+    #[inline(never)]
+    fn save(&mut self, sub: u8) -> Option<bool> {
+        // What a save writes in the background is there before anything follows.
+        self.complete_save();
+        self.refresh_life_record();
+        self.application(|application, context| application.saving(context, true));
+        let begun = self.begin(Plan::Save(sub));
+        self.application(|application, context| application.saving(context, false));
+        if !begun {
+            self.outbox.effect(Effect::NotSaved);
+            return Some(false);
+        }
+        self.saving.as_mut()?.sub = sub;
+        let profile = &self.profile().store;
+        if profile.duration_us > 0 {
+            self.await_end(profile.duration_us);
+            return (profile.answer == SaveAnswer::AtOnce).then_some(true);
+        }
+        self.end_save()
+    }
+
+    /// Saves the operating records, unless a save goes on, which has them. Returns whether that failed.
+    #[inline(never)]
+    pub(crate) fn keep(&mut self) -> bool {
+        if self.is_saving() {
+            return false;
+        }
+        self.refresh_life_record();
+        !(self.begin(Plan::Save(0)) && self.commit())
+    }
+
+    /// Writes the next set, but for the commit word. Returns whether that is done.
+    fn begin(&mut self, plan: Plan<'_>) -> bool {
+        let profile = &self.profile().store;
+        let Some(saving) = &mut self.saving else {
+            return false;
+        };
+        let banks = &mut saving.banks;
+        let begun = image::begin(self.storage, &self.store, profile, plan, banks);
+        if begun.is_err() {
+            *banks = Banks::NONE;
+        }
+        begun.is_ok()
+    }
+
+    /// Writes the commit word, if a set waits for it. Returns whether that is done.
+    fn commit(&mut self) -> bool {
+        let banks = self.saving.as_mut().map(|saving| &mut saving.banks);
+        banks.is_some_and(|banks| image::commit(self.storage, banks).is_ok())
+    }
+
+    /// Ends a save that goes on, if there is one; `Some(false)` where it failed, `None` while the
+    /// memory is still writing.
+    pub(crate) fn complete_save(&mut self) -> Option<bool> {
+        match self.is_saving() {
+            true => self.end_save(),
+            false => Some(true),
+        }
+    }
+
+    fn end_save(&mut self) -> Option<bool> {
+        self.forget_save();
+        let saving = self.saving.as_mut()?;
+        let (sub, has_set) = (saving.sub, saving.banks.is_some());
+        let is_written = self.commit();
+        if is_written && self.storage.is_writing() {
+            self.await_memory(sub);
+            return None;
+        }
+        let done = is_written && (has_set || self.storage.flush().is_ok());
+        if done {
+            self.storage_is_sound();
+        }
+        match sub {
+            _ if !done => self.outbox.effect(Effect::NotSaved),
+            RESTORE => {}
+            sub => self.outbox.effect(Effect::Saved(sub)),
+        }
+        Some(done)
+    }
+
+    /// All is written, and on its way to the memory that keeps it.
+    fn await_memory(&mut self, sub: u8) {
+        if let Some(saving) = &mut self.saving {
+            saving.sub = sub;
+        }
+        self.await_end(ASK_AGAIN_US);
+    }
+
+    fn await_end(&mut self, micros: u32) {
+        if let Some(saving) = &mut self.saving {
+            saving.due = Deadline::at(self.now.plus_micros(micros.into()));
+        }
+        self.outbox.effect(Effect::Saving);
+    }
+
+    /// Whether a save goes on.
+    fn is_saving(&self) -> bool {
+        self.save_due().is_set()
+    }
+
+    /// When the save that goes on is complete.
+    pub(crate) fn save_due(&self) -> Deadline {
+        let saving = self.saving.as_ref();
+        saving.map_or(Deadline::NEVER, |saving| saving.due)
+    }
+
+    /// The save that is not complete is no more.
+    pub(crate) fn forget_save(&mut self) {
+        if let Some(saving) = &mut self.saving {
+            saving.due = Deadline::NEVER;
+        }
+    }
+
+    /// The application may report the end of an error that it found at the start.
+    fn storage_is_sound(&mut self) {
+        self.application.storage_is(true);
+        self.outbox.signals.wake();
+    }
+
+    /// Updates the operating records before they are saved.
+    fn refresh_life_record(&mut self) {
+        for row in self.store.dictionary().rows() {
+            if image::is_life_record(row) {
+                // A value that cannot be updated is saved as it is.
+                let _ = self.refresh(row.address());
+            }
+        }
+    }
+}
