@@ -72,7 +72,11 @@ mod one_thread {
 
     // SAFETY: neither the benches nor `od-benches-count` start a second thread.
     unsafe impl critical_section::Impl for OneThread {
-        unsafe fn acquire() {}
-        unsafe fn release((): ()) {}
+        // Its type is that of a feature, which another package may turn on.
+        unsafe fn acquire() -> critical_section::RawRestoreState {
+            Default::default()
+        }
+
+        unsafe fn release(_: critical_section::RawRestoreState) {}
     }
 }
