@@ -171,6 +171,9 @@ impl Bus {
 
     /// Does what is outside hear this device, and the device what is outside?
     fn hears_outside(&self, device: usize) -> bool {
+        if self.wiring.rate.is_none() {
+            return true;
+        }
         let rate = self.devices[device].bit_rate();
         self.wiring.hears(self.wiring.rate, rate)
     }

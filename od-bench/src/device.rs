@@ -230,6 +230,9 @@ impl VirtualDevice {
         if self.recorded.is_some() {
             return self.poll_recorded(now);
         }
+        if !self.node.may_transmit() {
+            return None;
+        }
         let frame = self.lend(|node, device| node.poll_transmit(device, now));
         if let (Some(twin), Some(frame)) = (&mut self.twin, &frame) {
             twin.sent(frame);
@@ -239,16 +242,15 @@ impl VirtualDevice {
 
     /// When [`handle_timeout`](Self::handle_timeout) is due.
     pub fn poll_timeout(&self) -> Option<Instant> {
+        let due = self.node.poll_timeout();
         let is_operational = |_: &Instant| self.node.state() == State::Operational;
-        let look_at = self.look_at.filter(is_operational);
+        let due = earlier(due, self.look_at.filter(is_operational));
         #[cfg(feature = "serve")]
-        let recorded = self.recorded.as_ref().and_then(|playing| playing.due());
-        #[cfg(not(feature = "serve"))]
-        let recorded = None;
-        [self.node.poll_timeout(), look_at, recorded]
-            .into_iter()
-            .flatten()
-            .min()
+        let due = earlier(
+            due,
+            self.recorded.as_ref().and_then(|playing| playing.due()),
+        );
+        due
     }
 
     /// Returns the oldest event; the last 256 are kept.
@@ -348,6 +350,15 @@ impl VirtualDevice {
             profile,
         };
         call(&mut **node, &mut device)
+    }
+}
+
+/// The earlier of two moments, if there is one.
+#[inline]
+fn earlier(one: Option<Instant>, other: Option<Instant>) -> Option<Instant> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(one.min(other)),
+        _ => one.or(other),
     }
 }
 

@@ -38,6 +38,7 @@ pub(crate) trait Slave: Any + Send {
         bytes: &[u8],
     ) -> Result<(), AbortCode>;
     fn change_error(&mut self, device: &mut Lent<'_>, now: Instant, error: Emcy, on: bool) -> bool;
+    fn may_transmit(&self) -> bool;
     fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame>;
     fn poll_timeout(&self) -> Option<Instant>;
     fn poll_event(&mut self) -> Option<Event>;
@@ -89,6 +90,10 @@ where
             true => self.raise(device, now, error),
             false => self.clear(device, now, error),
         }
+    }
+
+    fn may_transmit(&self) -> bool {
+        self.may_transmit()
     }
 
     fn poll_transmit(&mut self, device: &mut Lent<'_>, now: Instant) -> Option<Frame> {

@@ -17,6 +17,13 @@ use crate::rooms::{Room, Rooms};
 use crate::store::Store;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, PDO, SDO, X> {
+    /// Returns whether [`poll_transmit`](Self::poll_transmit) may have a frame. If not, a host need not
+    /// put its device together for the call.
+    #[inline]
+    pub const fn may_transmit(&self) -> bool {
+        self.machines.pending != 0
+    }
+
     /// Returns the next frame to send; `None` when all are out. `now` is the moment of the
     /// input before it.
     #[inline]

@@ -14,6 +14,7 @@ fn boots_up_into_pre_operational() {
     );
     assert_eq!(bench.power_on(), ["701#00"]);
     assert_eq!(bench.node.state(), State::PreOperational);
+    assert!(!bench.node.may_transmit(), "all is out");
 }
 
 #[test]

@@ -193,10 +193,14 @@ impl<A: Application> Bench<A> {
 
     pub fn drain(&mut self) -> Vec<String> {
         let mut out = Vec::new();
-        while let Some(frame) = self.node.poll_transmit(&mut device!(self), self.now) {
+        loop {
+            let may = self.node.may_transmit();
+            let Some(frame) = self.node.poll_transmit(&mut device!(self), self.now) else {
+                return out;
+            };
+            assert!(may, "{frame} was not announced");
             out.push(frame.to_string());
         }
-        out
     }
 
     /// A frame comes in, `601#40…` or `181#R`; what goes out.
