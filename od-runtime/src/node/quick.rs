@@ -195,3 +195,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
