@@ -1,5 +1,6 @@
 //! The node from outside, one module a service. One program, since each costs a link.
 
+mod absent;
 mod bus;
 mod emcy;
 mod encoder;

@@ -141,13 +141,13 @@ impl Device for Full {
 pub type TestNode = Node<Full, 4, 512, Extra<Full, 512, 3>>;
 
 /// The node with everything that it needs.
-pub struct Bench<A = NoApplication> {
+pub struct Bench<A = NoApplication, D: Device = Full> {
     pub tables: Tables,
     pub values: Vec<u8>,
     pub application: A,
     pub storage: Memory<Vec<u8>>,
     pub profile: Profile,
-    pub node: TestNode,
+    pub node: Node<D, 4, 512, Extra<D, 512, 3>>,
     pub now: Instant,
 }
 
@@ -172,6 +172,13 @@ impl Bench {
 
 impl<A: Application> Bench<A> {
     pub fn with(rows: Vec<Row>, application: A) -> Self {
+        Self::of_device(rows, application)
+    }
+}
+
+impl<A: Application, D: Device> Bench<A, D> {
+    /// As [`with`](Bench::with), of a device that need not have every service.
+    pub fn of_device(rows: Vec<Row>, application: A) -> Self {
         let tables = tables(rows);
         Self {
             values: vec![0xAA; tables.dictionary().store_len()],

@@ -24,6 +24,9 @@ pub mod on {
     pub const STREAMS: u16 = 1 << 10;
     /// Room for 20 errors, else for 5.
     pub const ERRORS: u16 = 1 << 11;
+    pub const CHANGES: u16 = 1 << 12;
+    pub const TIME: u16 = 1 << 13;
+    pub const SYNC_PRODUCER: u16 = 1 << 14;
 }
 
 /// The values of a device.
@@ -57,6 +60,9 @@ impl<T: Table, const SERVICES: u16> Device for With<T, SERVICES> {
     const BEHAVIOUR: bool = SERVICES & on::BEHAVIOUR != 0;
     const EVENTS: bool = SERVICES & on::EVENTS != 0;
     const SERVERS: bool = SERVICES & on::SERVERS != 0;
+    const CHANGES: bool = SERVICES & on::CHANGES != 0;
+    const TIME: bool = SERVICES & on::TIME != 0;
+    const SYNC_PRODUCER: bool = SERVICES & on::SYNC_PRODUCER != 0;
     const STREAMS: bool = SERVICES & on::STREAMS != 0;
     const ERRORS: usize = if SERVICES & on::ERRORS != 0 { 20 } else { 5 };
 }
