@@ -38,6 +38,11 @@ impl<R: Rooms> Consumer<R> {
         }
     }
 
+    pub(super) fn reset(&mut self) {
+        self.watches.all_mut().fill(Watch::BLANK);
+        self.count = 0;
+    }
+
     /// Reads 1016h: bits 0–15 the time in ms, bits 16–23 the node ID. An entry that did
     /// not change goes on. Without `enabled` nobody is watched.
     pub(super) fn configure(&mut self, store: &Store<'_>, enabled: bool) {

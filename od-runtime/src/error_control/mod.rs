@@ -13,7 +13,7 @@ pub(crate) use heartbeat::Producer;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::Profile;
-use crate::rooms::{Room, Rooms};
+use crate::rooms::{Blank, Room, Rooms};
 use crate::store::Store;
 use od_wire::nmt::State;
 use od_wire::{CanId, Instant, NodeId};
@@ -59,7 +59,9 @@ impl<R: Rooms> Monitor<R> {
 
     /// Boot-up: nobody is watched yet, nothing is lost.
     pub(crate) fn reset(&mut self) {
-        *self = Self::new();
+        self.guards.all_mut().fill(Blank::BLANK);
+        self.consumer.reset();
+        self.lost = false;
     }
 
     /// Reads 100Ch, 100Dh and 1016h again.

@@ -141,6 +141,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
             }
             let bit_rate = self.take_own(objects, reset, pending);
             self.load(objects, reset);
+            objects.restart(reset);
             rate = bit_rate;
         }
         self.event(Event::Reset(reset, self.node_id));
@@ -193,11 +194,11 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         let all = reset != Reset::Communication;
         // Reset communication takes 1000h–1FFFh back, and what the device starts on the
         // bus with, or all that can be saved or written; it leaves the errors that last.
-        let lss = objects.profile().lss;
+        let lss = objects.profile().lss.as_ref();
         let scope = objects.profile().nmt.reset_communication;
         let which = |row: &Row| {
             let address = row.address();
-            let starts_with = |lss: LssProfile| address == lss.node_id || address == lss.bit_rate;
+            let starts_with = |lss: &LssProfile| address == lss.node_id || address == lss.bit_rate;
             all || match address.index {
                 0x1001 | 0x1003 => false,
                 0x1000..=0x1FFF => true,
@@ -214,7 +215,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 false => profile.reset(&mut objects.store, &which),
             }
             let loaded = match D::STORAGE {
-                true => image::load(objects.storage, &mut objects.store, profile, &which),
+                true => objects.load(&which),
                 false => Ok(Loaded::Blank),
             };
             Self::forget_dynamic(objects);
@@ -238,8 +239,6 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
                 _ => break,
             }
         }
-        objects.application(|application, context| application.reset(context, reset));
-        objects.look_for_live();
     }
 
     /// The end of initialisation: services take their configuration, the boot-up message

@@ -14,6 +14,7 @@ use crate::extras::Extras;
 use crate::objects::Objects;
 use crate::objects::outbox::Effect;
 use crate::rooms::Room;
+use crate::sdo::Held;
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// The end of a call: services read changed objects again, errors go out, and changed values
@@ -64,6 +65,33 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         }
     }
 
+    /// A request of the client of the default server. What it commands is carried out here: nothing is as
+    /// deep in the stack as a save.
+    #[inline]
+    pub(super) fn ask(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8], dlc: u8) {
+        self.handle_sdo(objects, data, dlc);
+        if let Some(done) = objects.carry_out() {
+            self.answer_late(objects, done);
+        }
+    }
+
+    #[inline(never)]
+    fn handle_sdo(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8], dlc: u8) {
+        if let Some(answer) = self.sdo.handle(objects, data, dlc) {
+            self.answer(answer);
+        }
+    }
+
+    /// The answer that waited for the end of a command. Returns the request behind it.
+    #[inline(never)]
+    fn answer_late(&mut self, objects: &mut Objects<'_, D>, done: bool) -> Option<Held> {
+        let (answer, held) = self.sdo.finish(objects, done);
+        if let Some(answer) = answer {
+            self.answer(answer);
+        }
+        held
+    }
+
     /// A save that took its time is complete: its request is answered, and the one behind it.
     #[cold]
     pub(super) fn end_save(&mut self, objects: &mut Objects<'_, D>) {
@@ -75,14 +103,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if D::SERVERS && !self.sdo.awaits_save() {
             return;
         }
-        let (answer, held) = self.sdo.finish(objects, done);
-        if let Some(answer) = answer {
-            self.answer(answer);
-        }
-        if let Some((data, dlc)) = held
-            && let Some(answer) = self.sdo.ask(objects, &data, dlc)
-        {
-            self.answer(answer);
+        if let Some((data, dlc)) = self.answer_late(objects, done) {
+            self.ask(objects, &data, dlc);
         }
     }
 

@@ -85,8 +85,8 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
             node.handle_remote(objects, frame);
         } else if id == node.node_id.plus(0x600) {
             if D::SERVERS && node.refuses(objects, frame) {
-            } else if let Some(answer) = node.sdo.ask(objects, frame.bytes(), frame.dlc()) {
-                node.answer(answer);
+            } else {
+                node.ask(objects, frame.bytes(), frame.dlc());
             }
         } else if D::SERVERS && node.handle_server(objects, frame) {
         } else if D::TIME && node.time_id() == Some(id) {

@@ -17,11 +17,15 @@ pub(super) enum Command {
     Restore(u8),
 }
 
+/// Command of the device itself: the operating records alone.
+pub(super) const KEEP: Command = Command::Save(0);
+
 /// A save, which outlasts the call if it takes its time. A node without power has none, which is all zeros.
 #[derive(Clone, Debug)]
 pub(crate) struct Saving {
     pub(super) command: Command,
-    /// Without a set it is written, and on its way to the memory that keeps it.
+    /// While a save goes on, the set that waits for its commit word; without one all is written, and on its
+    /// way to the memory that keeps it.
     pub(super) banks: Banks,
     /// Sub-index of 1010h; [`RESTORE`]: it is a restore, which was told.
     pub(super) sub: u8,

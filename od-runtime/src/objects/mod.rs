@@ -10,7 +10,7 @@ use core::marker::PhantomData;
 use od_model::Address;
 use od_model::row::Row;
 
-use crate::application::{Application, Context, Halt, Stream};
+use crate::application::{Application, Context, Halt, Reset, Stream};
 use crate::device::{Device, may_have};
 use crate::limits::{self, Outside};
 use crate::profile::Profile;
@@ -141,9 +141,11 @@ impl<'c, D: Device> Objects<'c, D> {
         self.outbox.written(address);
     }
 
-    /// Asks the application which values are live. The communication area is the services' own;
+    /// The application resets, and says which values are live. The communication area is the services' own;
     /// nothing in it is.
-    pub(crate) fn look_for_live(&mut self) {
+    #[inline(never)]
+    pub(crate) fn restart(&mut self, reset: Reset) {
+        self.application(|application, context| application.reset(context, reset));
         let rows = self.store.dictionary().rows().iter();
         let own = rows.filter(|row| row.index() >= 0x2000);
         let live = own.filter(|row| self.application.is_live(row.address()));

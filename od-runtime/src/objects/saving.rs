@@ -6,18 +6,30 @@ use od_model::row::Row;
 use od_wire::AbortCode;
 
 use super::Objects;
-use super::command::{Command, RESTORE};
+use super::command::{Command, KEEP, RESTORE};
 use super::outbox::Effect;
 use crate::application::Reset;
 use crate::deadline::Deadline;
 use crate::device::Device;
 use crate::profile::{Restore, SaveAnswer};
-use crate::storage::image::{self, Banks, Plan};
+use crate::storage::StorageError;
+use crate::storage::image::{self, Banks, Loaded, Plan};
 
 /// Time until a memory that is still writing is asked again, in microseconds.
 const ASK_AGAIN_US: u32 = 2_000;
 
 impl<D: Device> Objects<'_, D> {
+    /// Puts saved values over those of the store, for the entries that `which` names; no save goes on.
+    pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Result<Loaded, StorageError> {
+        let profile = &self.profile().store;
+        let Some(saving) = &mut self.saving else {
+            return Ok(Loaded::Blank);
+        };
+        let (storage, banks) = (&mut *self.storage, &mut saving.banks);
+        image::survey(storage, &self.store, banks)?;
+        image::take_over(storage, &mut self.store, profile, which, banks)
+    }
+
     /// 1010h and 1011h: the signature is the value, and nothing is kept of it.
     pub(super) fn command(
         &mut self,
@@ -50,16 +62,78 @@ impl<D: Device> Objects<'_, D> {
         let saving = self.saving.as_mut().filter(|_| D::STORAGE)?;
         match core::mem::take(&mut saving.command) {
             Command::None => None,
-            Command::Save(sub) => self.save(sub),
-            Command::Restore(sub) => self.restore(sub),
+            command => self.execute(command),
         }
     }
 
-    /// 1011h.
+    /// Saves the operating records, unless a save goes on, which has them. Returns whether that failed.
+    pub(crate) fn keep(&mut self) -> bool {
+        !self.is_saving() && self.execute(KEEP) == Some(false)
+    }
+
+    /// A command: the banks are surveyed, then written, each of which takes much of a small stack.
     #[inline(never)]
-    fn restore(&mut self, sub: u8) -> Option<bool> {
-        self.complete_save();
-        if !(self.begin(Plan::Restore(sub)) && self.commit()) {
+    fn execute(&mut self, command: Command) -> Option<bool> {
+        let plan = match command {
+            Command::Save(sub) => Plan::Save(sub),
+            Command::Restore(sub) => Plan::Restore(sub),
+            Command::None => return None,
+        };
+        if command != KEEP {
+            // What a save writes in the background is there before anything follows.
+            self.complete_save();
+        }
+        if let Command::Save(_) = command {
+            self.prepare(command);
+        }
+        let profile = &self.profile().store;
+        let saving = self.saving.as_mut()?;
+        let (storage, banks) = (&mut *self.storage, &mut saving.banks);
+        let mut begun = image::survey(storage, &self.store, banks);
+        if begun.is_ok() {
+            begun = image::begin(storage, &self.store, profile, &plan, banks);
+        }
+        if begun.is_err() {
+            *banks = Banks::NONE;
+        }
+        let begun = begun.is_ok();
+        match command {
+            KEEP => Some(begun && self.commit()),
+            Command::Save(sub) => self.saved(sub, begun),
+            Command::Restore(sub) => self.restored(sub, begun),
+            Command::None => None,
+        }
+    }
+
+    /// The values of this moment are to be saved.
+    #[inline(never)]
+    fn prepare(&mut self, command: Command) {
+        self.refresh_life_record();
+        if command != KEEP {
+            self.application(|application, context| application.saving(context, true));
+        }
+    }
+    /// 1010h: complete at once or in a while.
+    #[inline(never)]
+    fn saved(&mut self, sub: u8, begun: bool) -> Option<bool> {
+        self.application(|application, context| application.saving(context, false));
+        if !begun {
+            self.outbox.effect(Effect::NotSaved);
+            return Some(false);
+        }
+        self.saving.as_mut()?.sub = sub;
+        let profile = &self.profile().store;
+        if profile.duration_us > 0 {
+            self.await_end(profile.duration_us);
+            return (profile.answer == SaveAnswer::AtOnce).then_some(true);
+        }
+        self.end_save()
+    }
+
+    /// 1011h: at once, or at the next reset.
+    #[inline(never)]
+    fn restored(&mut self, sub: u8, begun: bool) -> Option<bool> {
+        if !(begun && self.commit()) {
             return Some(false);
         }
         self.storage_is_sound();
@@ -75,52 +149,6 @@ impl<D: Device> Objects<'_, D> {
             return None;
         }
         Some(true)
-    }
-
-    /// 1010h: the values of this moment, complete at once or in a while.
-    #[inline(never)]
-    fn save(&mut self, sub: u8) -> Option<bool> {
-        // What a save writes in the background is there before anything follows.
-        self.complete_save();
-        self.refresh_life_record();
-        self.application(|application, context| application.saving(context, true));
-        let begun = self.begin(Plan::Save(sub));
-        self.application(|application, context| application.saving(context, false));
-        if !begun {
-            self.outbox.effect(Effect::NotSaved);
-            return Some(false);
-        }
-        self.saving.as_mut()?.sub = sub;
-        let profile = &self.profile().store;
-        if profile.duration_us > 0 {
-            self.await_end(profile.duration_us);
-            return (profile.answer == SaveAnswer::AtOnce).then_some(true);
-        }
-        self.end_save()
-    }
-
-    /// Saves the operating records, unless a save goes on, which has them. Returns whether that failed.
-    #[inline(never)]
-    pub(crate) fn keep(&mut self) -> bool {
-        if self.is_saving() {
-            return false;
-        }
-        self.refresh_life_record();
-        !(self.begin(Plan::Save(0)) && self.commit())
-    }
-
-    /// Writes the next set, but for the commit word. Returns whether that is done.
-    fn begin(&mut self, plan: Plan<'_>) -> bool {
-        let profile = &self.profile().store;
-        let Some(saving) = &mut self.saving else {
-            return false;
-        };
-        let banks = &mut saving.banks;
-        let begun = image::begin(self.storage, &self.store, profile, plan, banks);
-        if begun.is_err() {
-            *banks = Banks::NONE;
-        }
-        begun.is_ok()
     }
 
     /// Writes the commit word, if a set waits for it. Returns whether that is done.

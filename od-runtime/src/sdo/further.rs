@@ -73,6 +73,20 @@ impl<D, const N: usize, R: Rooms> Default for SdoServer<D, N, R> {
 
 /// What one of several servers tells the others.
 impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
+    /// As [`handle`](Self::handle), and what the frame commands is carried out.
+    pub(crate) fn ask(
+        &mut self,
+        objects: &mut Objects<'_, D>,
+        data: &[u8; 8],
+        dlc: u8,
+    ) -> Option<[u8; 8]> {
+        let answer = self.handle(objects, data, dlc);
+        match objects.carry_out() {
+            Some(done) => self.finish(objects, done).0,
+            None => answer,
+        }
+    }
+
     /// Refuses a request that begins a transfer.
     #[cold]
     pub(crate) fn refuse(

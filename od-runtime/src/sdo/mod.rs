@@ -29,11 +29,12 @@ use od_wire::{AbortCode, Frame, Instant};
 
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
-use late::{Held, Late};
+use late::Late;
 use segmented::{Download, Upload};
 use window::Window;
 
 pub use further::SdoServer;
+pub(crate) use late::Held;
 
 /// Longest time that a block transfer waits for the client, in microseconds: its segments look
 /// like requests, so a client that died would block the next one.
@@ -118,23 +119,13 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         }
     }
 
-    /// A client's frame; `data` beyond `dlc` is 0. What it commands is carried out.
-    #[inline(never)]
-    pub(crate) fn ask(
+    /// A client's frame; `data` beyond `dlc` is 0. The response to a [command](Objects::carry_out) waits.
+    pub(crate) fn handle(
         &mut self,
         objects: &mut Objects<'_, D>,
         data: &[u8; 8],
         dlc: u8,
     ) -> Option<[u8; 8]> {
-        let answer = self.handle(objects, data, dlc);
-        match objects.carry_out() {
-            Some(done) => self.finish(objects, done).0,
-            None => answer,
-        }
-    }
-
-    /// As [`ask`](Self::ask), and a response to a command waits.
-    fn handle(&mut self, objects: &mut Objects<'_, D>, data: &[u8; 8], dlc: u8) -> Option<[u8; 8]> {
         match self.is_quick(data) {
             true => self.handle_upload(objects, data, dlc),
             false => self.handle_other(objects, data, dlc),

@@ -115,6 +115,15 @@ pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, Storage
 /// bit rate, and it has no objects for them.
 pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 
+/// Reads both banks to their end.
+pub(crate) fn survey(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    banks: &mut Banks,
+) -> Result<(), StorageError> {
+    banks.survey(storage, device(store.dictionary()))
+}
+
 /// Puts saved values over those in the store, for the entries that `which` names.
 ///
 /// The store holds the defaults before. A value that the object could not have by now
@@ -122,7 +131,6 @@ pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 ///
 /// # Errors
 /// [`StorageError`] where the storage cannot be read; some values may be loaded then.
-#[inline(never)]
 pub fn load(
     storage: &mut dyn Storage,
     store: &mut Store<'_>,
@@ -130,7 +138,19 @@ pub fn load(
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device(store.dictionary()))?;
+    survey(storage, store, &mut banks)?;
+    take_over(storage, store, profile, which, &banks)
+}
+
+/// The second part of [`load`], of surveyed banks.
+#[inline(never)]
+pub(crate) fn take_over(
+    storage: &mut dyn Storage,
+    store: &mut Store<'_>,
+    profile: &StoreProfile,
+    which: &dyn Fn(&Row) -> bool,
+    banks: &Banks,
+) -> Result<Loaded, StorageError> {
     let mut skipped = 0u16;
     let mut records = banks.records();
     while records.next(storage)? {
@@ -239,7 +259,7 @@ pub(crate) fn own(
     store: &Store<'_>,
 ) -> Result<[Option<u8>; 2], StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device(store.dictionary()))?;
+    survey(storage, store, &mut banks)?;
     let mut own = [None; 2];
     let mut records = banks.records();
     while records.next(storage)? {

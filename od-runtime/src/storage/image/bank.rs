@@ -2,9 +2,7 @@
 
 use od_model::{Address, Dictionary};
 
-use super::layout::{
-    Code, ERASED, FIELDS, Layout, MAGIC_1, MAX_WORD, RECORD, VERSION, decode, in_chunks, is_blank,
-};
+use super::layout::{Code, ERASED, FIELDS, Layout, MAGIC_1, MAX_WORD, RECORD, VERSION, is_blank};
 use super::loaded::Loaded;
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -200,12 +198,13 @@ impl Bank {
     /// Reads commit word and mark.
     #[inline(never)]
     fn decode(&mut self, storage: &mut dyn Storage, layout: &Layout) -> Result<(), StorageError> {
-        let mut words = [0; 2 * MAX_WORD];
-        let len = layout.header().min(words.len());
-        let words = words.get_mut(..len).unwrap_or_default();
-        storage.read(self.start, words)?;
-        self.is_old = words.starts_with(MAGIC_1);
-        (self.code, self.mark, self.is_clean) = decode(words, layout.word);
+        let (is_exact, is_right);
+        (self.code, is_exact) = layout.code(storage, self.start)?;
+        (self.mark, is_right) = layout.code(storage, self.start + layout.word)?;
+        self.is_clean = is_exact && is_right;
+        let mut magic = [0; MAGIC_1.len()];
+        storage.read(self.start, &mut magic)?;
+        self.is_old = magic == MAGIC_1;
         Ok(())
     }
 }
@@ -224,18 +223,21 @@ pub(super) fn content(
     let number = |at: usize| {
         u32::from_le_bytes([fields[at], fields[at + 1], fields[at + 2], fields[at + 3]])
     };
-    let start = bank + layout.header();
+    let (device, size, sum) = (number(0), number(4), number(8));
     let mut rest = fields.iter().take(len).skip(FIELDS);
-    let (device, len, sum) = (number(0), number(4) as usize, number(8));
-    if len > layout.size - layout.header() || rest.any(|byte| *byte != ERASED) {
+    if size as usize > layout.size - layout.header() || rest.any(|byte| *byte != ERASED) {
         return Ok(None);
     }
-    let mut crc = Crc32::new();
+    let (mut crc, mut at, len) = (Crc32::new(), bank + layout.header(), size as usize);
     crc.update(&fields[..8]);
-    in_chunks(storage, start, len, |_, chunk| {
-        crc.update(chunk);
-        Ok(())
-    })?;
+    let end = at + len;
+    while at < end {
+        let part = (end - at).min(fields.len());
+        let part = fields.get_mut(..part).unwrap_or_default();
+        storage.read(at, part)?;
+        crc.update(part);
+        at += part.len();
+    }
     Ok((crc.finish() == sum).then_some(Set { device, len }))
 }
 

@@ -7,16 +7,9 @@ use crate::profile::SavedCobIds;
 use crate::store::Store;
 use od_wire::CobId;
 
-/// The number that is saved instead of the value, if there is one.
-#[inline(never)]
-pub(super) fn difference(
-    store: &Store<'_>,
-    row: &Row,
-    rule: SavedCobIds,
-    value: &[u8],
-) -> Option<u64> {
-    let default = default(store, row, rule)?;
-    Some(number_in(value).wrapping_sub(default))
+/// What a saved value is less; 0: it is saved as it is.
+pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
+    default(store, row, rule).unwrap_or(0)
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID

@@ -83,21 +83,6 @@ impl Code {
     }
 }
 
-/// Returns commit word and mark at the start of a header, and whether all their bits are right.
-pub(super) fn decode(header: &[u8], word: usize) -> (Code, Code, bool) {
-    let read = |at: usize| Code::read(header.get(at..at + word).unwrap_or_default());
-    let ((code, is_exact), (mark, is_right)) = (read(0), read(word));
-    // An EEPROM that is all 0 is as good as an erased one.
-    let plain = |code| {
-        if code == Code::ZERO {
-            Code::ERASED
-        } else {
-            code
-        }
-    };
-    (plain(code), plain(mark), is_exact && is_right)
-}
-
 /// Sizes of the banks of a storage.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Layout {
@@ -160,6 +145,23 @@ impl Layout {
         storage.flush()
     }
 
+    /// Reads the code in the word at `at`; `false` if a bit is wrong.
+    #[inline(never)]
+    pub(super) fn code(
+        &self,
+        storage: &mut dyn Storage,
+        at: usize,
+    ) -> Result<(Code, bool), StorageError> {
+        let mut word = [0; MAX_WORD];
+        let word = word.get_mut(..self.word).unwrap_or_default();
+        storage.read(at, word)?;
+        Ok(match Code::read(word) {
+            // An EEPROM that is all 0 is as good as an erased one.
+            (Code::ZERO, is_exact) => (Code::ERASED, is_exact),
+            code => code,
+        })
+    }
+
     /// Writes a code into the word at `at`, and reads it back.
     pub(super) fn stamp(
         &self,
@@ -203,9 +205,9 @@ pub(super) fn is_blank(
     len: usize,
 ) -> Result<bool, StorageError> {
     let (mut all, mut any) = (u64::MAX, 0);
-    let mut chunk = [0; 64];
-    for at in (0..len).step_by(64) {
-        let size = (len - at).min(64);
+    let mut chunk = [0; 32];
+    for at in (0..len).step_by(32) {
+        let size = (len - at).min(32);
         let (part, rest) = chunk.split_at_mut(size);
         storage.read(start + at, part)?;
         let first = part.first().copied().unwrap_or_default();
@@ -217,20 +219,4 @@ pub(super) fn is_blank(
         }
     }
     Ok(all == u64::MAX || any == 0)
-}
-
-/// Reads `len` bytes from `start` on, a piece at a time.
-pub(super) fn in_chunks(
-    storage: &mut dyn Storage,
-    start: usize,
-    len: usize,
-    mut each: impl FnMut(&mut dyn Storage, &[u8]) -> Result<(), StorageError>,
-) -> Result<(), StorageError> {
-    let mut chunk = [0; 32];
-    for at in (0..len).step_by(chunk.len()) {
-        let part = chunk.get_mut(..(len - at).min(32)).unwrap_or_default();
-        storage.read(start + at, part)?;
-        each(storage, part)?;
-    }
-    Ok(())
 }

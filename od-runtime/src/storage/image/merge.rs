@@ -8,7 +8,7 @@ use super::cob_id;
 use super::covered::{is_covered, is_life_record, is_saved, restores};
 use super::layout::{Code, ERASED, Layout, MAX_VALUE, OWN, RECORD, is_blank, whole_words};
 use super::loaded::Loaded;
-use crate::number::copy;
+use crate::number::{copy, number_in};
 use crate::profile::{CutSave, StoreProfile};
 use crate::storage::crc::Crc32;
 use crate::storage::{Storage, StorageError};
@@ -46,21 +46,21 @@ pub(super) fn save(
     plan: Plan<'_>,
 ) -> Result<(), StorageError> {
     let mut banks = Banks::NONE;
-    begin(storage, store, profile, plan, &mut banks)?;
+    banks.survey(storage, device(store.dictionary()))?;
+    begin(storage, store, profile, &plan, &mut banks)?;
     commit(storage, &mut banks)
 }
 
-/// Writes the next set into the older bank, all but the commit word. Without a next set `banks` are
-/// [none](Banks::is_some).
+/// Writes the next set into the older one of two [surveyed](Banks::survey) banks, all but the commit word.
+/// Without a next set they are [none](Banks::is_some).
 #[inline(never)]
 pub(crate) fn begin(
     storage: &mut dyn Storage,
     store: &Store<'_>,
     profile: &StoreProfile,
-    plan: Plan<'_>,
+    plan: &Plan<'_>,
     banks: &mut Banks,
 ) -> Result<(), StorageError> {
-    banks.survey(storage, device(store.dictionary()))?;
     match (plan, banks.state) {
         // The device itself writes nothing over the set of another one.
         (Plan::Save(0), Loaded::Foreign) => return Err(StorageError::Foreign),
@@ -81,12 +81,12 @@ pub(crate) fn begin(
         banks,
         has_orphans: true,
     };
-    let mut writer = Writer::NEW;
-    set.records(storage, &mut writer)?;
+    let mut writer = Writer::new(storage);
+    set.records(&mut writer)?;
     if writer.at > room {
         set.has_orphans = false;
         writer.at = 0;
-        set.records(storage, &mut writer)?;
+        set.records(&mut writer)?;
     }
     if writer.at > room {
         return Err(StorageError::Full);
@@ -101,13 +101,13 @@ pub(crate) fn begin(
         CutSave::LastSet if !banks.is_withdrawn => Code::REPLACED,
         _ => Code::WITHDRAWN,
     };
-    match layout.stamp(storage, banks.stays + layout.word, mark) {
+    match layout.stamp(writer.storage, banks.stays + layout.word, mark) {
         // A mark that power or a save before this one left in flash stays as it is.
         Err(StorageError::NotWritten) if layout.page > 0 => {}
         result => result?,
     }
-    let written = set.write(storage, &mut writer);
-    written.map_err(|error| give_up(storage, layout, banks.target, error))
+    let written = set.write(&mut writer);
+    written.map_err(|error| give_up(writer.storage, layout, banks.target, error))
 }
 
 /// The commit word, if there is a next set: from now on it is the newest.
@@ -139,7 +139,7 @@ fn give_up(
 struct Set<'s> {
     store: &'s Store<'s>,
     profile: &'s StoreProfile,
-    plan: Plan<'s>,
+    plan: &'s Plan<'s>,
     banks: &'s Banks,
     /// With the records whose objects the dictionary does not have.
     has_orphans: bool,
@@ -147,34 +147,34 @@ struct Set<'s> {
 
 impl Set<'_> {
     /// Writes records and fields, and reads them back. The writer has counted the bytes of the records.
-    fn write(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
+    fn write(&self, writer: &mut Writer<'_>) -> Result<(), StorageError> {
         let (layout, target) = (&self.banks.layout, self.banks.target);
         let len = writer.at;
-        layout.clear(storage, target, layout.header() + len)?;
+        layout.clear(writer.storage, target, layout.header() + len)?;
         // The length is less than a bank, which a header can describe.
-        let known = [self.banks.device, len as u32].map(u32::to_le_bytes);
+        let mut fields = [self.banks.device, len as u32, 0].map(u32::to_le_bytes);
         writer.begin(target + layout.header());
-        writer.crc.update(known.as_flattened());
-        self.records(storage, writer)?;
-        writer.write_out(storage, layout.word)?;
+        writer.crc.update(fields[..2].as_flattened());
+        self.records(writer)?;
+        writer.write_out(layout.word)?;
         // Behind the records nothing stays of older sets; flash is erased there.
         let end = target + layout.size;
         writer.buffer = [ERASED; BUFFER];
         while layout.page == 0 && writer.at < end {
             let part = (end - writer.at).min(writer.buffer.len());
-            if !is_blank(storage, writer.at, part)? {
-                storage.write(writer.at, writer.buffer.get(..part).unwrap_or_default())?;
+            if !is_blank(writer.storage, writer.at, part)? {
+                let blank = writer.buffer.get(..part).unwrap_or_default();
+                writer.storage.write(writer.at, blank)?;
             }
             writer.at += part;
         }
-        let [device, len_bytes] = known;
-        let fields = [device, len_bytes, writer.crc.finish().to_le_bytes()];
+        fields[2] = writer.crc.finish().to_le_bytes();
         copy(&mut writer.buffer, fields.as_flattened());
         let fields = layout.header() - 2 * layout.word;
         let fields = writer.buffer.get(..fields).unwrap_or_default();
-        storage.write(target + 2 * layout.word, fields)?;
-        storage.flush()?;
-        let whole = content(storage, layout, target)?;
+        writer.storage.write(target + 2 * layout.word, fields)?;
+        writer.storage.flush()?;
+        let whole = content(writer.storage, layout, target)?;
         match whole.is_some_and(|set| set.len == len) {
             true => Ok(()),
             false => Err(StorageError::NotWritten),
@@ -183,19 +183,14 @@ impl Set<'_> {
 
     /// Goes through the newest set and the dictionary side by side, both by address.
     #[inline(never)]
-    fn records(&self, storage: &mut dyn Storage, writer: &mut Writer) -> Result<(), StorageError> {
+    fn records(&self, writer: &mut Writer<'_>) -> Result<(), StorageError> {
         if let Plan::Own(own) = self.plan {
-            for (sub, value) in (1..).zip(own) {
-                if let Some(value) = value {
-                    writer.head(storage, Address::new(OWN, sub), 1)?;
-                    writer.put(storage, &[value])?;
-                }
-            }
+            writer.own(own)?;
         }
         let mut old = self.banks.records();
         let rows = self.store.dictionary().rows().iter();
         let mut rows = rows.filter(|row| is_saved(row));
-        let (mut has_old, mut next) = (old.next(storage)?, rows.next());
+        let (mut has_old, mut next) = (old.next(writer.storage)?, rows.next());
         loop {
             let old_key = match has_old {
                 true => old.record.address.key(),
@@ -209,12 +204,12 @@ impl Set<'_> {
             let new = next.filter(|_| is_new);
             let address = new.map_or(old.record.address, |row| row.address());
             match (self.fate(address, new), new) {
-                (Fate::Store, Some(row)) => self.value(storage, writer, row)?,
-                (Fate::Keep, _) if is_old => writer.copy(storage, &old.record)?,
+                (Fate::Store, Some(row)) => self.value(writer, row)?,
+                (Fate::Keep, _) if is_old => writer.copy(&old.record)?,
                 _ => {}
             }
             if is_old {
-                has_old = old.next(storage)?;
+                has_old = old.next(writer.storage)?;
             }
             if is_new {
                 next = rows.next();
@@ -226,7 +221,7 @@ impl Set<'_> {
     #[inline(never)]
     fn fate(&self, address: Address, new: Option<&Row>) -> Fate {
         let (profile, is_own) = (self.profile, address.index == OWN);
-        let fate = match (self.plan, new) {
+        let fate = match (*self.plan, new) {
             (Plan::Save(sub), Some(row))
                 if is_covered(profile, row, sub) || is_life_record(row) =>
             {
@@ -252,24 +247,20 @@ impl Set<'_> {
 
     /// The record of a value of the store.
     #[inline(never)]
-    fn value(
-        &self,
-        storage: &mut dyn Storage,
-        writer: &mut Writer,
-        row: &Row,
-    ) -> Result<(), StorageError> {
+    fn value(&self, writer: &mut Writer<'_>, row: &Row) -> Result<(), StorageError> {
         let mut number = [0; 8];
         let mut bytes = self.store.value(row, &mut number);
         let len = bytes.len();
         if len > MAX_VALUE {
             return Err(StorageError::Full);
         }
-        writer.head(storage, row.address(), len)?;
-        if let Some(difference) = cob_id::difference(self.store, row, self.profile.cob_ids, bytes) {
-            number = difference.to_le_bytes();
+        writer.head(row.address(), len)?;
+        let base = cob_id::base(self.store, row, self.profile.cob_ids);
+        if base != 0 {
+            number = number_in(bytes).wrapping_sub(base).to_le_bytes();
             bytes = number.get(..len).unwrap_or_default();
         }
-        writer.put(storage, bytes)
+        writer.put(bytes)
     }
 }
 
@@ -280,7 +271,8 @@ const END: u32 = u32::MAX;
 const BUFFER: usize = 32;
 
 /// Gathers small writes and sums them up.
-struct Writer {
+struct Writer<'w> {
+    storage: &'w mut dyn Storage,
     /// Place of the next byte that is written.
     at: usize,
     /// Nothing is written.
@@ -290,15 +282,18 @@ struct Writer {
     crc: Crc32,
 }
 
-impl Writer {
+impl<'w> Writer<'w> {
     /// One that only counts.
-    const NEW: Self = Self {
-        at: 0,
-        only_counts: true,
-        buffer: [0; BUFFER],
-        filled: 0,
-        crc: Crc32::new(),
-    };
+    fn new(storage: &'w mut dyn Storage) -> Self {
+        Self {
+            storage,
+            at: 0,
+            only_counts: true,
+            buffer: [0; BUFFER],
+            filled: 0,
+            crc: Crc32::new(),
+        }
+    }
 
     /// Writes from here on.
     fn begin(&mut self, at: usize) {
@@ -306,21 +301,16 @@ impl Writer {
     }
 
     /// Begins a record.
-    fn head(
-        &mut self,
-        storage: &mut dyn Storage,
-        address: Address,
-        len: usize,
-    ) -> Result<(), StorageError> {
+    fn head(&mut self, address: Address, len: usize) -> Result<(), StorageError> {
         let [index_low, index_high] = address.index.to_le_bytes();
         // MAX_VALUE and the records' own length field keep it below 64 KiB.
         let [len_low, len_high] = (len as u16).to_le_bytes();
         let head: [u8; RECORD] = [index_low, index_high, address.sub, len_low, len_high];
-        self.put(storage, &head)
+        self.put(&head)
     }
 
     #[inline(never)]
-    fn put(&mut self, storage: &mut dyn Storage, mut bytes: &[u8]) -> Result<(), StorageError> {
+    fn put(&mut self, mut bytes: &[u8]) -> Result<(), StorageError> {
         if self.only_counts {
             self.at += bytes.len();
             return Ok(());
@@ -333,7 +323,19 @@ impl Writer {
             self.filled += part;
             bytes = bytes.get(part..).unwrap_or_default();
             if self.filled == self.buffer.len() {
-                self.write_out(storage, 1)?;
+                self.write_out(1)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Records of node ID and bit rate.
+    #[inline(never)]
+    fn own(&mut self, own: &[Option<u8>; 2]) -> Result<(), StorageError> {
+        for (sub, value) in (1..).zip(own) {
+            if let Some(value) = value {
+                self.head(Address::new(OWN, sub), 1)?;
+                self.put(&[*value])?;
             }
         }
         Ok(())
@@ -341,9 +343,9 @@ impl Writer {
 
     /// Puts a record that the storage has.
     #[inline(never)]
-    fn copy(&mut self, storage: &mut dyn Storage, old: &Record) -> Result<(), StorageError> {
+    fn copy(&mut self, old: &Record) -> Result<(), StorageError> {
         let (mut from, mut len) = (old.at, old.len);
-        self.head(storage, old.address, len)?;
+        self.head(old.address, len)?;
         if self.only_counts {
             self.at += len;
             return Ok(());
@@ -352,23 +354,24 @@ impl Writer {
             let room = self.buffer.get_mut(self.filled..).unwrap_or_default();
             let part = len.min(room.len());
             let room = room.get_mut(..part).unwrap_or_default();
-            storage.read(from, room)?;
+            self.storage.read(from, room)?;
             self.crc.update(room);
             self.filled += part;
             (from, len) = (from + part, len - part);
             if self.filled == self.buffer.len() {
-                self.write_out(storage, 1)?;
+                self.write_out(1)?;
             }
         }
         Ok(())
     }
 
     /// Writes the buffer, with the rest of its last word.
-    fn write_out(&mut self, storage: &mut dyn Storage, word: usize) -> Result<(), StorageError> {
+    fn write_out(&mut self, word: usize) -> Result<(), StorageError> {
         let end = whole_words(self.filled, word);
         let rest = self.buffer.get_mut(self.filled..end).unwrap_or_default();
         rest.iter_mut().for_each(|byte| *byte = ERASED);
-        storage.write(self.at, self.buffer.get(..end).unwrap_or_default())?;
+        self.storage
+            .write(self.at, self.buffer.get(..end).unwrap_or_default())?;
         self.at += end;
         self.filled = 0;
         Ok(())

@@ -23,6 +23,16 @@ fn factory(bench: &mut Bench, record: u64) -> Vec<String> {
     bench.values()
 }
 
+/// The first part of a save.
+fn begin_save(
+    storage: &mut dyn Storage,
+    store: &Store<'_>,
+    banks: &mut Banks,
+) -> Result<(), StorageError> {
+    survey(storage, store, banks)?;
+    begin(storage, store, FACTORY, &Plan::Save(1), banks)
+}
+
 #[test]
 fn power_can_go_at_any_byte_and_leaves_the_factory_values() {
     for (saves, sub) in [(0u8, 1), (1, 1), (2, 1), (3, 1), (3, 3)] {
@@ -103,14 +113,7 @@ fn what_a_cut_save_took_away_does_not_come_back_behind_a_damaged_set() {
     bench.fill(5);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
     let mut banks = Banks::NONE;
-    begin(
-        &mut memory,
-        &bench.store(),
-        FACTORY,
-        Plan::Save(1),
-        &mut banks,
-    )
-    .unwrap();
+    begin_save(&mut memory, &bench.store(), &mut banks).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     bench.fill(6);
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
@@ -128,14 +131,7 @@ fn a_save_counts_after_its_end_alone() {
     save(&mut memory, &bench.store(), FACTORY, 1).unwrap();
     bench.fill(6);
     let mut banks = Banks::NONE;
-    begin(
-        &mut memory,
-        &bench.store(),
-        FACTORY,
-        Plan::Save(1),
-        &mut banks,
-    )
-    .unwrap();
+    begin_save(&mut memory, &bench.store(), &mut banks).unwrap();
     assert_eq!(bench.start(&mut memory), Loaded::Cut { factory: true });
     assert_eq!(bench.store().unsigned(0x6003, 0), 0);
     commit(&mut memory, &mut banks).unwrap();
@@ -195,13 +191,7 @@ fn a_save_that_fails_with_power_on_leaves_the_set_before_it() {
         bench.fill(200);
         let mut flaky = Flaky { memory, fails };
         let mut banks = Banks::NONE;
-        let result = begin(
-            &mut flaky,
-            &bench.store(),
-            FACTORY,
-            Plan::Save(1),
-            &mut banks,
-        );
+        let result = begin_save(&mut flaky, &bench.store(), &mut banks);
         if result.is_ok() {
             assert!(fails > 3, "mark, magic, records and header were written");
             break;
