@@ -1,5 +1,7 @@
 //! The encoder behind a dictionary, without a node.
 
+mod family;
+mod faults;
 mod objects;
 mod world;
 
