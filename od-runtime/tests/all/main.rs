@@ -27,3 +27,4 @@ mod support;
 mod sync_producer;
 mod table;
 mod time;
+mod values;

@@ -14,6 +14,8 @@ struct Chip {
     pages: Vec<(u32, Vec<u8>)>,
     /// Commands that succeed before one fails.
     works: Option<usize>,
+    /// It erases or writes until then.
+    busy_until: Option<Instant>,
 }
 
 impl Chip {
@@ -32,6 +34,13 @@ impl Chip {
 impl ProgramMemory for Chip {
     fn size(&self) -> u32 {
         16
+    }
+
+    fn ready(&mut self, now: Instant) -> Result<(), Instant> {
+        match self.busy_until.filter(|until| *until > now) {
+            Some(until) => Err(until),
+            None => Ok(()),
+        }
     }
 
     fn erase(&mut self, _: Instant) -> Result<(), MemoryFailed> {
@@ -63,10 +72,10 @@ impl ProgramMemory for Chip {
 }
 
 fn bench(chip: Chip) -> Bench<Loader<Chip, 4>> {
-    use Access::{Ro, Rw, Wo};
+    use Access::{Ro, Rw};
     let mut rows = rows();
     rows.extend([
-        (0x1F50, 2, DataType::Domain, Wo, false, None),
+        (0x1F50, 2, DataType::Domain, Rw, false, None),
         (0x1F51, 2, DataType::Unsigned8, Rw, false, unsigned(0)),
         (0x1F56, 2, DataType::Unsigned32, Ro, false, unsigned(0)),
         (0x1F57, 2, DataType::Unsigned32, Ro, false, unsigned(0)),
@@ -157,4 +166,63 @@ fn other_programs_are_not_this_one() {
     assert_eq!(bench.ask("601#2F511F0101000000"), "581#80511F0111000906");
     assert_eq!(bench.ask("601#21501F0111000000"), "581#80501F0111000906");
     assert_eq!(bench.ask("601#21501F0211000000"), "581#80501F0212000706");
+}
+
+#[test]
+fn a_program_fills_the_memory_and_no_more() {
+    let mut bench = bench(Chip::default());
+    assert_eq!(bench.ask("601#21501F0210000000"), "581#60501F0200000000");
+    assert_eq!(bench.ask("601#0031323334353637"), "581#2000000000000000");
+    assert_eq!(bench.ask("601#1038393A3B3C3D3E"), "581#3000000000000000");
+    assert_eq!(bench.ask("601#0B3F400000000000"), "581#2000000000000000");
+    assert_eq!(bench.application.program().map(|it| it.len), Some(16));
+    // And back again.
+    assert_eq!(bench.ask("601#40501F0200000000"), "581#41501F0210000000");
+    assert_eq!(bench.ask("601#6000000000000000"), "581#0031323334353637");
+    assert_eq!(bench.ask("601#7000000000000000"), "581#1038393A3B3C3D3E");
+    assert_eq!(bench.ask("601#6000000000000000"), "581#0B3F400000000000");
+    assert_eq!(bench.ask("601#21501F0211000000"), "581#80501F0212000706");
+    assert_eq!(bench.application.program().map(|it| it.len), Some(16));
+    // One that does not say how long it is.
+    assert_eq!(bench.ask("601#20501F0200000000"), "581#60501F0200000000");
+    let mut answer = String::new();
+    for at in 0..100 {
+        let toggle = 0x10 * (at % 2);
+        answer = bench.ask(&format!("601#{toggle:02X}01020304050607"));
+        if answer.starts_with("581#80") {
+            break;
+        }
+    }
+    assert_eq!(answer, "581#80501F0212000706");
+    assert_eq!(bench.application.program(), None);
+}
+
+#[test]
+fn a_busy_memory_says_so_until_it_is_ready() {
+    let mut bench = bench(Chip::default());
+    load(&mut bench);
+    assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
+    bench.application.memory.busy_until = Some(Instant::from_millis(30));
+    bench.change();
+    assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0201000000");
+    for command in ["01", "02", "03"] {
+        let answer = bench.ask(&format!("601#2F511F02{command}000000"));
+        assert_eq!(answer, "581#80511F0222000008");
+    }
+    assert_eq!(bench.ask("601#2F511F0200000000"), "581#60511F0200000000");
+    assert_eq!(bench.node.poll_timeout(), Some(Instant::from_millis(30)));
+    bench.wait(30);
+    assert_eq!(bench.ask("601#40571F0200000000"), "581#43571F0200000000");
+    assert_eq!(bench.ask("601#2F511F0201000000"), "581#60511F0200000000");
+    assert_eq!(bench.ask("601#2F511F0203000000"), "581#80511F0222000008");
+    assert_eq!(bench.ask("601#2F511F0204000000"), "581#80511F0230000906");
+    assert_eq!(bench.ask("601#21501F0209000000"), "581#80501F0222000008");
+    assert_eq!(bench.ask("601#2F511F0200000000"), "581#60511F0200000000");
+    // A download under way is busy, too.
+    assert_eq!(bench.ask("601#21501F0209000000"), "581#60501F0200000000");
+    assert_eq!(bench.node.poll_timeout(), None);
+    assert_eq!(bench.application.program(), None);
+    assert_eq!(bench.value(0x1F57, 2) & 1, 1);
+    bench.send("601#80501F0200000008");
+    assert_eq!(bench.value(0x1F57, 2) & 1, 0);
 }
