@@ -91,8 +91,8 @@ fn faults_are_seen_when_a_family_looks_for_them() {
 fn a_battery_is_tested_where_power_was_off_long_enough() {
     let mut bench = bench(&TIMES);
     bench.encoder.set_fault(Fault::BatteryEmpty, true);
-    assert_eq!(news(&mut bench), [], "nobody looks");
-    assert_eq!(restart(&mut bench, Reset::Node), [], "power was there");
+    assert_eq!(news(&mut bench), [0; 0], "nobody looks");
+    assert_eq!(restart(&mut bench, Reset::Node), [0; 0], "power was there");
     for (off_ms, found) in [(999, &[][..]), (1000, &[3]), (5000, &[3])] {
         bench.encoder.power_off(bench.now);
         bench.now = bench.now.plus_millis(off_ms);
@@ -117,7 +117,7 @@ fn reports_last_as_a_family_has_them() {
     assert_eq!(news(&mut bench), [5, 6]);
     bench.encoder.set_fault(Fault::Temperature, false);
     bench.encoder.set_fault(Fault::Supervision, false);
-    assert_eq!(news(&mut bench), [], "both last");
+    assert_eq!(news(&mut bench), [0; 0], "both last");
     assert_eq!(
         restart(&mut bench, Reset::Node),
         [6],
@@ -131,12 +131,12 @@ fn a_watchdog_is_seen_after_the_reset_and_until_it_is_repaired() {
     let mut bench = bench(&TIMES);
     bench.encoder.set_fault(Fault::Watchdog, true);
     assert!(bench.encoder.is_broken(Fault::Watchdog));
-    assert_eq!(news(&mut bench), []);
+    assert_eq!(news(&mut bench), [0; 0]);
     assert_eq!(restart(&mut bench, Reset::Node), [8, 8], "two rows say so");
     assert!(bench.encoder.is_broken(Fault::Watchdog));
     assert!(!bench.encoder.is_broken(Fault::Speed));
     bench.encoder.set_fault(Fault::Speed, false);
-    assert_eq!(news(&mut bench), [], "another fault ended");
+    assert_eq!(news(&mut bench), [0; 0], "another fault ended");
     bench.encoder.set_fault(Fault::Watchdog, false);
     assert_eq!(news(&mut bench), [-8], "the two are one error for the bus");
     assert!(!bench.encoder.is_broken(Fault::Watchdog));
@@ -149,7 +149,7 @@ fn a_damaged_memory_is_a_fault_until_it_holds_something_sound() {
     assert_eq!(news(&mut bench), [2]);
     bench.encoder.set_fault(Fault::Memory, true);
     bench.encoder.storage_is(true);
-    assert_eq!(news(&mut bench), [], "it is broken, too");
+    assert_eq!(news(&mut bench), [0; 0], "it is broken, too");
     bench.encoder.set_fault(Fault::Memory, false);
     assert_eq!(news(&mut bench), [-2]);
 }
