@@ -105,3 +105,53 @@ impl<Q: ?Sized> Outbox<Q> {
         is_live(self.live, address)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_names_its_addresses_and_none_of_the_services() {
+        let address = Address::new(0x2000, 0);
+        let bit = live_bit(address);
+        assert_eq!(bit.count_ones(), 1);
+        for (live, index, named) in [
+            (bit, 0x2000, true),
+            (!bit, 0x2000, false),
+            (0, 0x2000, false),
+            (u32::MAX, 0x2000, true),
+            (u32::MAX, 0x6004, true),
+            (u32::MAX, 0x1FFF, false),
+            (u32::MAX, 0x1000, false),
+        ] {
+            assert_eq!(is_live(live, Address::new(index, 0)), named, "{index:X}");
+        }
+        let mut outbox = Outbox::new([Change::NONE; 1]);
+        for live in [0, bit, !bit, u32::MAX] {
+            outbox.live = live;
+            assert_eq!(outbox.is_marked(address.key()), live & bit != 0);
+            assert_eq!(outbox.is_live(address), live & bit != 0);
+        }
+    }
+
+    #[test]
+    fn what_has_no_room_is_told() {
+        let mut full = Outbox::new([Change::NONE; 1]);
+        let outbox: &mut Outbox = &mut full;
+        assert!(outbox.is_empty());
+        for sub in 0..8 {
+            outbox.written(Address::new(0x2000, sub));
+            assert!(!outbox.overflow && !outbox.is_empty());
+        }
+        outbox.effect(Effect::NotSaved);
+        assert!(outbox.overflow);
+        for sub in 0..8 {
+            let index = 0x2000;
+            let written = outbox.effects().pop();
+            assert_eq!(written, Some(Effect::Written { index, sub }));
+        }
+        assert!(outbox.is_empty());
+        outbox.signals.wake();
+        assert!(!outbox.is_empty());
+    }
+}

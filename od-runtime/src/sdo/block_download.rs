@@ -122,3 +122,109 @@ impl BlockDownload {
 fn segments(room: usize) -> u8 {
     (room / 7).clamp(1, 127) as u8
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn segment(head: u8) -> [u8; 8] {
+        [head, 1, 2, 3, 4, 5, 6, 7]
+    }
+
+    #[test]
+    fn a_block_has_as_many_segments_as_there_is_room_for() {
+        for (room, segments) in [
+            (0, 1),
+            (13, 1),
+            (14, 2),
+            (888, 126),
+            (889, 127),
+            (9_999, 127),
+        ] {
+            let mut block = BlockDownload::new(room, false, None);
+            assert_eq!(block.block_size(), segments, "{room}");
+            block = BlockDownload::new(0, false, None);
+            block.confirm(room);
+            assert_eq!(block.block_size(), segments, "{room}");
+        }
+    }
+
+    #[test]
+    fn segments_come_in_sequence() {
+        let mut window = Window::<21>::new();
+        let mut block = BlockDownload::new(21, false, None);
+        assert!(block.wants_segments());
+        for wrong in [0, 4, 127] {
+            let answer = block.segment(&mut window, &segment(wrong));
+            assert_eq!(answer, Err(AbortCode::InvalidSequence), "{wrong}");
+        }
+        assert_eq!(block.segment(&mut window, &segment(2)), Ok(false));
+        assert_eq!((window.len, block.ack), (0, 0), "the first one is missing");
+        assert_eq!(block.segment(&mut window, &segment(1)), Ok(false));
+        assert_eq!(block.segment(&mut window, &segment(3)), Ok(true));
+        assert_eq!((window.len, block.ack), (7, 1));
+        let Response::BlockDownloadResponse { ack, block_size } = block.confirm(14) else {
+            panic!("a block is confirmed");
+        };
+        assert_eq!((ack, block_size), (1, 2));
+        assert_eq!(block.segment(&mut window, &segment(1)), Ok(false));
+        assert_eq!(block.segment(&mut window, &segment(0x82)), Ok(true));
+        assert!(!block.wants_segments());
+        assert_eq!((window.len, block.cut), (21, 0));
+        assert_eq!(block.end(&window, 0, 0), Ok(21));
+        assert_eq!(block.end(&window, 6, 0), Ok(15));
+    }
+
+    #[test]
+    fn unused_bytes_of_the_last_segment_may_be_past_the_buffer() {
+        let mut window = Window::<10>::new();
+        let mut block = BlockDownload::new(10, false, None);
+        assert_eq!(block.segment(&mut window, &segment(1)), Ok(true));
+        block.confirm(window.room());
+        let full = block.segment(&mut window, &segment(1));
+        assert_eq!(full, Err(AbortCode::OutOfMemory), "more follows");
+        assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
+        assert_eq!((window.len, block.cut), (10, 4));
+        assert_eq!(block.end(&window, 4, 0), Ok(10));
+        assert_eq!(block.end(&window, 6, 0), Ok(8));
+        assert_eq!(block.end(&window, 3, 0), Err(AbortCode::OutOfMemory));
+    }
+
+    #[test]
+    fn a_value_is_as_long_as_was_announced_and_has_its_crc() {
+        let mut window = Window::<14>::new();
+        let mut block = BlockDownload::new(14, true, Some(7));
+        assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
+        let crc = crc16_after(0, &[1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(block.end(&window, 0, crc), Ok(7));
+        assert_eq!(block.end(&window, 0, crc ^ 1), Err(AbortCode::Crc));
+        assert_eq!(block.end(&window, 1, crc), Err(AbortCode::TooShort));
+        block.crc_before = 1;
+        assert_eq!(block.end(&window, 0, crc), Err(AbortCode::Crc));
+        for (size, end, so_far) in [
+            (Some(6), Err(AbortCode::TooLong), Err(AbortCode::TooLong)),
+            (Some(7), Ok(7), Ok(())),
+            (Some(8), Err(AbortCode::TooShort), Ok(())),
+            (None, Ok(7), Ok(())),
+        ] {
+            let block = BlockDownload {
+                crc: false,
+                size,
+                ..block
+            };
+            assert_eq!(block.end(&window, 0, 0), end);
+            assert_eq!(block.check_size(&window), so_far);
+        }
+    }
+
+    #[test]
+    fn a_stream_has_what_came_before_the_buffer() {
+        let mut window = Window::<7>::new();
+        window.start = 70;
+        let mut block = BlockDownload::new(7, false, Some(75));
+        assert_eq!(block.segment(&mut window, &segment(0x81)), Ok(true));
+        assert_eq!(block.end(&window, 2, 0), Ok(5));
+        assert_eq!(block.end(&window, 1, 0), Err(AbortCode::TooLong));
+        assert_eq!(block.check_size(&window), Err(AbortCode::TooLong));
+    }
+}

@@ -283,3 +283,22 @@ fn without_streams_a_value_is_that_of_the_store() {
     let written = noisy::<REST>().send(download);
     assert_eq!(written[0], "581#6002200000000000");
 }
+
+#[test]
+fn a_block_ends_where_its_client_does() {
+    fn answers<const SERVICES: u16>() -> Vec<(u64, String)> {
+        let mut bench = bench::<SERVICES>();
+        bench.ask("601#C603200009000000");
+        bench.wait(6_000)
+    }
+    let timeout = "581#8003200000000405".to_owned();
+    assert_eq!(answers::<{ on::BLOCK }>(), [(5_000, timeout.clone())]);
+    assert_eq!(answers::<{ on::BLOCK | on::STREAMS }>(), [(5_000, timeout)]);
+    assert_eq!(answers::<{ on::STREAMS | on::SEGMENTED }>(), []);
+    let mut bench = bench::<{ on::BLOCK }>();
+    bench.ask("601#C603200009000000");
+    bench.send("601#8003200000000008");
+    assert_eq!(bench.wait(6_000), []);
+    bench.ask("601#C603200009000000");
+    bench.ask("601#8103200000000008");
+}

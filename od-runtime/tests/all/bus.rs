@@ -220,3 +220,56 @@ fn reset_communication_begins_the_controller_anew() {
         "it is news again"
     );
 }
+
+#[test]
+fn an_error_of_the_bus_that_gets_better_ends() {
+    let mut bench = bench(MANUAL_001, 1, 8);
+    events(&mut bench);
+    bench.bus(BusEvent::Passive);
+    assert!(matches!(events(&mut bench)[..], [Event::Error(error)] if error.code == 0x8120));
+    bench.bus(BusEvent::Warning);
+    assert_eq!(events(&mut bench), [Event::ErrorCleared(0x8120)]);
+    bench.bus(BusEvent::Passive);
+    assert!(matches!(events(&mut bench)[..], [Event::Error(error)] if error.code == 0x8120));
+    bench.bus(BusEvent::Overrun);
+    bench.bus(BusEvent::Active);
+    let cleared = [0x8110, 0x8120].map(Event::ErrorCleared);
+    let mut events = events(&mut bench);
+    events.retain(|event| cleared.contains(event));
+    assert_eq!(events.len(), 2);
+}
+
+#[test]
+fn a_reset_of_the_communication_ends_its_errors_alone() {
+    use od_runtime::{Emcy, Lent};
+    let after = |codes: &[(u16, u8)]| {
+        let mut errors = MANUAL_001;
+        errors.bus_recovered = notice(0x8140, 0x10);
+        errors.behaviour = &[];
+        let mut bench = bench(errors, 1, 8);
+        for (code, register) in codes {
+            let mut device = Lent {
+                dictionary: bench.tables.dictionary(),
+                values: &mut bench.values,
+                application: &mut bench.application,
+                storage: &mut bench.storage,
+                profile: &bench.profile,
+            };
+            let (code, register, info) = (*code, *register, [0; 5]);
+            let error = Emcy {
+                code,
+                register,
+                info,
+            };
+            assert!(bench.node.raise(&mut device, bench.now, error));
+        }
+        bench.send("000#8201");
+        bench.wait(5);
+        bench.value(0x1001, 0)
+    };
+    for code in [0x8130, 0x8100, 0x8120, 0x8110, 0x8140, 0x8210] {
+        assert_eq!(after(&[(code, 0x10)]), 0, "{code:X}");
+        assert_eq!(after(&[(code, 0x10), (0x5000, 2)]), 2, "{code:X}");
+    }
+    assert_eq!(after(&[(0x5000, 2), (0x8111, 0x10)]), 0x12);
+}

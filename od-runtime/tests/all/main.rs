@@ -27,4 +27,5 @@ mod support;
 mod sync_producer;
 mod table;
 mod time;
+mod told;
 mod values;

@@ -127,3 +127,32 @@ fn the_cob_id_follows_its_rules() {
     bench.send("00123456#04030201323D");
     assert_eq!(bench.application.told, [TIME]);
 }
+
+#[test]
+fn a_host_hears_whether_the_time_went_out() {
+    use od_runtime::Lent;
+    let send = |bench: &mut Bench<Clock>| {
+        let mut device = Lent {
+            dictionary: bench.tables.dictionary(),
+            values: &mut bench.values,
+            application: &mut bench.application,
+            storage: &mut bench.storage,
+            profile: &bench.profile,
+        };
+        let sent = bench.node.send_time(&mut device, bench.now);
+        assert_eq!(sent, bench.drain() == ["100#04030201323D"]);
+        sent
+    };
+    let mut bench = bench(0x4000_0100);
+    assert!(!send(&mut bench), "the clock has no time");
+    bench.application.time = Some(TIME);
+    assert!(send(&mut bench));
+    bench.send("000#0201");
+    assert!(!send(&mut bench), "Stopped");
+    bench.send("000#0101");
+    assert!(send(&mut bench));
+    assert_eq!(write(&mut bench, 0x100), "");
+    assert!(!send(&mut bench), "bit 30 is clear");
+    bench.node.power_off();
+    assert!(!send(&mut bench), "no power");
+}

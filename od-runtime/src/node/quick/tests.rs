@@ -64,6 +64,8 @@ macro_rules! call {
     }};
 }
 
+mod marks;
+
 /// TPDOs of these types, the first one with 2000h and the others with `others`; RPDO 1.
 fn bench(types: &[u64], others: u16) -> Bench {
     use Access::{Const, Ro, Rw};

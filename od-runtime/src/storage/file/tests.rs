@@ -202,3 +202,14 @@ fn a_file_with_another_length_keeps_its_bytes_in_their_places() {
     assert_eq!(bytes[20..], [LOST; 44]);
     fs::remove_file(path).unwrap();
 }
+
+#[test]
+fn a_long_name_keeps_its_end() {
+    let name = |text: &str| header::line(text);
+    assert_eq!(name("a\r\nb\tc"), "a  b c");
+    assert_eq!(name(&"x".repeat(200)), "x".repeat(200));
+    assert_eq!(name(&"x".repeat(201)), "x".repeat(200));
+    // 301 bytes: the 101st is within a letter.
+    let long = format!("{}x", "\u{E9}".repeat(150));
+    assert_eq!(name(&long), format!("{}x", "\u{E9}".repeat(99)));
+}

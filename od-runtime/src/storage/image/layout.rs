@@ -220,3 +220,104 @@ pub(super) fn is_blank(
     }
     Ok(all == u64::MAX || any == 0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::storage::Memory;
+
+    /// A storage of which only the sizes matter.
+    struct Sizes(Geometry);
+
+    impl Storage for Sizes {
+        fn capacity(&self) -> usize {
+            self.0.capacity
+        }
+
+        fn geometry(&self) -> Geometry {
+            self.0
+        }
+
+        fn read(&mut self, _: usize, _: &mut [u8]) -> Result<(), StorageError> {
+            Err(StorageError::Device)
+        }
+
+        fn write(&mut self, _: usize, _: &[u8]) -> Result<(), StorageError> {
+            Err(StorageError::Device)
+        }
+    }
+
+    #[test]
+    fn two_banks_share_a_storage_in_whole_pages_and_words() {
+        for (capacity, page, word, size) in [
+            (256, 0, 1, 128),
+            (258, 0, 4, 128),
+            (262, 0, 4, 128),
+            (264, 0, 4, 132),
+            (1000, 64, 8, 448),
+            (1024, 64, 8, 512),
+            (4096, 32, 32, 2048),
+            // As small as a header, and smaller.
+            (28, 0, 1, 14),
+            (27, 0, 1, 0),
+            (64, 32, 8, 32),
+            (63, 32, 8, 0),
+            (0, 0, 1, 0),
+            // Words that nobody can write.
+            (4096, 0, 3, 0),
+            (4096, 0, 0, 0),
+            (4096, 64, 64, 0),
+            (4096, 6, 4, 0),
+            (4096, 8, 4, 2048),
+        ] {
+            let storage = Sizes(Geometry {
+                capacity,
+                page,
+                word,
+            });
+            let layout = Layout::of(&storage);
+            assert_eq!((layout.page, layout.size), (page, size), "{word}");
+            let fits = word.is_power_of_two() && word <= 32 && page % word == 0;
+            assert_eq!(layout.word, if fits { word } else { 1 });
+        }
+        assert_eq!([1, 2, 4, 8, 16, 32].map(header), [14, 16, 20, 32, 48, 96]);
+    }
+
+    #[test]
+    fn a_complete_set_is_one_or_two_saves_later_than_another() {
+        let codes: [Code; 5] = core::array::from_fn(|later| Code::FIRST.plus(later as u8));
+        for (at, code) in codes.into_iter().enumerate() {
+            assert!(code.is_complete());
+            assert_eq!(code.plus(5), code);
+            for (other_at, other) in codes.into_iter().enumerate() {
+                let expected = [0, 1, 2, 0, 0][(at + 5 - other_at) % 5];
+                assert_eq!(code.later_than(other), expected, "{at} {other_at}");
+            }
+            for other in [Code::ERASED, Code::GIVEN_UP, Code::UNCLEAR] {
+                assert_eq!((code.later_than(other), other.later_than(code)), (1, 0));
+                assert!(!other.is_complete());
+            }
+        }
+    }
+
+    #[test]
+    fn a_word_may_have_one_wrong_bit() {
+        let byte = Code::FIRST.byte();
+        let layout = Layout {
+            page: 0,
+            word: 2,
+            size: 16,
+        };
+        for (word, seen) in [
+            ([byte, byte], (Code::FIRST, true)),
+            ([byte ^ 1, byte], (Code::FIRST, false)),
+            ([byte ^ 3, byte], (Code::UNCLEAR, false)),
+            ([byte ^ 1, byte ^ 1], (Code::UNCLEAR, false)),
+            ([0, 0], (Code::ERASED, true)),
+            ([0xFF, 0xFF], (Code::ERASED, true)),
+        ] {
+            let mut storage = Memory::new([0x33, 0x33, word[0], word[1]]);
+            assert_eq!(layout.code(&mut storage, 2), Ok(seen));
+        }
+    }
+}
