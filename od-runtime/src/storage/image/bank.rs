@@ -196,7 +196,7 @@ impl Bank {
     }
 
     /// Reads commit word and mark.
-    #[inline(never)]
+    #[inline(always)]
     fn decode(&mut self, storage: &mut dyn Storage, layout: &Layout) -> Result<(), StorageError> {
         let (is_exact, is_right);
         (self.code, is_exact) = layout.code(storage, self.start)?;

@@ -9,23 +9,28 @@ use od_wire::CobId;
 
 /// What a saved value is less; 0: it is saved as it is.
 pub(super) fn base(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> u64 {
-    default(store, row, rule).unwrap_or(0)
+    match is_difference(row, rule) {
+        true => default(store, row),
+        false => 0,
+    }
 }
 
 /// Makes the value of a saved difference, in place. Answers whether it is one that a COB-ID
 /// can have: with another node ID it may have left the 11 bits.
 pub(super) fn restore(store: &Store<'_>, row: &Row, rule: SavedCobIds, bytes: &mut [u8]) -> bool {
-    let Some(default) = default(store, row, rule) else {
+    if !is_difference(row, rule) {
         return true;
-    };
-    let value = number_in(bytes).wrapping_add(default);
+    }
+    let value = number_in(bytes).wrapping_add(default(store, row));
     copy(bytes, &value.to_le_bytes());
     row.index() >= 0x2000 || CobId::new(value as u32).is_consistent()
 }
 
-/// The default that counts, if the value is kept as a difference.
-fn default(store: &Store<'_>, row: &Row, rule: SavedCobIds) -> Option<u64> {
-    let follows = !row.is_variable() && row.follows_node_id();
-    let default = row.default(store.dictionary().pool(), store.node_id().raw());
-    (follows && rule == SavedCobIds::Difference).then_some(default)
+/// Whether the value is kept as the difference to its default.
+fn is_difference(row: &Row, rule: SavedCobIds) -> bool {
+    rule == SavedCobIds::Difference && !row.is_variable() && row.follows_node_id()
+}
+
+fn default(store: &Store<'_>, row: &Row) -> u64 {
+    row.default(store.dictionary().pool(), store.node_id().raw())
 }
