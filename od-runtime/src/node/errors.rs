@@ -34,7 +34,7 @@ impl Notice {
 
 impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<D, PDO, SDO, X> {
     /// Takes over what the monitor has to say.
-    #[inline]
+    #[inline(never)]
     pub(super) fn poll_monitor(&mut self, objects: &mut Objects<'_, D>) {
         if Self::HAS_MONITOR
             && let Some(lost) = self.monitor.poll::<D>()

@@ -366,6 +366,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         });
     }
 
+    #[inline(never)]
     fn stop_pdos(&mut self) {
         for pdo in self.tpdos_mut() {
             pdo.stop();

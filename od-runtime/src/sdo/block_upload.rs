@@ -113,7 +113,7 @@ impl BlockUpload {
         &mut self,
         ack: u8,
         block_size: u8,
-    ) -> Result<Option<Response>, AbortCode> {
+    ) -> Result<Option<[u8; 8]>, AbortCode> {
         self.expect(Phase::Sent)?;
         if ack > self.sent {
             return Err(AbortCode::InvalidSequence);
@@ -128,9 +128,10 @@ impl BlockUpload {
         }
         self.done = self.len;
         self.phase = Phase::Complete;
-        Ok(Some(Response::EndBlockUpload {
+        let end = Response::EndBlockUpload {
             unused: unused(self.len),
             crc: if self.crc { self.sum } else { 0 },
-        }))
+        };
+        Ok(Some(end.emit()))
     }
 }

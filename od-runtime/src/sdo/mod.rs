@@ -315,7 +315,7 @@ impl<D: Device, const N: usize, R: Rooms> Server<D, N, R> {
         self.settle(objects, answer, data, dlc)
     }
 
-    #[cold]
+    #[inline(never)]
     fn abort(&mut self, objects: &mut Objects<'_, D>, code: AbortCode) -> [u8; 8] {
         self.close(objects, StreamEnd::Aborted(code));
         Response::Abort {

@@ -43,12 +43,12 @@ impl Upload {
     }
 
     /// Returns the next segment, the first bytes of `rest`.
-    pub(super) fn segment(&mut self, rest: &[u8]) -> Response {
+    pub(super) fn segment(&mut self, rest: &[u8]) -> [u8; 8] {
         let mut segment = Segment::first_of(rest, self.toggle);
         self.sent += usize::from(segment.len);
         self.toggle = !self.toggle;
         segment.last = self.is_over();
-        Response::UploadSegment(segment)
+        Response::UploadSegment(segment).emit()
     }
 }
 
