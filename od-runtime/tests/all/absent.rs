@@ -302,3 +302,17 @@ fn a_block_ends_where_its_client_does() {
     bench.ask("601#C603200009000000");
     bench.ask("601#8103200000000008");
 }
+
+#[test]
+fn a_save_that_takes_its_time_is_answered_without_streams_too() {
+    let mut bench = bench::<{ on::STORAGE }>();
+    bench.profile.store.answer = od_runtime::SaveAnswer::AfterStoring;
+    bench.profile.store.duration_us = 50_000;
+    let saved = (50, "581#6010100100000000".to_owned());
+    assert_eq!(bench.send("601#2310100173617665"), [""; 0]);
+    assert_eq!(bench.send("601#4000100000000000"), [""; 0], "not yet");
+    assert_eq!(bench.send("601#2300200007000000"), [""; 0]);
+    let written = (50, "581#6000200000000000".to_owned());
+    assert_eq!(bench.wait(60), [saved, written]);
+    assert_eq!(bench.value(0x2000, 0), 7);
+}

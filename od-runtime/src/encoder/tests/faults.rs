@@ -217,3 +217,13 @@ fn a_silent_sensor_is_an_alarm_in_every_family() {
         "no alarm"
     );
 }
+
+#[test]
+fn a_memory_that_a_start_finds_damaged_is_found_at_the_start() {
+    let mut bench = bench(&TIMES);
+    bench.encoder.storage_is(false);
+    assert_eq!(restart(&mut bench, Reset::Node), [1]);
+    bench.encoder.storage_is(true);
+    assert_eq!(news(&mut bench), [-1]);
+    assert_eq!(restart(&mut bench, Reset::Node), [0; 0]);
+}

@@ -213,3 +213,43 @@ fn a_long_name_keeps_its_end() {
     let long = format!("{}x", "\u{E9}".repeat(150));
     assert_eq!(name(&long), format!("{}x", "\u{E9}".repeat(99)));
 }
+
+#[test]
+fn some_files_can_be_erased() {
+    let path = || PathBuf::from("eeprom");
+    let two = || [String::new(), String::new()];
+    let (has, needs, process) = (1, 2, None);
+    for (error, can_be_erased) in [
+        (OpenError::Io(path(), io::ErrorKind::NotFound.into()), false),
+        (OpenError::NotEeprom(path()), false),
+        (OpenError::Version(path(), '1'), true),
+        (
+            OpenError::Foreign {
+                path: path(),
+                of: two(),
+                device: two(),
+            },
+            true,
+        ),
+        (
+            OpenError::InUse {
+                path: path(),
+                process,
+            },
+            false,
+        ),
+        (
+            OpenError::TooSmall {
+                path: path(),
+                has,
+                needs,
+            },
+            true,
+        ),
+    ] {
+        assert_eq!(error.can_be_erased(), can_be_erased, "{error}");
+    }
+    let version = |digit| OpenError::Version(path(), digit).to_string();
+    assert!(version('1').contains("an older"));
+    assert!(version('3').contains("a newer"));
+}

@@ -260,3 +260,36 @@ fn a_shaft_without_samples_tells_its_angle_alone() {
     assert_eq!(speed(&shaft, 199 * MS), None);
     assert_eq!(shaft.acceleration(now, 50_000, Gain::steps(STEPS)), None);
 }
+
+/// Times of a track are microseconds modulo 2³²: what is as old as that looks new.
+#[test]
+fn a_pause_of_71_minutes_ends_what_is_known_of_a_speed() {
+    const AROUND: u64 = 1 << 32;
+    let turning = || shaft(|micros| micros as f64 / 1e6, 50);
+    let mut slept = turning();
+    for ms in 0..=60 {
+        ask(&mut slept, ms * MS);
+    }
+    assert!(speed(&slept, 60 * MS).is_some());
+    ask(&mut slept, AROUND + 61 * MS);
+    assert_eq!(speed(&slept, AROUND + 61 * MS), None, "nobody asked");
+
+    let failed = core::cell::Cell::new(false);
+    let sensor = |now: Instant| match failed.get() {
+        true => Err(Fault::Internal),
+        false => Ok(Angle::from_fractions((now.as_micros() as i64) << 12)),
+    };
+    let mut shaft: Sampled<_, 64> = Sampled::new(sensor, Duration::from_millis(1));
+    shaft.look_back(50_000);
+    for ms in 0..=60 {
+        ask(&mut shaft, ms * MS);
+    }
+    failed.set(true);
+    for minute in 1..=71 {
+        let now = Instant::from_micros(minute * 60_000 * MS);
+        assert_eq!(shaft.angle(now), Err(Fault::Internal));
+    }
+    failed.set(false);
+    ask(&mut shaft, AROUND + 61 * MS);
+    assert_eq!(speed(&shaft, AROUND + 61 * MS), None, "nobody told");
+}
