@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::console::{Console, ask, cargo, clean, say};
 use crate::error::{Error, Result};
-use crate::packages::{MUTATED, TESTS};
+use crate::packages::MUTATED;
 use crate::repo::{Repo, program};
 
 /// The version that is built. Other versions make other mutants.
@@ -92,13 +92,11 @@ pub(crate) fn run(repo: &Repo, console: &Console, options: &Options) -> Result<(
         if let Some(shard) = &options.shard {
             command.args(["--shard", shard]);
         }
-        let packages: &[&str] = if tests.is_empty() {
-            &[package]
-        } else {
-            &[package, TESTS]
-        };
+        let others = tests.iter().map(|(other, _)| *other);
+        let packages: Vec<&str> = [*package].into_iter().chain(others).collect();
         let own = own_tests(&repo.root.join(package).join("tests"));
-        let names = own.iter().map(String::as_str).chain(tests.iter().copied());
+        let others = tests.iter().flat_map(|(_, names)| names.iter().copied());
+        let names = own.iter().map(String::as_str).chain(others);
         let names: Vec<&str> = names.flat_map(|name| ["--test", name]).collect();
         // Its own look at the code without a change asks only the package that is mutated.
         let mut before = cargo(&repo.root, &["test", "--quiet", "--lib"]);

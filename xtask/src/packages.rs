@@ -25,17 +25,31 @@ pub(crate) const PYTHON: &str = "odkit-python";
 pub(crate) const UNPUBLISHED: [&str; 8] =
     [BENCHES, PEER, PAGE.0, PYTHON, TESTS, COMPILE, FUZZ, "xtask"];
 
-/// Packages that `cargo xtask mutants` changes: the package, the folder of the changes, and the
-/// tests from outside that have to notice them, beside the package's own.
-pub(crate) const MUTATED: [(&str, &str, &[&str]); 3] = [
+/// Packages that `cargo xtask mutants` changes.
+pub(crate) const MUTATED: [Mutated; 3] = [
     (
         "od-runtime",
         "od-runtime/src/",
-        &["conformance", "power_loss"],
+        &[
+            (TESTS, &["conformance", "power_loss"]),
+            ("od-devices", &["encoders"]),
+        ],
     ),
     ("od-client", "od-client/src/", &[]),
-    ("od-eds", "od-eds/src/rules/", &["rules", "cases"]),
+    (
+        "od-eds",
+        "od-eds/src/rules/",
+        &[(TESTS, &["rules", "cases"])],
+    ),
 ];
+
+/// The package, the folder of the changes, and the tests of other packages that have to notice them,
+/// beside its own.
+pub(crate) type Mutated = (
+    &'static str,
+    &'static str,
+    &'static [(&'static str, &'static [&'static str])],
+);
 
 /// Packages that build without the standard library.
 pub(crate) const NO_STD: [&str; 8] = [
