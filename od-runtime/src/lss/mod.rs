@@ -8,7 +8,7 @@ use crate::device::Device;
 use crate::objects::Objects;
 use crate::profile::LssProfile;
 use crate::rooms::Blank;
-use crate::storage::image;
+use crate::storage::image::{self, Plan};
 use od_wire::lss::{Part, Request, Response};
 
 /// The node ID of a slave that is not configured (CiA 305, chapter 6.3.1).
@@ -215,11 +215,7 @@ impl Slave {
             }
         }
         let ours = |row: &Row| [profile.node_id, profile.bit_rate].contains(&row.address());
-        let profile = objects.profile();
-        match image::save_only(objects.storage, &objects.store, &profile.store, &ours) {
-            Ok(()) => error::NONE,
-            Err(_) => error::ACCESS,
-        }
+        save(objects, Plan::Only(&ours))
     }
 
     /// Puts what is pending into the image, beside the objects: the next start takes it. A node
@@ -231,16 +227,22 @@ impl Slave {
             self.node_id.or(node_id).or(Some(active)),
             self.bit_rate.or(bit_rate),
         ];
-        let profile = &objects.profile().store;
-        match image::save_own(objects.storage, &objects.store, profile, own) {
-            Ok(()) => error::NONE,
-            Err(_) => error::ACCESS,
-        }
+        save(objects, Plan::Own(own))
+    }
+}
+
+/// Saves, and returns the error code of the answer.
+fn save<D: Device>(objects: &mut Objects<'_, D>, plan: Plan<'_>) -> u8 {
+    let (device, profile) = (objects.device(), &objects.profile().store);
+    match image::write(objects.storage, device, &objects.store, profile, plan) {
+        Ok(()) => error::NONE,
+        Err(_) => error::ACCESS,
     }
 }
 
 /// Returns the node ID and the bit rate that a device without objects for them stored. A storage
 /// that cannot be read holds none.
 pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2] {
-    image::own(objects.storage, &objects.store).unwrap_or_default()
+    let device = objects.device();
+    image::own(objects.storage, device).unwrap_or_default()
 }

@@ -19,14 +19,29 @@ use crate::storage::image::{self, Banks, Loaded, Plan};
 const ASK_AGAIN_US: u32 = 2_000;
 
 impl<D: Device> Objects<'_, D> {
+    /// The [device](image::device) whose values are saved, as far as the compiler knows it.
+    const DEVICE: Option<u32> = match &D::DICTIONARY {
+        Some(dictionary) => Some(image::device(dictionary)),
+        None => None,
+    };
+
+    /// The [device](image::device) whose values are saved.
+    #[inline]
+    pub(crate) fn device(&self) -> u32 {
+        match Self::DEVICE {
+            Some(device) => device,
+            None => image::device(self.store.dictionary()),
+        }
+    }
+
     /// Puts saved values over those of the store, for the entries that `which` names; no save goes on.
     pub(crate) fn load(&mut self, which: &dyn Fn(&Row) -> bool) -> Result<Loaded, StorageError> {
-        let profile = &self.profile().store;
+        let (device, profile) = (self.device(), &self.profile().store);
         let Some(saving) = &mut self.saving else {
             return Ok(Loaded::Blank);
         };
         let (storage, banks) = (&mut *self.storage, &mut saving.banks);
-        image::survey(storage, &self.store, banks)?;
+        banks.survey(storage, device)?;
         image::take_over(storage, &mut self.store, profile, which, banks)
     }
 
@@ -86,10 +101,10 @@ impl<D: Device> Objects<'_, D> {
         if let Command::Save(_) = command {
             self.prepare(command);
         }
-        let profile = &self.profile().store;
+        let (device, profile) = (self.device(), &self.profile().store);
         let saving = self.saving.as_mut()?;
         let (storage, banks) = (&mut *self.storage, &mut saving.banks);
-        let mut begun = image::survey(storage, &self.store, banks);
+        let mut begun = banks.survey(storage, device);
         if begun.is_ok() {
             begun = image::begin(storage, &self.store, profile, &plan, banks);
         }

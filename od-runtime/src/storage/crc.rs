@@ -33,11 +33,19 @@ impl Crc32 {
 
     /// Takes more bytes in.
     pub(crate) fn update(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 ^= u32::from(*byte);
-            self.0 = self.0 >> 4 ^ TABLE[(self.0 & 15) as usize];
-            self.0 = self.0 >> 4 ^ TABLE[(self.0 & 15) as usize];
+        *self = self.after(bytes);
+    }
+
+    /// The checksum with more bytes.
+    pub(crate) const fn after(self, mut bytes: &[u8]) -> Self {
+        let Self(mut crc) = self;
+        while let [byte, rest @ ..] = bytes {
+            crc ^= *byte as u32;
+            crc = crc >> 4 ^ TABLE[(crc & 15) as usize];
+            crc = crc >> 4 ^ TABLE[(crc & 15) as usize];
+            bytes = rest;
         }
+        Self(crc)
     }
 
     /// The checksum of all of them.

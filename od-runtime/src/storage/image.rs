@@ -17,8 +17,8 @@
 //! Numbers are little-endian. A save marks the newest set, clears the other bank (flash: erases it),
 //! writes records and numbers, reads them back, and writes the commit word. So power can go at any
 //! moment and leaves the last complete set, never a mixture; where a family wants the factory values
-//! then ([`CutSave::Factory`]), the mark says so. Each word is written once after it was erased, and a
-//! bank of one page is erased once for each save.
+//! then ([`CutSave::Factory`](crate::CutSave::Factory)), the mark says so. Each word is written once
+//! after it was erased, and a bank of one page is erased once for each save.
 //!
 //! Codes and marks differ in four bits at least, and every other byte is covered by the CRC or is FFh:
 //! any bit that flips is noticed ([`Loaded`]), and which of two sets was the newer one is never in doubt.
@@ -59,7 +59,7 @@ pub(crate) use covered::is_kept;
 pub use covered::{is_life_record, restores};
 pub use layout::MAX_VALUE;
 pub use loaded::Loaded;
-pub(crate) use merge::{Plan, begin, commit};
+pub(crate) use merge::{Plan, begin, commit, write};
 
 /// Bytes of an EEPROM that `dictionary` needs to save every value at its longest, twice.
 pub const fn capacity_needed(dictionary: &Dictionary<'_>) -> usize {
@@ -84,7 +84,7 @@ pub const fn capacity_on(dictionary: &Dictionary<'_>, page: usize, word: usize) 
 
 /// Number by which a saved set knows the device that wrote it: vendor-ID and product code (1018h).
 /// The revision may change, as that of a newer firmware does.
-pub fn device(dictionary: &Dictionary<'_>) -> u32 {
+pub const fn device(dictionary: &Dictionary<'_>) -> u32 {
     bank::device(dictionary)
 }
 
@@ -115,15 +115,6 @@ pub fn newest(storage: &mut dyn Storage) -> Result<Option<Range<usize>>, Storage
 /// bit rate, and it has no objects for them.
 pub const OWN_CAPACITY: usize = 2 * 2 * (RECORD + 1);
 
-/// Reads both banks to their end.
-pub(crate) fn survey(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-    banks: &mut Banks,
-) -> Result<(), StorageError> {
-    banks.survey(storage, device(store.dictionary()))
-}
-
 /// Puts saved values over those in the store, for the entries that `which` names.
 ///
 /// The store holds the defaults before. A value that the object could not have by now
@@ -138,7 +129,7 @@ pub fn load(
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<Loaded, StorageError> {
     let mut banks = Banks::NONE;
-    survey(storage, store, &mut banks)?;
+    banks.survey(storage, device(store.dictionary()))?;
     take_over(storage, store, profile, which, &banks)
 }
 
@@ -219,7 +210,13 @@ pub fn save(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    merge::save(storage, store, profile, Plan::Save(sub))
+    write(
+        storage,
+        device(store.dictionary()),
+        store,
+        profile,
+        Plan::Save(sub),
+    )
 }
 
 /// Saves the values that `which` names, whatever their group; all others stay as they
@@ -233,33 +230,22 @@ pub fn save_only(
     profile: &StoreProfile,
     which: &dyn Fn(&Row) -> bool,
 ) -> Result<(), StorageError> {
-    merge::save(storage, store, profile, Plan::Only(which))
+    write(
+        storage,
+        device(store.dictionary()),
+        store,
+        profile,
+        Plan::Only(which),
+    )
 }
 
-/// Saves node ID and bit rate of a device without objects for them, [`OWN_CAPACITY`]; the values
-/// of objects stay as they are saved.
-///
-/// # Errors
-/// As [`save`].
-pub(crate) fn save_own(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-    profile: &StoreProfile,
-    own: [Option<u8>; 2],
-) -> Result<(), StorageError> {
-    merge::save(storage, store, profile, Plan::Own(own))
-}
-
-/// Returns the node ID and the bit rate that [`save_own`] saved.
+/// Returns the node ID and the bit rate that this [`device`] saved by [`Plan::Own`].
 ///
 /// # Errors
 /// [`StorageError`] where the storage cannot be read.
-pub(crate) fn own(
-    storage: &mut dyn Storage,
-    store: &Store<'_>,
-) -> Result<[Option<u8>; 2], StorageError> {
+pub(crate) fn own(storage: &mut dyn Storage, device: u32) -> Result<[Option<u8>; 2], StorageError> {
     let mut banks = Banks::NONE;
-    survey(storage, store, &mut banks)?;
+    banks.survey(storage, device)?;
     let mut own = [None; 2];
     let mut records = banks.records();
     while records.next(storage)? {
@@ -290,7 +276,13 @@ pub fn erase(
     profile: &StoreProfile,
     sub: u8,
 ) -> Result<(), StorageError> {
-    merge::save(storage, store, profile, Plan::Restore(sub))
+    write(
+        storage,
+        device(store.dictionary()),
+        store,
+        profile,
+        Plan::Restore(sub),
+    )
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl Banks {
 
     /// Reads both banks to their end, for this device. In place: these are many bytes for a small stack.
     #[inline(never)]
-    pub(super) fn survey(
+    pub(crate) fn survey(
         &mut self,
         storage: &mut dyn Storage,
         device: u32,
@@ -153,13 +153,20 @@ impl Banks {
 
 /// Returns the number by which a set knows its device: version of the layout, vendor-ID and product
 /// code (1018h).
-pub(super) fn device(dictionary: &Dictionary<'_>) -> u32 {
-    let mut crc = Crc32::new();
-    crc.update(&[VERSION]);
-    for sub in 1..=2 {
-        let row = dictionary.row_of(Address::new(0x1018, sub));
-        let number = row.map_or(0, |row| row.default(dictionary.pool(), 0));
-        crc.update(&(number as u32).to_le_bytes());
+pub(super) const fn device(dictionary: &Dictionary<'_>) -> u32 {
+    let mut crc = Crc32::new().after(&[VERSION]);
+    let mut sub = 1;
+    while sub <= 2 {
+        let mut number = 0;
+        let mut rest = dictionary.rows();
+        while let [row, others @ ..] = rest {
+            if row.key() == Address::new(0x1018, sub).key() {
+                number = row.default(dictionary.pool(), 0);
+            }
+            rest = others;
+        }
+        crc = crc.after(&(number as u32).to_le_bytes());
+        sub += 1;
     }
     crc.finish()
 }

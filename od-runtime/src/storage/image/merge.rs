@@ -3,7 +3,7 @@
 use od_model::row::Row;
 use od_model::{Address, Group};
 
-use super::bank::{Banks, Record, content, device};
+use super::bank::{Banks, Record, content};
 use super::cob_id;
 use super::covered::{is_covered, is_life_record, is_saved, restores};
 use super::layout::{Code, ERASED, Layout, MAX_VALUE, OWN, RECORD, is_blank, whole_words};
@@ -38,15 +38,16 @@ pub(crate) enum Plan<'p> {
     Own([Option<u8>; 2]),
 }
 
-/// Writes the next set, if there is to be one.
-pub(super) fn save(
+/// Writes the next set of a device, if there is to be one.
+pub(crate) fn write(
     storage: &mut dyn Storage,
+    device: u32,
     store: &Store<'_>,
     profile: &StoreProfile,
     plan: Plan<'_>,
 ) -> Result<(), StorageError> {
     let mut banks = Banks::NONE;
-    banks.survey(storage, device(store.dictionary()))?;
+    banks.survey(storage, device)?;
     begin(storage, store, profile, &plan, &mut banks)?;
     commit(storage, &mut banks)
 }

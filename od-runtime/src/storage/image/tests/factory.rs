@@ -29,7 +29,7 @@ fn begin_save(
     store: &Store<'_>,
     banks: &mut Banks,
 ) -> Result<(), StorageError> {
-    survey(storage, store, banks)?;
+    banks.survey(storage, super::super::device(store.dictionary()))?;
     begin(storage, store, FACTORY, &Plan::Save(1), banks)
 }
 
