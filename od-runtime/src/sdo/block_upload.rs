@@ -135,3 +135,58 @@ impl BlockUpload {
         Ok(Some(end.emit()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DATA: [u8; 20] = [7; 20];
+
+    fn send(block: &mut BlockUpload) -> Option<u8> {
+        let at = block.due()?;
+        Some(block.segment(&DATA[at..])[0])
+    }
+
+    #[test]
+    fn a_client_keeps_to_the_order_of_a_block_upload() {
+        let wrong = Err(AbortCode::InvalidCommand);
+        let mut block = BlockUpload::new(20, true, 2);
+        assert_eq!(send(&mut block), None, "not started");
+        assert_eq!(block.acknowledged(0, 2), wrong.map(|()| None));
+        assert_eq!(block.start(), Ok(()));
+        assert_eq!(block.start(), wrong);
+        assert_eq!(send(&mut block), Some(1));
+        assert_eq!(block.acknowledged(1, 2), wrong.map(|()| None));
+        assert_eq!(send(&mut block), Some(2));
+        assert_eq!(send(&mut block), None, "the block is out");
+        let too_many = block.acknowledged(3, 2);
+        assert_eq!(too_many, Err(AbortCode::InvalidSequence));
+        let no_size = block.acknowledged(1, 0);
+        assert_eq!(no_size, Err(AbortCode::InvalidBlockSize));
+        assert_eq!(block.acknowledged(1, 127), Ok(None));
+        assert_eq!(block.due(), Some(7), "the second one comes again");
+        assert_eq!(send(&mut block), Some(1));
+        assert!(!block.is_complete());
+        assert_eq!(send(&mut block), Some(0x82));
+        let sum = crc16_after(0, &DATA);
+        let end = Response::EndBlockUpload {
+            unused: 1,
+            crc: sum,
+        };
+        assert_eq!(block.acknowledged(2, 127), Ok(Some(end.emit())));
+        assert!(block.is_complete());
+        assert_eq!(block.acknowledged(2, 127), wrong.map(|()| None));
+    }
+
+    #[test]
+    fn a_block_has_1_to_127_segments() {
+        for (size, answer) in [
+            (0, Err(AbortCode::InvalidBlockSize)),
+            (1, Ok(())),
+            (127, Ok(())),
+            (128, Err(AbortCode::InvalidBlockSize)),
+        ] {
+            assert_eq!(check(size), answer, "{size}");
+        }
+    }
+}

@@ -226,3 +226,24 @@ fn a_busy_memory_says_so_until_it_is_ready() {
     bench.send("601#80501F0200000008");
     assert_eq!(bench.value(0x1F57, 2) & 1, 0);
 }
+
+#[test]
+fn a_busy_memory_keeps_a_download_waiting() {
+    let mut bench = bench(Chip::default());
+    let ms = Instant::from_millis;
+    bench.application.memory.busy_until = Some(ms(30));
+    assert_eq!(bench.send("601#21501F0209000000"), [""; 0]);
+    assert_eq!(bench.wait(29), []);
+    assert_eq!(bench.wait(1), [(30, "581#60501F0200000000".to_owned())]);
+    assert_eq!(bench.ask("601#0031323334353637"), "581#2000000000000000");
+    bench.application.memory.busy_until = Some(ms(50));
+    assert_eq!(bench.send("601#1B38390000000000"), [""; 0]);
+    assert!(bench.application.memory.pages.is_empty());
+    assert_eq!(bench.wait(20), [(50, DONE.to_owned())]);
+    bench.application.memory.busy_until = Some(ms(70));
+    let start = bench.ask("601#40501F0200000000");
+    assert_eq!(start, "581#41501F0209000000");
+    assert_eq!(bench.send("601#6000000000000000"), [""; 0]);
+    let first = "581#0031323334353637".to_owned();
+    assert_eq!(bench.wait(20), [(70, first)]);
+}

@@ -263,3 +263,63 @@ fn a_twin_that_is_not_saved_is_not_restored() {
     let values = [0x2300, 0x2301, 0x6200, 0x6201, 0x2004].map(|index| bench.value(index, 0));
     assert_eq!(values, [0, 8, 0, 0, 3]);
 }
+
+/// What an application hears of the storage.
+#[derive(Default)]
+struct Hears {
+    sound: Vec<bool>,
+    ticks: usize,
+}
+
+impl od_runtime::Application for Hears {
+    fn storage_is(&mut self, sound: bool) {
+        self.sound.push(sound);
+    }
+
+    fn tick(&mut self, _: &mut od_runtime::Context<'_, '_>) -> Option<od_runtime::Instant> {
+        self.ticks += 1;
+        None
+    }
+}
+
+#[test]
+fn an_application_hears_that_its_storage_is_sound() {
+    let mut bench = Bench::with(rows(), Hears::default());
+    bench.power_on();
+    assert_eq!(bench.application.sound, [true]);
+    for request in [SAVE, "601#231110016C6F6164"] {
+        bench.application = Hears::default();
+        bench.send(request);
+        let hears = &bench.application;
+        assert_eq!(
+            (&hears.sound[..], hears.ticks),
+            (&[true][..], 1),
+            "{request}"
+        );
+    }
+}
+
+#[test]
+fn the_newest_set_is_all_that_a_start_needs() {
+    use od_runtime::storage::Storage;
+    use od_runtime::storage::image::{newest, writer};
+    let mut bench = bench(SaveAnswer::AtOnce, CutSave::LastSet);
+    assert_eq!(writer(&mut bench.storage), Ok(None));
+    assert_eq!(newest(&mut bench.storage), Ok(None));
+    bench.profile.store.duration_us = 0;
+    for value in [7, 8, 9] {
+        write(&mut bench, value);
+        assert_eq!(bench.ask(SAVE), SAVED);
+        let who = writer(&mut bench.storage).expect("it can be read");
+        let place = newest(&mut bench.storage).expect("it can be read");
+        let (who, place) = (who.expect("a set"), place.expect("a set"));
+        let mut bytes = vec![0; place.len()];
+        bench.storage.read(place.start, &mut bytes).expect("there");
+        // The same set at the start of another storage.
+        let mut other = self::bench(SaveAnswer::AtOnce, CutSave::LastSet);
+        other.node.power_off();
+        other.storage.write(0, &bytes).expect("it has room");
+        assert_eq!(writer(&mut other.storage), Ok(Some(who)));
+        assert_eq!(after_power_cycle(&mut other), u64::from(value));
+    }
+}

@@ -40,3 +40,72 @@ pub(super) fn is_covered(profile: &StoreProfile, row: &Row, sub: u8) -> bool {
 pub fn restores(profile: &StoreProfile, row: &Row, sub: u8) -> bool {
     is_covered(profile, row, sub) && !is_life_record(row)
 }
+
+#[cfg(test)]
+mod tests {
+    use od_model::{Access, DataType, Entry, Literal, ObjectCode, Range, Slot};
+
+    use super::*;
+    use crate::profile::Profile;
+
+    fn row(index: u16, group: Group, access: Access, len: u16) -> Row {
+        let entry = Entry {
+            address: Address::new(index, 0),
+            data_type: DataType::Unsigned32,
+            access,
+            mappable: false,
+            group,
+            name: Range::new(0, 0),
+            default: Literal::None,
+            low: Literal::None,
+            high: Literal::None,
+            slot: Slot { offset: 0, len },
+        };
+        Row::new(&entry, ObjectCode::Var, 0, 0)
+    }
+
+    #[test]
+    fn settings_and_records_are_saved_each_their_own_way() {
+        use Access::{Const, Ro, Rw};
+        use Group::{Application, Communication, Manufacturer, None};
+        const PROFILE: &StoreProfile = &Profile::CIA301.store;
+        for (index, group, access, len, [saved, record, kept, restored]) in [
+            (0x1017, Communication, Rw, 4, [true, false, true, true]),
+            (0x6000, Application, Rw, 4, [true, false, true, true]),
+            (0x6000, Application, Ro, 4, [true, false, true, true]),
+            (0x2000, Manufacturer, Rw, 4, [true, false, true, true]),
+            (0x2000, Manufacturer, Ro, 4, [true, true, false, false]),
+            (0x2000, None, Rw, 4, [false, false, false, false]),
+            (0x1017, Communication, Const, 0, [false, false, false, true]),
+        ] {
+            let row = row(index, group, access, len);
+            assert_eq!(is_saved(&row), saved, "{index:X}");
+            assert_eq!(is_life_record(&row), record, "{index:X}");
+            assert_eq!(is_kept(&row), kept, "{index:X}");
+            assert_eq!(restores(PROFILE, &row, 1), restored, "{index:X}");
+        }
+    }
+
+    #[test]
+    fn a_twin_goes_with_the_group_of_the_other() {
+        const PROFILE: StoreProfile = StoreProfile {
+            twins: &[[Address::new(0x1800, 0), Address::new(0x6200, 0)]],
+            ..Profile::CIA301.store
+        };
+        let event = row(0x1800, Group::Communication, Access::Rw, 4);
+        let cyclic = row(0x6200, Group::Application, Access::Rw, 4);
+        let other = row(0x6201, Group::Application, Access::Rw, 4);
+        for (sub, covered) in [
+            (1, [true, true, true]),
+            (2, [true, true, false]),
+            (3, [true, true, true]),
+            (4, [false, false, false]),
+        ] {
+            let rows = [&event, &cyclic, &other];
+            let found = rows.map(|row| is_covered(&PROFILE, row, sub));
+            assert_eq!(found, covered, "{sub}");
+        }
+        let unsaved = row(0x6200, Group::None, Access::Rw, 4);
+        assert!(!is_covered(&PROFILE, &unsaved, 2));
+    }
+}
