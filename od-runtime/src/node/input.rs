@@ -127,7 +127,7 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Node<D, P
         if Machines::<D, PDO, SDO, X>::BOOTS_LATE && node.boot_at.is_due(now) {
             node.boot_up(objects);
         }
-        if node.mute.is_some_and(|mute| mute.until <= now) {
+        if D::LSS && node.mute.is_some_and(|mute| mute.until <= now) {
             node.end_mute(objects);
         }
         if node.heartbeat.handle_timeout(now) {

@@ -263,7 +263,9 @@ impl<D: Device, const PDO: usize, const SDO: usize, X: Extras<D, SDO>> Machines<
         if Self::HAS_MONITOR {
             first = first.or(self.monitor.deadline::<D>());
         }
-        if let Some(mute) = self.mute {
+        if D::LSS
+            && let Some(mute) = self.mute
+        {
             first = first.or(Deadline::at(mute.until));
         }
         if D::BLOCK || D::STREAMS {

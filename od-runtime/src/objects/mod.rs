@@ -183,7 +183,6 @@ impl<'c, D: Device> Objects<'c, D> {
     }
 
     /// Returns how many of `len` bytes the value accepts.
-    #[inline(never)]
     pub(crate) fn fit(&self, row: &Row, len: usize) -> Result<usize, AbortCode> {
         let rule = &self.profile().sdo.length;
         let (low, high) = match row.size() {

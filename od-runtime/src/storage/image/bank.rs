@@ -137,6 +137,7 @@ impl Banks {
     }
 
     /// The records of the newest set; none if it is another device's.
+    #[inline(never)]
     pub(super) fn records(&self) -> Records {
         let start = self.stays + self.layout.header();
         let own = self.newest.filter(|set| set.device == self.device);

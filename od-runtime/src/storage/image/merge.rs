@@ -302,6 +302,7 @@ impl<'w> Writer<'w> {
     }
 
     /// Begins a record.
+    #[inline(never)]
     fn head(&mut self, address: Address, len: usize) -> Result<(), StorageError> {
         let [index_low, index_high] = address.index.to_le_bytes();
         // MAX_VALUE and the records' own length field keep it below 64 KiB.
