@@ -246,3 +246,27 @@ pub(crate) fn stored<D: Device>(objects: &mut Objects<'_, D>) -> [Option<u8>; 2]
     let device = objects.device();
     image::own(objects.storage, device).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_pending_outlasts_the_end_of_stopped() {
+        let mut slave = Slave {
+            configuration: true,
+            node_id: Some(5),
+            bit_rate: Some(3),
+            ..Slave::BLANK
+        };
+        assert!(!slave.is_ready());
+        slave.leave();
+        assert!(!slave.configuration);
+        assert_eq!((slave.node_id, slave.bit_rate), (Some(5), Some(3)));
+        assert!(slave.is_ready());
+        slave.node_id = Some(UNCONFIGURED);
+        assert!(!slave.is_ready());
+        slave.node_id = None;
+        assert!(!slave.is_ready());
+    }
+}
