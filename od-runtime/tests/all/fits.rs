@@ -205,6 +205,11 @@ fn a_node_that_runs_partly_serves_what_it_can() {
         bench.ask(&format!("601#21032000{size}")),
         format!("581#80032000{abort:08X}")
     );
+    assert_eq!(
+        bench.ask("601#2103200000020000"),
+        "581#6003200000000000",
+        "512"
+    );
 }
 
 #[test]
